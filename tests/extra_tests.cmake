@@ -77,3 +77,5 @@ add_custom_target(benches DEPENDS ${benches})
 # Compares our evaluators with OpenCASCADE's own.
 target_include_directories(spline_bench SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(spline_bench PRIVATE ${STERNA_OCCT})
+# Peers of remeshing: CGAL's and Gmsh's.
+target_link_libraries(remesh_peers PRIVATE CGAL::CGAL gmsh gmp mpfr)

@@ -25,8 +25,8 @@ class Remesher {
   std::int64_t flip_edges();
   /// Where that brings vertices nearer to six neighbours (four at lines' sides of a straight line) and leaves good triangles.
   std::int64_t regularise();
-  /// Vertices towards the middle of their surroundings, weighted by sizes; where that spoils no triangle.
-  void smooth(int rounds);
+  /// Vertices towards the middle of their surroundings, weighted by sizes; where the worst triangle about gets no worse, or stays better than `floor`.
+  void smooth(int rounds, double floor = 0.6);
   /// Triangles worse than `quality` (mean ratio): their edges go, are flipped or halved, or their vertices moved, where the worst about gets better.
   std::int64_t improve(double quality);
   /// What is near in space comes near in memory.
@@ -79,7 +79,7 @@ class Remesher {
   bool is_flip_good(std::uint32_t h, double floor) const;
   void flip(std::uint32_t h);
   WorkVertex smoothed(std::uint32_t v, double share) const;
-  bool move(std::uint32_t v);
+  bool move(std::uint32_t v, double good);
   bool search(std::uint32_t v);
   std::vector<std::vector<std::uint32_t>> colours() const;
 

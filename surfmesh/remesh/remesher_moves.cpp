@@ -12,8 +12,6 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A move is taken when its worst triangle is at least as good as this, or as before.
-constexpr double k_move_floor = 0.6;
 /// A vertex whose triangles are all better than this stays.
 constexpr double k_still = 0.96;
 /// Directions and steps (of the wanted length) of the search for a better place.
@@ -90,11 +88,11 @@ WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
   return moved;
 }
 
-bool Remesher::move(std::uint32_t v) {
+bool Remesher::move(std::uint32_t v, double good) {
   const double before = fan_quality(v);
   if (before > k_still) return false;
   const WorkVertex kept = mesh_.vertices[v];
-  const double floor = std::min(before, k_move_floor);
+  const double floor = std::min(before, good);
   for (const double share : {1.0, 0.4}) {
     const WorkVertex moved = smoothed(v, share);
     mesh_.vertices[v] = moved;
@@ -107,14 +105,14 @@ bool Remesher::move(std::uint32_t v) {
   return false;
 }
 
-void Remesher::smooth(int rounds) {
+void Remesher::smooth(int rounds, double floor) {
   const auto lists = colours();
   for (int round = 0; round < rounds; ++round)
     for (const auto& list : lists) {
-      if (sizes_.is_serial()) std::for_each(list.begin(), list.end(), [&](std::uint32_t v) { move(v); });
+      if (sizes_.is_serial()) std::for_each(list.begin(), list.end(), [&](std::uint32_t v) { move(v, floor); });
       else
         parallel_for(
-            context_, list.size(), [&](std::size_t i) { move(list[i]); }, k_move_chunk);
+            context_, list.size(), [&](std::size_t i) { move(list[i], floor); }, k_move_chunk);
     }
 }
 
