@@ -4,10 +4,9 @@
 #include <functional>
 #include <span>
 
-#include "scripting/cache/reuse.h"
 #include "scripting/lua/script_call.h"
 #include "scripting/lua/table_reader.h"
-#include "scripting/values/verbs.h"
+#include "scripting/values/remeshed_surface.h"
 
 namespace sterna::scripting {
 

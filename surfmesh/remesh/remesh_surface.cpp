@@ -23,9 +23,9 @@ constexpr int k_passes = 5;
 constexpr int k_strip_pass = 1;
 constexpr int k_last_smoothings = 6;
 /// Mean ratios below these are worked on at last, one after another: 0.75 is a least angle of about 30 degrees.
-constexpr std::array<double, 7> k_improve = {0.5, 0.7, 0.75, 0.8, 0.8, 0.8, 0.8};
+constexpr std::array<double, 7> k_improve = {0.5, 0.65, 0.7, 0.75, 0.75, 0.75, 0.75};
 /// Then moves leave no triangle that was better below this.
-constexpr double k_last_floor = 0.8;
+constexpr double k_last_floor = 0.7;
 /// Of min_edge: narrow strips ask for no shorter edges.
 constexpr double k_least_in_strips = 0.2;
 /// Rounds in which crossings are met with flatter and finer triangles; afterwards given ones are kept.
