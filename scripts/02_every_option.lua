@@ -11,6 +11,24 @@ local wall = read_surface{ "data/cessna.msh.gz",
   take_boundary = false,            -- true: a volume mesh gives all of its boundary; else it is refused
 }
 
+-- New triangles, as of CAD; the rest of this script goes on with the given ones. read_surface{ ..., remesh = { max_edge = 0.3 } } does it at once.
+print(remesh{ wall,
+  max_edge = 0.6,                   -- metres; automatic: a twentieth of the root of the area
+  min_edge = 0.05,                  -- metres; automatic: 2 % of the longest edge. curvature asks for no shorter ones
+  curvature_angle = 20*deg,         -- an edge spans at most so much of the surface
+  chord_error = "automatic",        -- metres: middles of edges from the surface; automatic: no limit
+  growth = 1.3,                     -- of edges that follow each other
+  refinement = 1,                   -- 1.5: the next finer one of a family; also "coarse", "fine"
+  narrow = 2,                       -- edges along strips between sharp edges, in widths
+  gap_cells = 0,                    -- edges across gaps; 0: gaps are not looked for
+  thickness_factor = "automatic",   -- edges, in thicknesses of the part; automatic: no limit
+  feature_angle = 40*deg,           -- edges that bend by more stay
+  smooth = true,                    -- curved between the given vertices; false: on the given triangles
+  max_triangles = 100000000,
+  sources = { point{ {5, 0, 2}, size = 0.3 } },
+  patches = { ["*"] = { max_edge = 0.6 } },
+})
+
 -- Of one surface alone union only proves that it is a solid; here stand the parts that stick in each other: union{ wall, "sting.stl", unit = mm }.
 wall = union{ wall,
   remesh = true,                    -- better triangles along the curves in which parts cross

@@ -80,3 +80,5 @@ target_link_libraries(spline_bench PRIVATE ${STERNA_OCCT})
 
 # Shapes torn at random: 5 of them in the tests, 200 by hand (tools/build torn_long).
 add_custom_target(torn_long COMMAND ${CMAKE_COMMAND} -E env STERNA_TORN=200 $<TARGET_FILE:test_surfmesh_wrap> --gtest_filter=WrapTorn.Shapes* USES_TERMINAL)
+# Peers of remeshing: CGAL's and Gmsh's.
+target_link_libraries(remesh_peers PRIVATE CGAL::CGAL gmsh gmp mpfr)

@@ -34,6 +34,7 @@
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/draw_command.h"
 #include "scripting/verbs/farfield_verbs.h"
+#include "surfmesh/remesh/remesh_surface.h"
 
 namespace sterna::scripting {
 namespace {
@@ -168,6 +169,9 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       "--half", mesh.is_half,
       "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
   command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first: `sterna wrap --help`; its options with --set wrap.edge=5mm --set wrap.gap=20mm");
+  command->add_flag(
+      "--remesh", mesh.is_remeshed,
+      "give the surface new triangles first, as `sterna remesh` does; its options with --set remesh.max_edge=0.1 --set remesh.curvature_angle=10*deg");
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   add_schema_options(*command, all_options(surface, volume), mesh.options);
@@ -184,7 +188,8 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->final_callback([&] {
     for (auto& [names, options] : mesh.patches)
       for (auto& [name, text] : options) text = with_degrees(name, text);
-    for (const auto& [name, value] : set) (name.starts_with("half.") ? mesh.half : mesh.options).emplace_back(name, value);
+    for (const auto& [name, value] : set)
+      (name.starts_with("half.") ? mesh.half : name.starts_with("remesh.") ? mesh.remesh : mesh.options).emplace_back(name, value);
     request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
     request.trouble = beside(mesh.outputs.front());
   });
@@ -235,6 +240,40 @@ void add_half_command(CLI::App& app, HalfCommand& half, Request& request) {
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(half, context); };
     request.trouble = beside(half.output);
+  });
+}
+
+void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("remesh", "give a surface new triangles by curvature and sizes: needles go, sharp edges and patches stay");
+  command->add_option("surface", remesh.input, "surface file. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", remesh.outputs, "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->take_all();
+  surfmesh::RemeshOptions options;
+  add_schema_options(*command, sterna::options_of(options), remesh.options);
+  add_set_option(*command, set);
+  add_cache_options(*command, remesh.cache);
+  add_patch_option(*command, remesh.patches,
+                   "what patches with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
+                   "chord_error; may be given several times");
+  command
+      ->add_option("--source", remesh.sources,
+                   "shorter edges in a region, e.g. --source \"line 0 0 0 8 0 0 size=0.02 radius=0.5\"; point, line, box, sphere, cylinder, wake; may be given "
+                   "several times")
+      ->type_name("SOURCE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option_function<std::string>(
+      "--unit", [&remesh](const std::string& text) { remesh.options.emplace_back("unit", text); }, "length of one unit of the file: mm, inch, 0.5mm ...");
+  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too.");
+  command->final_callback([&] {
+    for (auto& [names, of_patch] : remesh.patches)
+      for (auto& [name, text] : of_patch) text = with_degrees(name, text);
+    for (auto& [name, text] : remesh.options) text = with_degrees(name, text);
+    remesh.options.insert(remesh.options.end(), set.begin(), set.end());
+    request.execute = [&](const CommandContext& context) { return execute(remesh, context); };
+    request.trouble = beside(remesh.outputs.front());
   });
 }
 
@@ -450,6 +489,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   MeshCommand mesh;
   SurfaceCommand surface;
   HalfCommand half;
+  RemeshCommand remesh;
   CacheCommand cache;
   UnionCommand unite;
   WrapCommand wrap;
@@ -469,6 +509,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_mesh_command(app, mesh, set, request);
   add_surface_command(app, surface, set, request);
   add_half_command(app, half, request);
+  add_remesh_command(app, remesh, set, request);
   add_cache_command(app, cache, request);
   add_union_command(app, unite, request);
   add_wrap_command(app, wrap, set, request);

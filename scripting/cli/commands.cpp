@@ -28,6 +28,7 @@
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
+#include "scripting/values/remeshed_surface.h"
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
@@ -36,6 +37,7 @@
 #include "scripting/verbs/gate_limits.h"
 #include "scripting/verbs/half_verbs.h"
 #include "scripting/verbs/model_gates.h"
+#include "scripting/verbs/source_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -218,6 +220,19 @@ void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext&
   wall = half_surface(wall, options, context.run);
 }
 
+/// With --remesh: the surface with new triangles, as fine as the family asks.
+void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, SurfaceValue& wall, const Reuse& reuse, const CommandContext& context) {
+  if (!command.is_remeshed) {
+    if (!command.remesh.empty())
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.remesh.front().first, .problem = "is given without --remesh"});
+    return;
+  }
+  RemeshRecipe recipe;
+  if (is_given(command, "family", "refinement")) recipe.options.refinement = volume.family.refinement;
+  set_options(sterna::options_of(recipe.options), command.remesh, context);
+  wall = remeshed(wall, recipe, {}, context.run, reuse);
+}
+
 /// What follows from the options together, and what heights were found from flow conditions.
 void complete_options(volmesh::MeshCase& options, const MeshCommand& command, const RunContext& context) {
   choose_solve_for(
@@ -277,6 +292,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   } else {
     wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
   }
+  remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
   return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end), reuse);
@@ -408,6 +424,26 @@ int execute(const WrapCommand& command, const CommandContext& context) {
   write_surface(wrapped, command.output, context.run.part("write", k_mesh_end, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(wrapped));
+  return k_exit_success;
+}
+
+int execute(const RemeshCommand& command, const CommandContext& context) {
+  for (const auto& output : command.outputs) require_surface_output(output);
+  RemeshRecipe recipe;
+  surfmesh::StitchOptions reading;
+  OptionTable table = sterna::options_of(recipe.options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "remesh"));
+  set_options(table, command.options, context);
+  layer_rules_of(command.patches, &recipe.patches);
+  for (const std::string& text : command.sources) recipe.sources.push_back(source_of_text(text));
+  reading.allow_open = true;
+  const auto cache = cache_of(command.cache);
+  const std::array files = {InputPath{command.input, command.input}};
+  const SurfaceValue wall = remeshed(read_wall(files, reading, context.run.part("read", 0.0, k_read_end)), recipe, {},
+                                     context.run.part("remesh", k_read_end, k_mesh_end), {.cache = cache.get()});
+  for (const auto& output : command.outputs) write_surface(wall, output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + ": " + describe(wall));
   return k_exit_success;
 }
 

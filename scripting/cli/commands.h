@@ -48,6 +48,8 @@ struct MeshCommand {
   bool is_half = false;               ///< the half of the surface
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
+  bool is_remeshed = false;           ///< the surface gets new triangles first
+  OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
   CacheChoice cache;
 };
 
@@ -70,6 +72,15 @@ struct HalfCommand {
   std::string input;
   std::filesystem::path output;
   OptionOverrides options;
+};
+
+struct RemeshCommand {
+  std::string input;
+  std::vector<std::filesystem::path> outputs;
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::vector<std::string> sources;                              ///< source_of_text
+  OptionOverrides options;
+  CacheChoice cache;
 };
 
 struct UnionCommand {
@@ -125,6 +136,7 @@ int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
 int execute(const SurfaceCommand& command, const CommandContext& context);
 int execute(const HalfCommand& command, const CommandContext& context);
+int execute(const RemeshCommand& command, const CommandContext& context);
 int execute(const CacheCommand& command, const CommandContext& context);
 int execute(const UnionCommand& command, const CommandContext& context);
 int execute(const WrapCommand& command, const CommandContext& context);

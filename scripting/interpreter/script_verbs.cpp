@@ -59,9 +59,12 @@ ScriptValue read_surface(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<InputPath> files = file_names(call, reader);
   reader.read_options(schema);
+  const RemeshEntry remesh = read_remesh_entry(reader, call);
   apply_overrides(call, schema);
   reader.finish();
-  return std::make_shared<const SurfaceValue>(read_wall(files, options, call.session.context.part("read_surface", 0.0, 1.0)));
+  SurfaceValue wall = read_wall(files, options, call.session.context.part("read_surface", 0.0, remesh ? 0.5 : 1.0));
+  if (remesh) wall = remesh(wall, call.session.context.part("remesh", 0.5, 1.0), call.session.reuse());
+  return std::make_shared<const SurfaceValue>(std::move(wall));
 }
 
 constexpr std::string_view k_union_usage = "union{ wall, \"sting.stl\", strip_width = 4 }  or, of models,  union{ model, \"sting.step\", tolerance = 1e-6 }";
@@ -318,7 +321,7 @@ ScriptValue error_field(const ScriptCall& call) {
 
 std::string surface_help() {
   surfmesh::StitchOptions options;
-  return options_help(sterna::options_of(options));
+  return options_help(sterna::options_of(options)) + "remesh = true or { max_edge = 0.1, ... }: new triangles, as the verb remesh makes them\n";
 }
 std::string union_help() {
   UnionOptions options;

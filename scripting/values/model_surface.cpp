@@ -161,26 +161,6 @@ std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSu
   return rules;
 }
 
-surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size) {
-  surfmesh::SpaceSizes asked{.regions = {}, .function = size, .samples = {}};
-  std::vector<volmesh::SizeSource> regions;
-  for (const volmesh::SizeSource& source : recipe.sources) {
-    if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "reading the sources of a surface mesh",
-                   .problem = std::string(to_string(source.kind)) + ": " + problem});
-    if (source.kind != volmesh::SourceKind::samples) regions.push_back(source);
-    for (std::size_t i = 0; i < source.points.size(); ++i) asked.samples.push_back({source.points[i], source.sizes[i]});
-  }
-  if (!regions.empty())
-    asked.regions = [regions = std::move(regions)](const Point& p, double slope) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const volmesh::SizeSource& source : regions) least = std::min(least, size_of(source, p, slope));
-      return least;
-    };
-  return asked;
-}
-
 std::string indented(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3) text.replace(at, 1, "\n  ");
@@ -247,6 +227,26 @@ SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceReci
 }
 
 }  // namespace
+
+surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size) {
+  surfmesh::SpaceSizes asked{.regions = {}, .function = size, .samples = {}};
+  std::vector<volmesh::SizeSource> regions;
+  for (const volmesh::SizeSource& source : recipe.sources) {
+    if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "reading the sources of a surface mesh",
+                   .problem = std::string(to_string(source.kind)) + ": " + problem});
+    if (source.kind != volmesh::SourceKind::samples) regions.push_back(source);
+    for (std::size_t i = 0; i < source.points.size(); ++i) asked.samples.push_back({source.points[i], source.sizes[i]});
+  }
+  if (!regions.empty())
+    asked.regions = [regions = std::move(regions)](const Point& p, double slope) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const volmesh::SizeSource& source : regions) least = std::min(least, size_of(source, p, slope));
+      return least;
+    };
+  return asked;
+}
 
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
   if (sources.empty() && !has_function) return {};

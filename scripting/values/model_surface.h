@@ -33,6 +33,10 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
 /// \pre surface.mesh_report
 std::string surface_mesh_text(const Model& model, const SurfaceValue& surface);
 
+/// What the recipe's sources and a function by place ask for.
+/// \throws Error(bad_argument) for a source that volmesh::problem_of objects to
+surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size);
+
 /// The same options, those of bands in stages of their own: leading_edge = { chordwise = 0.004 } is leading_edge_chordwise.
 OptionTable with_edge_tables(OptionTable table);
 /// What one entry of patches = { ["wing*"] = { max_edge = 0.1 } } takes. `rule` must outlive the table.

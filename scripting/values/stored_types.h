@@ -7,6 +7,7 @@
 #include "scripting/values/stages.h"
 #include "scripting/values/verbs.h"
 #include "surfmesh/model/model_wall.h"
+#include "surfmesh/remesh/remesh_surface.h"
 
 namespace sterna::scripting {
 
@@ -51,6 +52,12 @@ template <>
 inline constexpr std::size_t k_members<surfmesh::SurfaceMesh> = 7;
 template <>
 inline constexpr std::size_t k_members<SurfaceRecipe> = 4;
+template <>
+inline constexpr std::size_t k_members<surfmesh::SurfaceDistance> = 3;
+template <>
+inline constexpr std::size_t k_members<surfmesh::RemeshReport> = 18;
+template <>
+inline constexpr std::size_t k_members<surfmesh::RemeshResult> = 2;
 template <>
 inline constexpr std::size_t k_members<UnionOptions> = 5;
 template <>

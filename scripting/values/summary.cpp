@@ -98,6 +98,12 @@ std::string describe(const SurfaceValue& surface) {
                      box.empty() ? 0.0 : box.longest_side());
 }
 
+std::string change_text(std::string_view done, const std::vector<std::string>& messages) {
+  std::string text(done);
+  for (std::size_t i = 0; i < messages.size(); ++i) text += (i == 0 ? ": " : "; ") + messages[i];
+  return text;
+}
+
 std::string describe(const MeshValue& mesh) {
   const CellCounts cells = count_cells(mesh.mesh);
   std::string text = "HybridMesh: " + counted(n_nodes(mesh), "node", "nodes");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scripting/values/verbs.h"
@@ -14,6 +15,8 @@ std::string count_text(std::int64_t n);
 
 /// "TriMesh: 316 204 triangles, closed, 7 patches"
 std::string describe(const SurfaceValue& surface);
+/// One entry of SurfaceValue::changes: "repaired: 3 holes filled; ..."
+std::string change_text(std::string_view done, const std::vector<std::string>& messages);
 /// "HybridMesh: 248 181 nodes, 383 760 prisms, 131 799 tetrahedra, 3 patches, VALID"
 std::string describe(const MeshValue& mesh);
 

@@ -72,6 +72,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
       WallFiles read = read_wall_files(std::span(file, 1), reading, read_part);
       wall.inputs.insert(wall.inputs.end(), read.wall.inputs.begin(), read.wall.inputs.end());
       wall.layers.insert(wall.layers.end(), read.wall.layers.begin(), read.wall.layers.end());
+      wall.changes.insert(wall.changes.end(), read.wall.changes.begin(), read.wall.changes.end());
       kinds.insert(read.kinds.begin(), read.kinds.end());
       used.fluid = read.wall.options.fluid;
       for (SurfaceSoup& soup : read.soups) soups.push_back(std::move(soup));
@@ -79,6 +80,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
       const SurfaceValue& surface = *std::get<SurfaceHandle>(item);
       wall.inputs.insert(wall.inputs.end(), surface.inputs.begin(), surface.inputs.end());
       wall.layers.insert(wall.layers.end(), surface.layers.begin(), surface.layers.end());
+      wall.changes.insert(wall.changes.end(), surface.changes.begin(), surface.changes.end());
       for (const Patch& patch : surface.mesh.patches) kinds.insert({patch.name, patch.kind});
       soups.push_back(soup_of_surface(surface.mesh, options.unit));
     }
@@ -102,6 +104,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
   wall.options = reading;
   wall.options.fluid = used.fluid;
   wall.wrap_options = used;
+  wall.changes.push_back(change_text("wrapped", wall.report.messages));
   for (Patch& patch : wall.mesh.patches)
     if (const auto kind = kinds.find(patch.name); kind != kinds.end()) patch.kind = kind->second;
   context.info(describe(wall) + " (wrapped)");

@@ -8,6 +8,7 @@
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
+#include "scripting/values/remeshed_surface.h"
 #include "scripting/verbs/source_verbs.h"
 #include "volmesh/envelope/patch_layers.h"
 
@@ -90,12 +91,87 @@ std::string surface_mesh_help() {
          "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long\n";
 }
 
-constexpr std::array<ScriptVerb, 1> k_surface_verbs = {{
+constexpr std::string_view k_remesh_usage =
+    "remesh{ wall, curvature_angle = 12*deg, max_edge = 0.4, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
+
+/// What a table asks of remeshing.
+struct RemeshAsked {
+  RemeshRecipe recipe;
+  SurfaceRules rules;
+  std::function<double(const Point&)> size;
+};
+
+RemeshAsked read_remesh(TableReader& reader, const ScriptCall& call) {
+  RemeshAsked asked;
+  reader.read_options(sterna::options_of(asked.recipe.options));
+  asked.rules = read_rules(reader);
+  asked.recipe.patches = asked.rules.sizes;
+  asked.recipe.sources = read_sources(reader, call);
+  asked.size = read_size_function(reader);
+  apply_overrides(call, sterna::options_of(asked.recipe.options));
+  return asked;
+}
+
+SurfaceValue remesh_as_asked(const SurfaceValue& wall, const RemeshAsked& asked, const RunContext& context, const Reuse& reuse) {
+  SurfaceValue made = remeshed(wall, asked.recipe, asked.size, context, reuse);
+  add_layer_rules(asked.rules.layers, made);
+  return made;
+}
+
+ScriptValue make_remesh(const ScriptCall& call) {
+  const bool is_alone = !call.arguments.empty() && std::holds_alternative<SurfaceHandle>(call.arguments.front());
+  const ScriptTable table = is_alone ? ScriptTable{.items = {call.arguments.front()}, .fields = {}, .other_keys = {}} : table_argument(call, 0, k_remesh_usage);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  const SurfaceHandle* wall = items.size() == 1 ? std::get_if<SurfaceHandle>(&items.front()) : nullptr;
+  if (wall == nullptr)
+    reader.add_problem("takes one surface (from read_surface ...): " + std::string(k_remesh_usage) +
+                       "; a model's faces get triangles by surface_mesh{ model }");
+  const RemeshAsked asked = read_remesh(reader, call);
+  reader.finish();
+  return std::make_shared<const SurfaceValue>(remesh_as_asked(**wall, asked, call.session.context.part("remesh", 0.0, 1.0), call.session.reuse()));
+}
+
+std::string remesh_help() {
+  surfmesh::RemeshOptions options;
+  return options_help(sterna::options_of(options)) +
+         "patches, sources and size as surface_mesh has them; of the rules for patches max_edge, min_edge, curvature_angle, chord_error and what volume_mesh "
+         "takes\n";
+}
+
+constexpr std::array<ScriptVerb, 2> k_surface_verbs = {{
+    {"remesh", k_remesh_usage,
+     "New triangles for a surface, by curvature and sizes as surface_mesh on a model: needles go, sharp edges and patches stay, a coarse one of a smooth body "
+     "becomes smooth.",
+     make_remesh, remesh_help, true, "surface"},
     {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh,
      surface_mesh_help, true, "surface"},
 }};
 
 }  // namespace
+
+RemeshEntry read_remesh_entry(TableReader& reader, const ScriptCall& call) {
+  const ScriptValue* value = reader.field("remesh");
+  if (value == nullptr) return {};
+  if (const auto* is_asked = std::get_if<bool>(value)) {
+    if (!*is_asked) return {};
+    return [recipe = RemeshRecipe{}](const SurfaceValue& wall, const RunContext& context, const Reuse& reuse) {
+      return remeshed(wall, recipe, {}, context, reuse);
+    };
+  }
+  const auto* table = std::get_if<TableHandle>(value);
+  if (table == nullptr) {
+    reader.add_problem("remesh: expected true or a table, remesh = { max_edge = 0.1 }, not " + std::string(type_text(*value)));
+    return {};
+  }
+  const ScriptTable own_table = **table;
+  TableReader own(own_table, Attempt(std::string(call.attempted()) + ", remesh", nullptr, false));
+  RemeshAsked asked = read_remesh(own, call);
+  own.finish();
+  return [asked = std::move(asked)](const SurfaceValue& wall, const RunContext& context, const Reuse& reuse) {
+    return remesh_as_asked(wall, asked, context, reuse);
+  };
+}
 
 std::span<const ScriptVerb> surface_verbs() { return k_surface_verbs; }
 

@@ -1,12 +1,19 @@
-// The verb that makes a triangulation of models: surface_mesh.
+// The verbs that make triangulations: surface_mesh of models, remesh of triangulations.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "scripting/lua/script_call.h"
+#include "scripting/lua/table_reader.h"
+#include "scripting/values/remeshed_surface.h"
 
 namespace sterna::scripting {
 
 std::span<const ScriptVerb> surface_verbs();
+
+/// What the entry `remesh` of read_surface asks for: true, or a table of what the verb remesh takes. Empty: nothing.
+using RemeshEntry = std::function<SurfaceValue(const SurfaceValue&, const RunContext&, const Reuse&)>;
+RemeshEntry read_remesh_entry(TableReader& reader, const ScriptCall& call);
 
 }  // namespace sterna::scripting

@@ -1,0 +1,27 @@
+// remesh of a wall: new triangles, taken from a cache where they are there.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "scripting/cache/reuse.h"
+#include "scripting/values/verbs.h"
+#include "surfmesh/remesh/remesh_surface.h"
+
+namespace sterna::scripting {
+
+/// What remesh was asked for.
+struct RemeshRecipe {
+  surfmesh::RemeshOptions options;
+  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< the last that matches a patch counts
+  std::vector<volmesh::SizeSource> sources;            ///< in space
+};
+
+/// The wall with new triangles; its inputs, its rules for layers and the kinds of its patches stay. What was done is in the report's messages and the log.
+/// `size`: lengths of edges by place, called by this thread alone; then nothing is cached.
+/// \throws Error of surfmesh::remesh_surface; bad_argument for a source that volmesh::problem_of objects to
+SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context,
+                      const Reuse& reuse = {});
+
+}  // namespace sterna::scripting

@@ -1,0 +1,486 @@
+// Steps: normals of triangles, lines and their corners, smooth pieces, normals at corners of triangles, bulges.
+//
+// The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share, so patches join without gaps.
+// Normals at both ends say each how far an arc would rise; the lower of the two counts, and nothing where they disagree in sign. On a sphere both agree and the
+// arc is exact; a flat place beside a curved one stays flat, where point-normal triangles (Vlachos et al. 2001) would make it wavy.
+#include "surfmesh/remesh/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/math/nearest.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// Of the body's length: a triangle less high than this has no normal of its own, as files in single precision round by 6e-8.
+constexpr double k_thin_height = 2e-6;
+/// Times that triangles without a normal take one from their neighbours: chains of such triangles are short.
+constexpr int k_normal_rounds = 8;
+/// Largest angle between an edge and the curve over it, rad: edges that bend more are lines.
+constexpr double k_most_rise = 0.5;
+/// Of the feature angle: an edge that bends by this part of it is a line, too, if its surroundings bend by less than the next part of that.
+constexpr double k_crease_share = 0.3;
+constexpr double k_crease_contrast = 0.15;
+/// A bulge is at most this part of the height of a triangle beside it: a patch that rises more beside a short edge would lean over its neighbours.
+constexpr double k_bulge_of_height = 0.2;
+/// Squared distances that are this much larger than the least found are looked behind, too.
+constexpr double k_walk_slack = 1.3;
+/// Triangles that one walk looks at.
+constexpr std::size_t k_walk_most = 400;
+
+Column<TriangleId, Vec3> normals_of(const TriMesh& mesh, const Topology& topology, const RunContext& context) {
+  const double thin = k_thin_height * body_length(mesh);
+  Column<TriangleId, Vec3> normals(mesh.n_triangles());
+  Column<TriangleId, std::uint8_t> has_one(mesh.n_triangles(), 1);
+  parallel_for(context, mesh.n_triangles(), [&](std::size_t i) {
+    const TriangleId t(i);
+    const auto [a, b, c] = corners(mesh, t);
+    const Vec3 n = cross(b - a, c - a);
+    const double longest = std::sqrt(std::max({norm2(b - a), norm2(c - b), norm2(a - c)}));
+    normals[t] = normalized(n);
+    if (!(norm(n) > thin * longest)) has_one[t] = 0;
+  });
+  for (int round = 0; round < k_normal_rounds; ++round) {
+    std::vector<std::pair<TriangleId, Vec3>> found;
+    for (const TriangleId t : normals.ids()) {
+      if (has_one[t] != 0) continue;
+      Vec3 sum;
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = halfedge(t, k), o = topology.twin(h);
+        if (!o.is_valid() || has_one[triangle_of(o)] == 0) continue;
+        sum += distance(mesh.points[topology.from(h)], mesh.points[topology.to(h)]) * normals[triangle_of(o)];
+      }
+      if (norm2(sum) > 0.0) found.emplace_back(t, normalized(sum));
+    }
+    if (found.empty()) break;
+    for (const auto& [t, n] : found) {
+      normals[t] = n;
+      has_one[t] = 1;
+    }
+  }
+  return normals;
+}
+
+/// The edges that are lines, and of them the sharp ones; all half-edges of such an edge are marked.
+struct Marks {
+  Column<HalfedgeId, std::uint8_t> is_line, is_sharp;
+};
+
+Marks mark_edges(const Reference& r, double angle, const RunContext& context) {
+  const TriMesh& mesh = *r.mesh;
+  Marks marks{Column<HalfedgeId, std::uint8_t>(r.topology.n_halfedges(), 0), Column<HalfedgeId, std::uint8_t>(r.topology.n_halfedges(), 0)};
+  const double cosine = std::cos(angle);
+  parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
+    const HalfedgeId h(i), o = r.topology.twin(h);
+    const TriangleId t = triangle_of(h);
+    if (!o.is_valid()) {
+      marks.is_line[h] = marks.is_sharp[h] = 1;
+      return;
+    }
+    const TriangleId u = triangle_of(o);
+    if (dot(r.triangle_normals[t], r.triangle_normals[u]) < cosine) marks.is_line[h] = marks.is_sharp[h] = 1;
+    if (mesh.triangle_patch[t] != mesh.triangle_patch[u] || r.is_kept[t] != 0 || r.is_kept[u] != 0) marks.is_line[h] = 1;
+  });
+  return marks;
+}
+
+/// Edges that bend less than a line, but by much more than all about them: a crease between places that are flat at its scale. Runs of them become lines.
+void mark_creases(const Reference& r, double angle, Marks& marks, const RunContext& context) {
+  const double least = k_crease_share * angle;
+  Column<HalfedgeId, std::uint8_t> is_crease(marks.is_line.size(), 0);
+  parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
+    const HalfedgeId h(i), o = r.topology.twin(h);
+    if (marks.is_line[h] != 0 || !o.is_valid()) return;
+    const double bend = angle_between(r.triangle_normals[triangle_of(h)], r.triangle_normals[triangle_of(o)]);
+    if (bend < least) return;
+    const auto is_flat = [&](HalfedgeId e) { return angle_between(r.normals[previous(e)], r.triangle_normals[triangle_of(e)]) < k_crease_contrast * bend; };
+    if (is_flat(h) && is_flat(o)) is_crease[h] = 1;
+  });
+  const auto degree = [&](VertexId v) {
+    int n = 0;
+    for (const HalfedgeId h : r.topology.outgoing(v)) n += is_crease[h] != 0 || marks.is_line[h] != 0 ? 1 : 0;
+    return n;
+  };
+  std::vector<HalfedgeId> found;
+  for (std::size_t i = 0; i < is_crease.size(); ++i) {
+    const HalfedgeId h(i);
+    if (is_crease[h] != 0 && degree(r.topology.from(h)) >= 2 && degree(r.topology.to(h)) >= 2) found.push_back(h);
+  }
+  for (const HalfedgeId h : found) marks.is_line[h] = marks.is_sharp[h] = 1;
+}
+
+/// Of two half-edges of an edge the one with the smaller id.
+HalfedgeId first_of(const Topology& topology, HalfedgeId h) {
+  const HalfedgeId o = topology.twin(h);
+  return o.is_valid() ? std::min(h, o) : h;
+}
+
+struct LineFinder {
+  Reference& r;
+  const Marks& marks;
+  double angle, scale;
+  std::vector<std::vector<HalfedgeId>> star;  ///< for each vertex; one half-edge of each line edge, by id
+  Column<HalfedgeId, std::uint8_t> is_used;
+
+  LineFinder(Reference& reference, const Marks& m, const ReferenceOptions& options)
+      : r(reference), marks(m), angle(options.feature_angle), scale(options.line_scale), star(reference.mesh->n_vertices()), is_used(m.is_line.size(), 0) {
+    for (std::size_t i = 0; i < m.is_line.size(); ++i) {
+      const HalfedgeId h(i);
+      if (m.is_line[h] == 0 || first_of(r.topology, h) != h) continue;
+      star[r.topology.from(h).index()].push_back(h);
+      star[r.topology.to(h).index()].push_back(h);
+    }
+  }
+
+  VertexId other_end(HalfedgeId h, VertexId v) const { return r.topology.from(h) == v ? r.topology.to(h) : r.topology.from(h); }
+  const Point& at(VertexId v) const { return r.mesh->points[v]; }
+
+  /// From v along h, over vertices with two line edges, as far as `scale`: the place there.
+  Point look_along(VertexId v, HalfedgeId h) const {
+    const VertexId start = v;
+    double left = scale;
+    while (true) {
+      const VertexId w = other_end(h, v);
+      const double length = distance(at(v), at(w));
+      if (length >= left) return at(v) + (left / length) * (at(w) - at(v));
+      left -= length;
+      if (star[w.index()].size() != 2 || w == start) return at(w);
+      h = star[w.index()][0] == h ? star[w.index()][1] : star[w.index()][0];
+      v = w;
+    }
+  }
+  double turn(VertexId v) const {
+    const Vec3 back = look_along(v, star[v.index()][0]) - at(v), ahead = look_along(v, star[v.index()][1]) - at(v);
+    return angle_between(-back, ahead);
+  }
+
+  void find_corners() {
+    std::vector<double> turns(star.size(), 0.0);
+    for (std::size_t v = 0; v < star.size(); ++v) {
+      if (star[v].empty()) continue;
+      if (star[v].size() != 2) r.is_corner[VertexId(v)] = 1;
+      else turns[v] = turn(VertexId(v));
+    }
+    // Of vertices in a bend only the one that bends most within the scale.
+    for (std::size_t v = 0; v < star.size(); ++v) {
+      if (turns[v] <= angle) continue;
+      bool is_most = true;
+      for (const HalfedgeId first : star[v]) {
+        HalfedgeId h = first;
+        VertexId u(v);
+        double gone = 0.0;
+        while (true) {
+          const VertexId w = other_end(h, u);
+          gone += distance(at(u), at(w));
+          if (gone > 0.5 * scale || star[w.index()].size() != 2 || w.index() == v) break;
+          if (turns[w.index()] > turns[v] || (turns[w.index()] == turns[v] && w.index() < v)) is_most = false;
+          h = star[w.index()][0] == h ? star[w.index()][1] : star[w.index()][0];
+          u = w;
+        }
+      }
+      if (is_most) r.is_corner[VertexId(v)] = 1;
+    }
+  }
+
+  /// Vertices from v along h up to the next corner, or around.
+  std::vector<VertexId> trace(VertexId v, HalfedgeId h) {
+    std::vector<VertexId> way{v};
+    while (true) {
+      is_used[h] = 1;
+      v = other_end(h, v);
+      way.push_back(v);
+      if (r.is_corner[v] != 0 || v == way.front()) return way;
+      h = star[v.index()][0] == h ? star[v.index()][1] : star[v.index()][0];
+    }
+  }
+
+  void add_line(std::vector<VertexId> vertices) {
+    FeatureLine line;
+    const auto number = static_cast<std::int32_t>(r.lines.size());
+    line.lengths.push_back(0.0);
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+      const VertexId a = vertices[i], b = vertices[i + 1];
+      HalfedgeId edge;
+      for (const HalfedgeId h : star[a.index()])
+        if (other_end(h, a) == b) edge = h;
+      const HalfedgeId twin = r.topology.twin(edge);
+      const HalfedgeId forward = r.topology.from(edge) == a || !twin.is_valid() ? edge : twin;
+      line.halfedges.push_back(forward);
+      line.lengths.push_back(line.lengths.back() + distance(at(a), at(b)));
+      for (const HalfedgeId h : {edge, twin}) {
+        if (!h.is_valid()) continue;
+        r.line[h] = number;
+        r.segment[h] = static_cast<std::uint32_t>(i);
+      }
+    }
+    line.vertices = std::move(vertices);
+    r.is_corner[line.vertices.front()] = r.is_corner[line.vertices.back()] = 1;
+    r.lines.push_back(std::move(line));
+  }
+
+  /// Closed runs are cut in three by length, so that a line has two different ends.
+  void add(const std::vector<VertexId>& way) {
+    if (way.front() != way.back()) return add_line(way);
+    double length = 0.0;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) length += distance(at(way[i]), at(way[i + 1]));
+    std::size_t begin = 0;
+    double gone = 0.0;
+    for (std::size_t piece = 1; piece <= 3; ++piece) {
+      std::size_t end = begin + 1;
+      gone += distance(at(way[begin]), at(way[end]));
+      const double wanted = length * static_cast<double>(piece) / 3.0;
+      const std::size_t last = way.size() - 1 - (3 - piece);
+      while (end < last && (piece == 3 || gone + 0.5 * distance(at(way[end]), at(way[end + 1])) < wanted)) {
+        gone += distance(at(way[end]), at(way[end + 1]));
+        ++end;
+      }
+      add_line({way.begin() + static_cast<std::ptrdiff_t>(begin), way.begin() + static_cast<std::ptrdiff_t>(end) + 1});
+      begin = end;
+    }
+  }
+
+  void run() {
+    find_corners();
+    for (std::size_t v = 0; v < star.size(); ++v) {
+      if (r.is_corner[VertexId(v)] == 0) continue;
+      for (const HalfedgeId h : star[v])
+        if (is_used[h] == 0) add(trace(VertexId(v), h));
+    }
+    for (std::size_t v = 0; v < star.size(); ++v)
+      for (const HalfedgeId h : star[v])
+        if (is_used[h] == 0) add(trace(VertexId(v), h));
+  }
+};
+
+void find_regions(Reference& r) {
+  std::uint32_t n = 0;
+  std::vector<TriangleId> stack;
+  r.region.assign(r.mesh->n_triangles(), TriangleId::k_invalid);
+  for (const TriangleId first : r.region.ids()) {
+    if (r.region[first] != TriangleId::k_invalid) continue;
+    r.region[first] = n;
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const TriangleId t = stack.back();
+      stack.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = halfedge(t, k), o = r.topology.twin(h);
+        if (!o.is_valid() || r.line[h] != k_no_line || r.region[triangle_of(o)] != TriangleId::k_invalid) continue;
+        r.region[triangle_of(o)] = n;
+        stack.push_back(triangle_of(o));
+      }
+    }
+    ++n;
+  }
+}
+
+/// By angles, over the triangles about a vertex that no sharp edge parts.
+void find_normals(Reference& r, const Marks& marks, const RunContext& context) {
+  const TriMesh& mesh = *r.mesh;
+  const auto weighted = [&](HalfedgeId h) {
+    return corner_angle(mesh.points[r.topology.from(h)], mesh.points[r.topology.to(h)], mesh.points[r.topology.from(previous(h))]) *
+           r.triangle_normals[triangle_of(h)];
+  };
+  parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
+    const HalfedgeId first(i);
+    Vec3 sum = weighted(first);
+    bool is_around = false;
+    // Counter-clockwise: over the edge that ends at the vertex.
+    for (HalfedgeId h = first;;) {
+      const HalfedgeId in = previous(h);
+      if (marks.is_sharp[in] != 0) break;
+      h = r.topology.twin(in);
+      if (h == first) {
+        is_around = true;
+        break;
+      }
+      sum += weighted(h);
+    }
+    for (HalfedgeId h = first; !is_around && marks.is_sharp[h] == 0;) {
+      h = next(r.topology.twin(h));
+      sum += weighted(h);
+    }
+    const Vec3 n = normalized(sum);
+    r.normals[first] = norm2(n) > 0.0 ? n : r.triangle_normals[triangle_of(first)];
+  });
+}
+
+Vec3 surface_bulge(const Reference& r, HalfedgeId h) {
+  const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
+  const double length = distance(a, b);
+  const Vec3 e = (b - a) / length;
+  const Vec3 na = r.normals[h], nb = r.normals[next(h)];
+  const double rise_a = -dot(na, e), rise_b = dot(nb, e);
+  if (!(rise_a * rise_b > 0.0)) return {};
+  const double rise = std::min({std::abs(rise_a), std::abs(rise_b), k_most_rise});
+  const Vec3 up = na + nb;
+  return std::copysign(0.5 * length * std::tan(0.5 * std::asin(rise)), rise_a) * normalized(up - dot(up, e) * e);
+}
+
+void find_line_bulges(const Reference& r, FeatureLine& line) {
+  const auto at = [&](std::size_t i) -> const Point& { return r.mesh->points[line.vertices[i]]; };
+  const std::size_t n = line.vertices.size();
+  line.bulges.assign(n - 1, Vec3{});
+  // Tangents by the circle through three vertices; ends have none.
+  std::vector<Vec3> tangents(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Vec3 in = at(i) - at(i - 1), out = at(i + 1) - at(i);
+    tangents[i] = normalized(norm2(out) * in + norm2(in) * out);
+  }
+  // An end goes on as the line bends from there, if it still does so behind the next vertex.
+  const auto rise_at_end = [&](std::size_t near, std::size_t far, const Vec3& rise, double length) {
+    if (far == 0 || far + 1 >= n) return Vec3{};
+    const double behind = distance(at(near), at(far));
+    const double bend = angle_between(tangents[near], tangents[far]) * 0.5 * length / behind;
+    return norm(rise) > 0.0 ? std::min(1.0, bend / norm(rise)) * rise : rise;
+  };
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double length = distance(at(i), at(i + 1));
+    const Vec3 e = (at(i + 1) - at(i)) / length;
+    // Both point to the side the curve is on.
+    Vec3 rise_a = tangents[i] - dot(tangents[i], e) * e, rise_b = dot(tangents[i + 1], e) * e - tangents[i + 1];
+    if (i == 0) rise_a = rise_at_end(1, 2, rise_b, length);
+    if (i + 2 == n) rise_b = rise_at_end(n - 2, n - 3, rise_a, length);
+    if (!(dot(rise_a, rise_b) > 0.0)) continue;
+    const double rise = std::min({norm(rise_a), norm(rise_b), k_most_rise});
+    line.bulges[i] = 0.5 * length * std::tan(0.5 * std::asin(rise)) * normalized(rise_a + rise_b);
+  }
+}
+
+Vec3 limited(const Reference& r, HalfedgeId h, const Vec3& bulge) {
+  double height = std::numeric_limits<double>::infinity();
+  for (const HalfedgeId e : {h, r.topology.twin(h)}) {
+    if (!e.is_valid()) continue;
+    const Point &a = r.mesh->points[r.topology.from(e)], &b = r.mesh->points[r.topology.to(e)], &c = r.mesh->points[r.topology.from(previous(e))];
+    height = std::min(height, 2.0 * triangle_area(a, b, c) / distance(a, b));
+  }
+  const double rise = norm(bulge), most = k_bulge_of_height * height;
+  return rise > most ? most / rise * bulge : bulge;
+}
+
+void find_bulges(Reference& r, const Column<TriangleId, std::uint8_t>& flat, const RunContext& context) {
+  const auto is_flat = [&](HalfedgeId h) {
+    const HalfedgeId o = r.topology.twin(h);
+    const auto off = [&](TriangleId t) { return r.is_kept[t] != 0 || (!flat.empty() && flat[t] != 0); };
+    return off(triangle_of(h)) || (o.is_valid() && off(triangle_of(o)));
+  };
+  for (FeatureLine& line : r.lines) {
+    find_line_bulges(r, line);
+    for (std::size_t i = 0; i < line.bulges.size(); ++i)
+      if (is_flat(line.halfedges[i])) line.bulges[i] = {};
+  }
+  for (FeatureLine& line : r.lines)
+    for (std::size_t i = 0; i < line.bulges.size(); ++i) line.bulges[i] = limited(r, line.halfedges[i], line.bulges[i]);
+  parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
+    const HalfedgeId h(i);
+    if (r.line[h] != k_no_line) r.bulges[h] = r.lines[static_cast<std::size_t>(r.line[h])].bulges[r.segment[h]];
+    else if (!is_flat(h)) r.bulges[h] = limited(r, h, surface_bulge(r, first_of(r.topology, h)));
+  });
+}
+
+}  // namespace
+
+Reference::Reference(const TriMesh& wall, const ReferenceOptions& options, const Column<TriangleId, std::uint8_t>& kept,
+                     const Column<TriangleId, std::uint8_t>& flat, const RunContext& context)
+    : mesh(&wall),
+      topology(wall, context),
+      line(topology.n_halfedges(), k_no_line),
+      segment(topology.n_halfedges(), 0),
+      normals(topology.n_halfedges()),
+      bulges(topology.n_halfedges()),
+      is_kept(wall.n_triangles(), 0),
+      is_corner(wall.n_vertices(), 0) {
+  if (!kept.empty()) is_kept = kept;
+  triangle_normals = normals_of(wall, topology, context);
+  Marks marks = mark_edges(*this, options.feature_angle, context);
+  find_normals(*this, marks, context);
+  mark_creases(*this, options.feature_angle, marks, context);
+  for (const TriangleId t : is_kept.ids())
+    if (is_kept[t] != 0)
+      for (const VertexId v : wall.triangles[t]) is_corner[v] = 1;
+  LineFinder(*this, marks, options).run();
+  find_regions(*this);
+  find_normals(*this, marks, context);
+  if (options.is_smooth) {
+    find_bulges(*this, flat, context);
+  } else {
+    for (FeatureLine& l : lines) l.bulges.assign(l.vertices.size() - 1, Vec3{});
+  }
+}
+
+Foot Reference::nearest(const Point& p, TriangleId start) const {
+  struct Step {
+    TriangleId triangle;
+    double distance2;
+  };
+  std::vector<Step> seen;
+  seen.reserve(32);
+  const auto look = [&](TriangleId t) {
+    const Point q = nearest_on_triangle(p, corners(*mesh, t));
+    seen.push_back({t, norm2(q - p)});
+  };
+  look(start);
+  std::size_t best = 0;
+  std::size_t done = 0;
+  // Each triangle seen is left over its edges once, as long as it is near enough.
+  for (; done < seen.size() && seen.size() < k_walk_most; ++done) {
+    if (seen[done].distance2 > k_walk_slack * seen[best].distance2) continue;
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(seen[done].triangle, k), o = topology.twin(h);
+      if (line[h] != k_no_line || !o.is_valid()) continue;
+      const TriangleId u = triangle_of(o);
+      const std::size_t from = seen.size() > 64 ? seen.size() - 64 : 0;
+      if (std::any_of(seen.begin() + static_cast<std::ptrdiff_t>(from), seen.end(), [&](const Step& s) { return s.triangle == u; })) continue;
+      look(u);
+      if (seen.back().distance2 < seen[best].distance2) best = seen.size() - 1;
+    }
+  }
+  const TriangleId t = seen[best].triangle;
+  const auto c = corners(*mesh, t);
+  const Point q = nearest_on_triangle(p, c);
+  const Vec3 u = c[1] - c[0], v = c[2] - c[0], w = q - c[0], n = cross(u, v);
+  const double n2 = norm2(n);
+  Foot foot{t, 0.0, 0.0};
+  if (n2 > 0.0) {
+    foot.b1 = std::clamp(dot(cross(w, v), n) / n2, 0.0, 1.0);
+    foot.b2 = std::clamp(dot(cross(u, w), n) / n2, 0.0, 1.0 - foot.b1);
+  }
+  return foot;
+}
+
+Point Reference::flat_point(const Foot& foot) const {
+  const auto c = corners(*mesh, foot.triangle);
+  return c[0] + foot.b1 * (c[1] - c[0]) + foot.b2 * (c[2] - c[0]);
+}
+
+Point Reference::point(const Foot& foot) const {
+  const double b0 = 1.0 - foot.b1 - foot.b2;
+  const HalfedgeId h = halfedge(foot.triangle, 0);
+  return flat_point(foot) + (4.0 * b0 * foot.b1) * bulges[h] + (4.0 * foot.b1 * foot.b2) * bulges[next(h)] + (4.0 * foot.b2 * b0) * bulges[previous(h)];
+}
+
+Vec3 Reference::normal(const Foot& foot) const {
+  const HalfedgeId h = halfedge(foot.triangle, 0);
+  return normalized((1.0 - foot.b1 - foot.b2) * normals[h] + foot.b1 * normals[next(h)] + foot.b2 * normals[previous(h)]);
+}
+
+Reference::LinePlace Reference::line_place(std::int32_t number, double s) const {
+  const FeatureLine& l = lines[static_cast<std::size_t>(number)];
+  const auto after = std::upper_bound(l.lengths.begin() + 1, l.lengths.end() - 1, s);
+  const std::size_t i = static_cast<std::size_t>(after - l.lengths.begin()) - 1;
+  const double length = l.lengths[i + 1] - l.lengths[i];
+  return {static_cast<std::uint32_t>(i), length > 0.0 ? std::clamp((s - l.lengths[i]) / length, 0.0, 1.0) : 0.0};
+}
+
+Point Reference::line_point(std::int32_t number, double s) const {
+  const FeatureLine& l = lines[static_cast<std::size_t>(number)];
+  const auto [i, t] = line_place(number, s);
+  const Point &a = mesh->points[l.vertices[i]], &b = mesh->points[l.vertices[i + 1]];
+  return a + t * (b - a) + (4.0 * t * (1.0 - t)) * l.bulges[i];
+}
+
+}  // namespace sterna::surfmesh

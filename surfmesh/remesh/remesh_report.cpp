@@ -1,0 +1,123 @@
+#include "surfmesh/remesh/remesh_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr double k_to_degrees = 180.0 / std::numbers::pi;
+
+}  // namespace
+
+void measure_angles(const TriMesh& mesh, RemeshReport& report) {
+  report.n_triangles = static_cast<std::int64_t>(mesh.n_triangles());
+  report.length = body_length(mesh);
+  report.min_angle = std::numbers::pi;
+  std::vector<double> least;
+  double sum = 0.0, area_sum = 0.0;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto [a, b, c] = corners(mesh, t);
+    const double x = distance(a, b), y = distance(b, c), z = distance(c, a), area = triangle_area(a, b, c);
+    if (x * y * z > 0.0) sum += area * 16.0 * area * area / ((x + y + z) * x * y * z);
+    area_sum += area;
+    const std::array<double, 3> angles{corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)};
+    const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
+    least.push_back(*low);
+    report.min_angle = std::min(report.min_angle, *low);
+    report.max_angle = std::max(report.max_angle, *high);
+    ++report.least_angles[std::min<std::size_t>(5, static_cast<std::size_t>(*low * k_to_degrees / 10.0))];
+  }
+  report.mean_radius_ratio = area_sum > 0.0 ? sum / area_sum : 0.0;
+  if (least.empty()) return;
+  const auto at_1 = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 100);
+  std::nth_element(least.begin(), at_1, least.end());
+  report.angle_quantile_1 = *at_1;
+}
+
+SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, const RunContext& context) {
+  const TriangleTree tree(to, context);
+  struct Part {
+    SurfaceDistance distance;
+    CompensatedSum sum;
+    std::int64_t n = 0;
+    void add(const Point& p, double d) {
+      sum.add(d);
+      ++n;
+      if (d > distance.max) {
+        distance.max = d;
+        distance.place = p;
+      }
+    }
+  };
+  const std::size_t n_points = from.n_vertices();
+  Part all = parallel_reduce(
+      context, n_points + from.n_triangles(), Part{},
+      [&](std::size_t begin, std::size_t end) {
+        Part part;
+        Point last{};
+        double limit = std::numeric_limits<double>::infinity();
+        const auto add = [&](const Point& p) {
+          // No farther than the last one's nearest place.
+          const double reach = limit + distance(last, p);
+          NearestHit hit = tree.nearest(p, reach * (1.0 + 1e-9));
+          if (!hit.triangle.is_valid()) hit = tree.nearest(p);
+          part.add(p, hit.distance);
+          last = p;
+          limit = hit.distance;
+        };
+        for (std::size_t i = begin; i < end; ++i) {
+          if (i < n_points) {
+            add(from.points[VertexId(i)]);
+            continue;
+          }
+          // Middles of edges once, with the triangle that has them ascending; at a rim maybe not at all, where they are middles of the input's edges.
+          const TriangleVertices& v = from.triangles[TriangleId(i - n_points)];
+          const auto [a, b, c] = corners(from, TriangleId(i - n_points));
+          add((a + b + c) / 3.0);
+          if (v[0] < v[1]) add(0.5 * (a + b));
+          if (v[1] < v[2]) add(0.5 * (b + c));
+          if (v[2] < v[0]) add(0.5 * (c + a));
+        }
+        return part;
+      },
+      [](Part a, const Part& b) {
+        a.sum.add(b.sum);
+        a.n += b.n;
+        if (b.distance.max > a.distance.max) a.distance = b.distance;
+        return a;
+      });
+  all.distance.mean = all.n > 0 ? all.sum.value() / static_cast<double>(all.n) : 0.0;
+  return all.distance;
+}
+
+std::string to_text(const RemeshReport& r) {
+  std::ostringstream text;
+  text.precision(3);
+  const auto far = [&](const SurfaceDistance& d) {
+    std::ostringstream s;
+    s.precision(3);
+    s << d.max << " m (" << d.max / r.length << " of the length) at " << format_point(d.place) << ", mean " << d.mean << " m";
+    return s.str();
+  };
+  text << r.n_triangles_before << " triangles became " << r.n_triangles << "; edges of " << r.least_size << " to " << r.max_edge << " m were asked for; "
+       << r.n_lines << " lines between " << r.n_corners << " corners stay\n";
+  text << "angles " << r.min_angle * k_to_degrees << " to " << r.max_angle * k_to_degrees << " degrees, 1 % of the triangles below "
+       << r.angle_quantile_1 * k_to_degrees << ", radius ratio " << r.mean_radius_ratio << " by area\n";
+  text << "distance of the new surface from the given one: " << far(r.to_input) << "\n";
+  text << "distance of the given surface from the new one: " << far(r.from_input);
+  if (r.n_needles > 0) {
+    text << "\n" << r.n_needles << " needles (a corner below " << k_needle_angle * k_to_degrees << " degrees) are forced by lines and corners, the worst:";
+    for (const ErrorPlace& place : r.needles) text << "\n  " << format_point(place.position) << " " << place.what;
+  }
+  if (r.n_kept > 0) text << "\n" << r.n_kept << " triangles were kept as given, because new ones would cross";
+  return text.str();
+}
+
+}  // namespace sterna::surfmesh

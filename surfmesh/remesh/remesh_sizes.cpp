@@ -1,0 +1,263 @@
+#include "surfmesh/remesh/remesh_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <queue>
+
+#include "geom/base/glob.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// Longest edge of a connected piece, of the root of its area: 15 % of the chord of a slender wing, 2 % of an aircraft's length.
+constexpr double k_max_edge_of_area = 0.05;
+constexpr double k_min_edge_of_max = 0.02;
+/// Of min_edge, where chord_error needs shorter edges.
+constexpr double k_least_for_chord = 0.25;
+/// Area of an equilateral triangle over its edge squared.
+constexpr double k_equilateral_area = 0.4330127018922193;
+/// Surfaces look at each other when their normals are opposed within 30 degrees.
+constexpr double k_opposed_cosine = 0.866;
+/// Hits nearer than this part of the reach are the surface itself.
+constexpr double k_ray_start = 1e-9;
+
+/// What one patch of one connected piece asks for.
+struct Limits {
+  double max_edge, min_edge, curvature_angle, chord_error;
+};
+
+double or_else(double value, double other) { return is_automatic(value) ? other : value; }
+
+std::vector<double> automatic_edges(const TriMesh& wall, const Components& pieces) {
+  std::vector<double> areas(pieces.count, 0.0);
+  for (const TriangleId t : wall.triangles.ids()) {
+    const auto [a, b, c] = corners(wall, t);
+    areas[pieces.component[t]] += triangle_area(a, b, c);
+  }
+  for (double& a : areas) a = k_max_edge_of_area * std::sqrt(a);
+  return areas;
+}
+
+void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rules) {
+  constexpr std::string_view k_attempted = "remeshing a surface";
+  std::vector<std::string> names;
+  for (const Patch& patch : wall.patches) names.push_back(patch.name);
+  for (const PatchSurfaceOptions& rule : rules) {
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches_glob(name, rule.names); }))
+      throw_bad_argument(k_attempted, "no patch is named like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
+    for (const double value :
+         {rule.leading_edge_chordwise, rule.leading_edge_stretch, rule.leading_edge_growth, rule.trailing_edge_chordwise, rule.trailing_edge_stretch,
+          rule.trailing_edge_growth, rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
+      if (!is_automatic(value))
+        throw_bad_argument(k_attempted,
+                           "the rule for \"" + rule.names + "\" asks for rows or factors at leading or trailing edges, which a triangulation does not know", {},
+                           "give max_edge, min_edge, curvature_angle or chord_error");
+  }
+}
+
+Limits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules) {
+  Limits l{or_else(options.max_edge, automatic_edge), options.min_edge, options.curvature_angle, options.chord_error};
+  for (const PatchSurfaceOptions& rule : rules) {
+    if (!matches_glob(name, rule.names)) continue;
+    l = {or_else(rule.max_edge, l.max_edge), or_else(rule.min_edge, l.min_edge), or_else(rule.curvature_angle, l.curvature_angle),
+         or_else(rule.chord_error, l.chord_error)};
+  }
+  l.min_edge = std::min(or_else(l.min_edge, k_min_edge_of_max * l.max_edge), l.max_edge);
+  for (double* length : {&l.max_edge, &l.min_edge, &l.curvature_angle, &l.chord_error}) *length /= options.refinement;
+  return l;
+}
+
+/// For each connected piece, then each patch.
+std::vector<std::vector<Limits>> all_limits(const TriMesh& wall, const Components& pieces, const RemeshOptions& options,
+                                            std::span<const PatchSurfaceOptions> rules) {
+  std::vector<std::vector<Limits>> limits;
+  for (const double edge : automatic_edges(wall, pieces)) {
+    limits.emplace_back();
+    for (const Patch& patch : wall.patches) limits.back().push_back(limits_of(patch.name, edge, options, rules));
+  }
+  return limits;
+}
+
+double size_of_curvature(double curvature, const Limits& l) {
+  if (!(curvature > 0.0)) return l.max_edge;
+  double size = std::max(2.0 / curvature * std::sin(0.5 * l.curvature_angle), l.min_edge);
+  if (!is_automatic(l.chord_error)) size = std::min(size, std::max(std::sqrt(8.0 * l.chord_error / curvature), k_least_for_chord * l.min_edge));
+  return std::min(size, l.max_edge);
+}
+
+/// 1 / m, of the arc over an edge: the flatter of those that the normals at its ends say, nothing where they differ in sign.
+double edge_curvature(const Reference& r, HalfedgeId h) {
+  const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
+  const double length = distance(a, b);
+  if (!(length > 0.0)) return 0.0;
+  const Vec3 e = (b - a) / length;
+  const double rise_a = -dot(r.normals[h], e), rise_b = dot(r.normals[next(h)], e);
+  return rise_a * rise_b > 0.0 ? 2.0 * std::min(std::abs(rise_a), std::abs(rise_b)) / length : 0.0;
+}
+
+/// 1 / m: the bend of an edge over the triangles beside it, where they are no narrower than edges get.
+double bend_curvature(const Reference& r, HalfedgeId h, double min_edge) {
+  const HalfedgeId o = r.topology.twin(h);
+  double height = 0.0;
+  for (const HalfedgeId e : {h, o}) {
+    const Point &a = r.mesh->points[r.topology.from(e)], &b = r.mesh->points[r.topology.to(e)], &c = r.mesh->points[r.topology.from(previous(e))];
+    const double length = distance(a, b);
+    if (length > 0.0) height += triangle_area(a, b, c) / length;
+  }
+  return angle_between(r.triangle_normals[triangle_of(h)], r.triangle_normals[triangle_of(o)]) / std::max(height, min_edge);
+}
+
+void check_options(const RemeshOptions& o) {
+  for (const double length : {o.max_edge, o.curvature_angle, o.chord_error, o.refinement, o.narrow})
+    if (!is_automatic(length) && !(length > 0.0)) throw_bad_argument("remeshing a surface", "sizes, angles and factors must be positive");
+  if (!(o.growth > 1.0)) throw_bad_argument("remeshing a surface", "growth must be above 1");
+  if (!is_automatic(o.max_edge) && !is_automatic(o.min_edge) && o.min_edge > o.max_edge)
+    throw_bad_argument("remeshing a surface", "min_edge is larger than max_edge");
+}
+
+}  // namespace
+
+double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  check_options(options);
+  require_rules(wall, patches);
+  double least = k_unbounded;
+  for (const auto& piece : all_limits(wall, connected_components(wall, Topology(wall, context)), options, patches))
+    for (const Limits& l : piece) least = std::min(least, std::max(l.min_edge, 1e-3 * l.max_edge));
+  return least;
+}
+
+RemeshSizes::RemeshSizes(const Reference& reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                         const RunContext& context)
+    : r_(reference),
+      asked_(asked),
+      refinement_(options.refinement),
+      slope_((options.growth - 1.0) / options.refinement),
+      cap_(reference.mesh->n_triangles()),
+      min_edge_(reference.mesh->n_triangles()),
+      own_(reference.mesh->n_triangles()),
+      at_(reference.mesh->n_vertices(), k_unbounded) {
+  const TriMesh& wall = *r_.mesh;
+  const Components pieces = connected_components(wall, r_.topology);
+  const auto limits = all_limits(wall, pieces, options, patches);
+  const auto limits_at = [&](TriangleId t) -> const Limits& { return limits[pieces.component[t]][wall.triangle_patch[t].index()]; };
+  for (const TriangleId t : wall.triangles.ids()) {
+    const Limits& l = limits_at(t);
+    cap_[t] = own_[t] = l.max_edge;
+    min_edge_[t] = l.min_edge;
+    largest_ = std::max(largest_, l.max_edge);
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(t, k);
+      const VertexId a = r_.topology.from(h), b = r_.topology.to(h);
+      double curvature = 0.0;
+      if (r_.line[h] == k_no_line) {
+        curvature = std::max(edge_curvature(r_, h), bend_curvature(r_, h, l.min_edge));
+      } else if (const double length = distance(wall.points[a], wall.points[b]); length > 0.0) {
+        curvature = 8.0 * norm(r_.lines[static_cast<std::size_t>(r_.line[h])].bulges[r_.segment[h]]) / (length * length);
+      }
+      const double size = size_of_curvature(curvature, l);
+      own_[t] = std::min(own_[t], size);
+      at_[a] = std::min(at_[a], size);
+      at_[b] = std::min(at_[b], size);
+    }
+  }
+  const double across = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
+  const double through = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
+  if (across > 0.0 || through > 0.0) {
+    const TriangleTree tree(wall, context);
+    std::vector<double> found(wall.n_triangles(), k_unbounded);
+    parallel_for(
+        context, wall.n_triangles(),
+        [&](std::size_t i) {
+          const TriangleId t(i);
+          const auto [a, b, c] = corners(wall, t);
+          const Vec3& n = r_.triangle_normals[t];
+          const Point middle = (a + b + c) / 3.0;
+          for (const auto& [share, way] : {std::pair(across, n), std::pair(through, -n)}) {
+            if (share == 0.0) continue;
+            for (const TriangleTree::RayHit& hit : tree.ray(middle, way)) {
+              if (hit.triangle == t || hit.t < k_ray_start * cap_[t]) continue;
+              if (hit.t * share >= cap_[t]) break;
+              if (dot(r_.triangle_normals[hit.triangle], n) > -k_opposed_cosine) continue;
+              found[i] = std::min(found[i], std::max(share * hit.t, min_edge_[t]));
+              break;
+            }
+          }
+        },
+        256);
+    for (const TriangleId t : wall.triangles.ids())
+      if (found[t.index()] < cap_[t])
+        for (const VertexId v : wall.triangles[t]) at_[v] = std::min(at_[v], found[t.index()]);
+  }
+  if (!asked_.samples.empty()) {
+    const SizeSites sites(asked_.samples, (options.growth - 1.0), context);
+    parallel_for(context, at_.size(), [&](std::size_t v) {
+      at_[VertexId(v)] = std::min(at_[VertexId(v)], sites.smallest(wall.points[VertexId(v)], {.cap = largest_ * refinement_}) / refinement_);
+    });
+  }
+  carry();
+}
+
+void RemeshSizes::carry() {
+  using Entry = std::pair<double, std::uint32_t>;
+  const auto for_neighbours = [&](VertexId v, const auto& visit) {
+    for (const VertexId w : r_.topology.neighbours(v)) visit(w, at_[v] + slope_ * distance(r_.mesh->points[v], r_.mesh->points[w]));
+  };
+  std::vector<Entry> first;
+  for (const VertexId v : at_.ids()) {
+    bool has_gain = false;
+    for_neighbours(v, [&](VertexId w, double size) { has_gain = has_gain || size < at_[w]; });
+    if (has_gain) first.emplace_back(at_[v], v.value());
+  }
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>{}, std::move(first));
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size != at_[VertexId(v)]) continue;
+    for_neighbours(VertexId(v), [&](VertexId w, double there) {
+      if (!(there < at_[w])) return;
+      at_[w] = there;
+      queue.emplace(there, w.value());
+    });
+  }
+}
+
+double RemeshSizes::operator()(const Point& p, TriangleId t) const {
+  double size = cap_[t];
+  const TriangleVertices& v = r_.mesh->triangles[t];
+  for (const VertexId k : v) size = std::min(size, at_[k] + slope_ * distance(p, r_.mesh->points[k]));
+  // Between vertices far apart sizes may grow, but a curved triangle is curved there, too.
+  if (own_[t] < size) {
+    const auto [a, b, c] = corners(*r_.mesh, t);
+    const Vec3 n = cross(b - a, c - a);
+    const double n2 = norm2(n);
+    if (n2 > 0.0) {
+      const double b1 = std::clamp(dot(cross(p - a, c - a), n) / n2, 0.0, 1.0), b2 = std::clamp(dot(cross(b - a, p - a), n) / n2, 0.0, 1.0 - b1);
+      size = std::min(size, std::max(own_[t], (1.0 - b1 - b2) * at_[v[0]] + b1 * at_[v[1]] + b2 * at_[v[2]]));
+    }
+  }
+  if (asked_.regions) size = std::min(size, asked_.regions(p, slope_ * refinement_) / refinement_);
+  if (asked_.function) size = std::min(size, asked_.function(p) / refinement_);
+  return size;
+}
+
+void RemeshSizes::lower(TriangleId t, const Point& p, double size) {
+  for (const VertexId v : r_.mesh->triangles[t]) at_[v] = std::min(at_[v], size + slope_ * distance(p, r_.mesh->points[v]));
+}
+
+double RemeshSizes::least() const { return *std::min_element(at_.begin(), at_.end()); }
+
+double RemeshSizes::n_expected() const {
+  double n = 0.0;
+  for (const TriangleId t : r_.mesh->triangles.ids()) {
+    const auto [a, b, c] = corners(*r_.mesh, t);
+    const double size = (*this)((a + b + c) / 3.0, t);
+    n += triangle_area(a, b, c) / (k_equilateral_area * size * size);
+  }
+  return n;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,180 @@
+// Steps of a round: the reference, sizes, the given triangles changed by local operations until edges are as long as wanted, the exact proof. Where triangles
+// cross, another round does those places flat and finer; then it keeps the given triangles there.
+#include "surfmesh/remesh/remesh_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+#include "geom/mesh/find_crossings.h"
+#include "surfmesh/remesh/remesh_report.h"
+#include "surfmesh/remesh/remesh_sizes.h"
+#include "surfmesh/remesh/remesher.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr std::string_view k_attempted = "remeshing a surface";
+
+// Edges, of the length wanted: shorter ones go, longer ones are halved (Botsch & Kobbelt: 4/5 and 4/3).
+constexpr double k_short = 0.72, k_long = 1.38;
+constexpr int k_passes = 5;
+/// After this pass strips between lines are looked for.
+constexpr int k_strip_pass = 1;
+constexpr int k_last_smoothings = 6;
+/// Mean ratios below these are worked on at last, one after another: 0.75 is a least angle of about 30 degrees.
+constexpr std::array<double, 7> k_improve = {0.5, 0.65, 0.7, 0.75, 0.75, 0.75, 0.75};
+/// Then moves leave no triangle that was better below this.
+constexpr double k_last_floor = 0.7;
+/// Of min_edge: narrow strips ask for no shorter edges.
+constexpr double k_least_in_strips = 0.2;
+/// Rounds in which crossings are met with flatter and finer triangles; afterwards given ones are kept.
+constexpr int k_fine_rounds = 4;
+constexpr int k_most_rounds = 8;
+constexpr double k_finer = 0.5;
+
+/// What the rounds before have found.
+struct Trouble {
+  Column<TriangleId, std::uint8_t> flat, kept;
+  std::vector<std::pair<TriangleId, double>> sizes;
+};
+
+void narrow_strips(const Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes) {
+  for (const Remesher::Strip& strip : remesher.strips()) {
+    const double size = std::max(options.narrow / options.refinement * strip.width, k_least_in_strips * sizes.min_edge(strip.triangle));
+    if (size < sizes(strip.point, strip.triangle)) sizes.lower(strip.triangle, strip.point, size);
+  }
+  sizes.carry();
+}
+
+void run_passes(Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes, const RunContext& context) {
+  for (int pass = 0; pass < k_passes; ++pass) {
+    // The first pass takes away most: several times, as an edge's neighbours wait for it.
+    for (int again = 0; remesher.collapse_short(k_short, true) > 0 && again < (pass == 0 ? 8 : 1); ++again) {
+    }
+    remesher.flip_edges();
+    remesher.split_long(k_long);
+    if (pass == 0 || pass == 2) remesher.renumber();
+    if (remesher.regularise() > 0) remesher.regularise();
+    remesher.smooth(2);
+    if (pass == k_strip_pass) {
+      narrow_strips(remesher, options, sizes);
+      remesher.refresh_sizes();
+    }
+    context.progress(0.8 * (pass + 1) / k_passes);
+  }
+  for (int i = 0; i < k_last_smoothings; ++i) {
+    if (i % 2 == 0) remesher.regularise();
+    remesher.smooth(1);
+  }
+  remesher.flip_edges();
+  remesher.smooth(1);
+  for (const double quality : k_improve) {
+    if (remesher.improve(quality) == 0) break;
+    remesher.flip_edges();
+    remesher.smooth(1, k_last_floor);
+  }
+}
+
+std::vector<std::array<std::uint32_t, 3>> indices_of(const TriMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> list;
+  for (const TriangleVertices& v : mesh.triangles) list.push_back({v[0].value(), v[1].value(), v[2].value()});
+  return list;
+}
+
+CrossingPairs crossings_of(const TriMesh& mesh, const RunContext& context) { return find_crossings(mesh.points.raw(), indices_of(mesh), context); }
+
+void require_clear(const TriMesh& wall, const RunContext& context) {
+  if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_attempted), .problem = "it has no triangles"});
+  const CrossingPairs pairs = crossings_of(wall, context);
+  if (pairs.total == 0) return;
+  ErrorInfo info{.code = ErrorCode::self_intersection,
+                 .attempted = std::string(k_attempted),
+                 .problem = std::to_string(pairs.total) + " pairs of triangles of the given surface meet in more than they share",
+                 .hint = "remesh takes surfaces that are clear of themselves: repair{} resolves crossings"};
+  for (const auto& [i, j] : pairs.pairs) {
+    const auto [a, b, c] = corners(wall, TriangleId(i));
+    info.add_place((a + b + c) / 3.0, "triangle " + std::to_string(i) + " with " + std::to_string(j));
+    if (info.geometry.triangles.size() + 2 > k_max_geometry) continue;
+    for (const std::uint32_t t : {i, j}) {
+      const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
+      for (const Point& p : corners(wall, TriangleId(t))) info.geometry.points.push_back(p);
+      info.geometry.triangles.push_back({n, n + 1, n + 2});
+    }
+  }
+  throw Error(std::move(info));
+}
+
+}  // namespace
+
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                            const RunContext& context) {
+  const StageTimer timer(context, "remesh");
+  require_clear(wall, context);
+  ReferenceOptions reference_options{options.feature_angle, least_edge(wall, options, patches, context), options.smooth};
+  Trouble trouble;
+  RemeshResult result;
+  RemeshReport& report = result.report;
+  for (int round = 1;; ++round) {
+    const Reference reference(wall, reference_options, trouble.kept, trouble.flat, context);
+    RemeshSizes sizes(reference, options, patches, asked, context);
+    for (const auto& [t, size] : trouble.sizes) {
+      const auto [a, b, c] = corners(wall, t);
+      sizes.lower(t, (a + b + c) / 3.0, size);
+    }
+    if (!trouble.sizes.empty()) sizes.carry();
+    if (const double n = sizes.n_expected(); n > options.max_triangles)
+      throw Error({.code = ErrorCode::overflow,
+                   .attempted = std::string(k_attempted),
+                   .problem = "sizes and areas foretell " + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " +
+                              std::to_string(options.max_triangles),
+                   .hint = "larger max_edge, min_edge or curvature_angle"});
+    Remesher remesher(reference, sizes, context);
+    run_passes(remesher, options, sizes, context.part("round", 0.0, 0.8));
+    result.mesh = remesher.result();
+    report.n_rounds = round;
+    report.least_size = sizes.least();
+    report.max_edge = sizes.largest();
+    report.n_lines = static_cast<std::int64_t>(reference.lines.size());
+    report.n_corners = std::count(reference.is_corner.begin(), reference.is_corner.end(), 1);
+    const CrossingPairs pairs = crossings_of(result.mesh, context);
+    if (pairs.total == 0) {
+      report.needles = remesher.needles(k_needle_angle);
+      break;
+    }
+    if (round == k_most_rounds)
+      throw Error({.code = ErrorCode::internal,
+                   .attempted = std::string(k_attempted),
+                   .problem = std::to_string(pairs.total) + " pairs of triangles cross after " + std::to_string(round) + " rounds"});
+    if (trouble.flat.empty()) {
+      trouble.flat.assign(wall.n_triangles(), 0);
+      trouble.kept.assign(wall.n_triangles(), 0);
+    }
+    // What is kept can force others to cross; all of the input is clear of itself.
+    if (round + 1 == k_most_rounds) trouble.kept.assign(wall.n_triangles(), 1);
+    const auto found = remesher.reference_triangles_of(pairs.pairs, round);
+    for (const TriangleId t : found) {
+      if (round <= k_fine_rounds) {
+        trouble.flat[t] = 1;
+        const auto [a, b, c] = corners(wall, t);
+        trouble.sizes.emplace_back(t, k_finer * sizes((a + b + c) / 3.0, t));
+      } else {
+        trouble.kept[t] = 1;
+      }
+    }
+    context.info("remesh: " + std::to_string(pairs.total) + " pairs of triangles cross, the first at " +
+                 format_point(corners(result.mesh, TriangleId(pairs.pairs.front()[0]))[0]) + "; their places are done again, " +
+                 (round <= k_fine_rounds ? "finer" : "with the given triangles"));
+  }
+  report.n_triangles_before = static_cast<std::int64_t>(wall.n_triangles());
+  report.n_kept = std::count(trouble.kept.begin(), trouble.kept.end(), 1);
+  report.n_needles = static_cast<std::int64_t>(report.needles.size());
+  if (report.needles.size() > k_max_places) report.needles.resize(k_max_places);
+  measure_angles(result.mesh, report);
+  report.to_input = surface_distance(result.mesh, wall, context);
+  report.from_input = surface_distance(wall, result.mesh, context);
+  context.progress(1.0);
+  return result;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,161 @@
+// New triangles for a triangulated surface: sizes by curvature as of surface_mesh on CAD, sharp edges and patches kept, vertices on a smooth reconstruction of
+// the input (dirty.md: the third strength).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/tri_mesh.h"
+#include "surfmesh/model/surface_mesh.h"
+
+namespace sterna::surfmesh {
+
+/// Named and meant as in SurfaceMeshOptions; what that has for wings and faces of CAD is not known of a triangulation.
+struct RemeshOptions {
+  double max_edge = k_automatic;
+  double min_edge = k_automatic;
+  double curvature_angle = 12.0 * std::numbers::pi / 180.0;
+  double chord_error = k_automatic;
+  double growth = 1.2;
+  double refinement = 1.0;
+  double narrow = 2.0;
+  double gap_cells = 0.0;
+  double thickness_factor = k_automatic;
+  double feature_angle = 40.0 * std::numbers::pi / 180.0;
+  bool smooth = true;
+  int max_triangles = 100'000'000;
+};
+
+/// How far one surface is from another: sampled at vertices, middles of edges and of triangles.
+struct SurfaceDistance {
+  double max = 0.0;   ///< m
+  double mean = 0.0;  ///< m, over the samples
+  Point place{};      ///< where the largest is
+};
+
+struct RemeshReport {
+  std::int64_t n_triangles_before = 0, n_triangles = 0;
+  std::int64_t n_lines = 0;                    ///< sharp edges, borders of patches and rims: pieces between corners
+  std::int64_t n_corners = 0;                  ///< ends of those, which stay where they were
+  double least_size = 0.0;                     ///< m, asked for anywhere
+  double max_edge = 0.0;                       ///< m, the largest of the sizes asked for
+  double min_angle = 0.0;                      ///< rad
+  double max_angle = 0.0;                      ///< rad
+  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller least angle
+  double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
+  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their least angle: below 10 degrees, below 20, ... up to 60
+  std::int64_t n_needles = 0;                  ///< triangles with an angle below k_needle_angle
+  std::vector<ErrorPlace> needles;             ///< the worst of them, at most k_max_places, and which features force them
+  SurfaceDistance to_input;                    ///< from the new surface to the given one
+  SurfaceDistance from_input;                  ///< from the given one to the new
+  double length = 0.0;                         ///< m, body length
+  std::int64_t n_kept = 0;                     ///< triangles taken as they were, because new ones would cross
+  int n_rounds = 1;                            ///< of remeshing; above 1 where triangles crossed
+};
+
+/// An angle below this is a needle's (dirty.md), rad.
+inline constexpr double k_needle_angle = 8.0 * std::numbers::pi / 180.0;
+
+struct RemeshResult {
+  TriMesh mesh;  ///< patches as given, in the same order
+  RemeshReport report;
+};
+
+/// Remeshes a wall. Edges that bend by more than feature_angle, borders of patches and rims are lines: their corners stay, vertices between slide along them.
+/// All else lies on the input, or with `smooth` on quadratic patches over its triangles whose bulge is the smaller one of what the normals at both ends of each
+/// edge say, so that flat places stay flat. No vertex ever leaves the smooth piece of surface that it is on for another one, however near.
+/// \pre manifold, oriented, clear of itself; closed, or open along rims, which stay
+/// \post manifold, closed where the input was; no two triangles cross (exact); every patch that had triangles has some; the same bytes for any threads
+/// \param patches rules for patches by name, the last that matches counts; of them max_edge, min_edge, curvature_angle and chord_error
+/// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that asks for bands; Error(non_manifold_surface);
+/// Error(self_intersection) where the input crosses itself; Error(overflow) beyond max_triangles, before the work; Error(cancelled)
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                            const RunContext& context);
+
+/// Several lines for people.
+std::string to_text(const RemeshReport& report);
+
+}  // namespace sterna::surfmesh
+
+namespace sterna {
+
+template <>
+struct Schema<surfmesh::RemeshOptions> {
+  using O = surfmesh::RemeshOptions;
+  static constexpr std::string_view stage = "remesh";
+  static constexpr std::array fields = {
+      Field<O>{.name = "max_edge",
+               .member = &O::max_edge,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "longest edge wanted",
+               .automatic = "of each connected piece a twentieth of the root of its area"},
+      Field<O>{.name = "min_edge",
+               .member = &O::min_edge,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "curvature and narrow places ask for no shorter edges",
+               .automatic = "2 % of the longest edge; a quarter of that where chord_error needs it"},
+      Field<O>{.name = "curvature_angle",
+               .member = &O::curvature_angle,
+               .unit = Unit::radian,
+               .min = 0.001,
+               .max = 1.6,
+               .help = "an edge spans at most this angle of the surface"},
+      Field<O>{.name = "chord_error",
+               .member = &O::chord_error,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "middles of edges are at most this far from the surface, by its curvature",
+               .automatic = "no limit"},
+      Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "ratio of the lengths of edges that follow each other, at most"},
+      Field<O>{.name = "refinement",
+               .member = &O::refinement,
+               .min = 0.01,
+               .max = 100.0,
+               .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family; give volume_mesh the same",
+               .choices = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25"},
+      Field<O>{.name = "narrow",
+               .member = &O::narrow,
+               .min = 0.1,
+               .max = 100.0,
+               .help = "edges along narrow strips between lines are at most this many times their width (never below a fifth of min_edge)"},
+      Field<O>{.name = "gap_cells",
+               .member = &O::gap_cells,
+               .min = 0.0,
+               .max = 20.0,
+               .help = "edges that fit across a gap between places that look at each other; 0: gaps are not looked for"},
+      Field<O>{.name = "thickness_factor",
+               .member = &O::thickness_factor,
+               .min = 0.1,
+               .max = 100.0,
+               .help = "edges are at most this many times as long as the part is thick",
+               .automatic = "no limit"},
+      Field<O>{.name = "feature_angle",
+               .member = &O::feature_angle,
+               .unit = Unit::radian,
+               .min = 0.05,
+               .max = 3.1,
+               .help = "edges that bend by more than this stay; between them the surface is taken for smooth"},
+      Field<O>{
+          .name = "smooth",
+          .member = &O::smooth,
+          .help =
+              "vertices on a surface that is curved between the given ones, so that a coarse triangulation of a smooth body comes out smooth; false: on the "
+              "given triangles"},
+      Field<O>{.name = "max_triangles",
+               .member = &O::max_triangles,
+               .min = 1,
+               .max = 2e9,
+               .help = "more than that are an error, at once where sizes and areas foretell it"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,524 @@
+// Remesher: where vertices are, how good triangles are, and the operations that change connectivity.
+//
+// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling" (2004), for the loop of splits, collapses, flips and tangential moves;
+// ours are the order by length, the sizes, the lines, and that each vertex keeps its place on the reference and walks from there.
+#include "surfmesh/remesh/remesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/math/nearest.h"
+#include "geom/mesh/bvh.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// A triangle turned from the reference's normals by more than the angle with this cosine counts as folded.
+constexpr double k_fold_cosine = 0.3;
+/// 4 sqrt(3): the mean ratio 4 sqrt(3) A / sum l^2 is one of an equilateral triangle.
+constexpr double k_mean_ratio = 6.928203230275509;
+/// Better than this and a collapse is not asked whether the triangles were better before.
+constexpr double k_good_enough = 0.4;
+/// Of the mean ratio: a flip that gains less is left.
+constexpr double k_flip_gain = 1e-6;
+/// Two triangles better than this are not flipped: neither would be better.
+constexpr double k_flip_below = 0.88;
+/// Triangles that a flip for the number of neighbours leaves are better than this: smoothing makes them good.
+constexpr double k_regular_floor = 0.45;
+/// A face folded is worse than any other.
+constexpr double k_folded = -1.0;
+/// Rounds of halving: 2^24 times.
+constexpr int k_split_rounds = 24;
+/// Of an edge's length: halves outside of this mean that its middle is held at a line or has gone elsewhere.
+constexpr double k_least_half = 0.2, k_most_half = 0.85;
+/// Of the quality before: halves of any triangle have more, unless the middle is held at a line.
+constexpr double k_least_after_split = 0.1;
+/// Edges kept longer than they should be rather than split again after a collapse.
+constexpr double k_longest_after_collapse = 1.35;
+
+}  // namespace
+
+Remesher::Remesher(const Reference& reference, const RemeshSizes& sizes, const RunContext& context)
+    : r_(reference), sizes_(sizes), context_(context), mesh_(work_mesh_of(reference)), locked_(reference.lines.size(), 0) {
+  for (std::size_t l = 0; l < locked_.size(); ++l) {
+    const HalfedgeId h = r_.lines[l].halfedges.front(), o = r_.topology.twin(h);
+    locked_[l] = r_.is_kept[triangle_of(h)] != 0 || (o.is_valid() && r_.is_kept[triangle_of(o)] != 0) ? 1 : 0;
+  }
+  for (WorkVertex& v : mesh_.vertices)
+    if (v.kind == VertexKind::face && v.out != k_none) v.normal = r_.normal(v.foot);
+  refresh_sizes();
+  quality_.resize(mesh_.triangles.size());
+  parallel_for(context_, quality_.size(), [&](std::size_t t) { update(static_cast<std::uint32_t>(t)); });
+}
+
+void Remesher::renumber() {
+  mesh_.renumber();
+  quality_.resize(mesh_.triangles.size());
+  parallel_for(context_, quality_.size(), [&](std::size_t t) { update(static_cast<std::uint32_t>(t)); });
+}
+
+double Remesher::wanted(std::uint32_t h) const {
+  const double a = mesh_.vertices[mesh_.from(h)].size, b = mesh_.vertices[mesh_.to(h)].size;
+  return 2.0 * a * b / (a + b);
+}
+
+double Remesher::length_ratio(std::uint32_t h) const { return distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h))) / wanted(h); }
+
+void Remesher::resize(WorkVertex& v, TriangleId t) const { v.size = sizes_(v.point, t); }
+
+void Remesher::refresh_sizes() {
+  for (WorkVertex& v : mesh_.vertices) {
+    if (v.out == k_none) continue;
+    if (v.kind == VertexKind::face) resize(v, v.foot.triangle);
+    else if (v.kind == VertexKind::line) resize(v, triangle_of(r_.lines[static_cast<std::size_t>(v.line)].halfedges[r_.line_place(v.line, v.s).segment]));
+    else resize(v, triangle_of(r_.topology.outgoing(v.corner).front()));
+  }
+}
+
+/// Of the reference, at a vertex of a triangle that is in the smooth piece of `hint` and lies `towards` that point.
+Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& towards) const {
+  const WorkVertex& v = mesh_.vertices[number];
+  if (v.kind == VertexKind::face) return v.normal;
+  const std::uint32_t region = r_.region[hint];
+  if (v.kind == VertexKind::line) {
+    const auto [segment, t] = r_.line_place(v.line, v.s);
+    const FeatureLine& line = r_.lines[static_cast<std::size_t>(v.line)];
+    HalfedgeId h = line.halfedges[segment], o = r_.topology.twin(h);
+    if (o.is_valid() && r_.region[triangle_of(o)] == region) {
+      const auto& p = r_.mesh->points;
+      const bool is_left = r_.region[triangle_of(h)] == region &&
+                           dot(cross(p[r_.topology.to(h)] - p[r_.topology.from(h)], towards - v.point), r_.triangle_normals[triangle_of(h)]) > 0.0;
+      if (!is_left) h = o;
+    }
+    const double share = r_.topology.from(h) == line.vertices[segment] ? t : 1.0 - t;
+    return (1.0 - share) * r_.normals[h] + share * r_.normals[next(h)];
+  }
+  HalfedgeId best;
+  double largest = -2.0;
+  const Vec3 way = normalized(towards - v.point);
+  for (const HalfedgeId h : r_.topology.outgoing(v.corner)) {
+    if (r_.region[triangle_of(h)] != region) continue;
+    const Vec3 along =
+        normalized(normalized(r_.mesh->points[r_.topology.to(h)] - v.point) + normalized(r_.mesh->points[r_.topology.from(previous(h))] - v.point));
+    const double cosine = dot(way, along);
+    if (cosine > largest) {
+      largest = cosine;
+      best = h;
+    }
+  }
+  return best.is_valid() ? r_.normals[best] : r_.triangle_normals[hint];
+}
+
+/// Mean ratio; k_folded for a triangle that lies against the reference.
+double Remesher::quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const {
+  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+  const double area = norm(n);
+  const Point middle = (p[0] + p[1] + p[2]) / 3.0;
+  for (const std::uint32_t k : v)
+    if (!(dot(n, normal_at(k, hint, middle)) > k_fold_cosine * area)) return k_folded;
+  return 0.5 * k_mean_ratio * area / (norm2(p[1] - p[0]) + norm2(p[2] - p[1]) + norm2(p[0] - p[2]));
+}
+
+double Remesher::quality_now(std::uint32_t t) const {
+  const auto& v = mesh_.triangles[t];
+  return quality_of(v, {mesh_.at(v[0]), mesh_.at(v[1]), mesh_.at(v[2])}, mesh_.hint[t]);
+}
+
+double Remesher::fan_quality(std::uint32_t v) const {
+  double worst = 1.0;
+  mesh_.for_out(v, [&](std::uint32_t h) { worst = std::min(worst, quality(h / 3)); });
+  return worst;
+}
+
+/// Anew; less than `floor` when it is less.
+double Remesher::fan_quality_now(std::uint32_t v, double floor) const {
+  double worst = 1.0;
+  mesh_.for_out(v, [&](std::uint32_t h) {
+    if (worst >= floor) worst = std::min(worst, quality_now(h / 3));
+  });
+  return worst;
+}
+
+std::uint32_t Remesher::valence(std::uint32_t v) const {
+  std::uint32_t n = 0;
+  mesh_.for_ring(v, [&](std::uint32_t) { ++n; });
+  return n;
+}
+
+double Remesher::s_on_line(std::uint32_t v, std::int32_t line) const {
+  const WorkVertex& w = mesh_.vertices[v];
+  if (w.kind == VertexKind::line) return w.s;
+  const FeatureLine& l = r_.lines[static_cast<std::size_t>(line)];
+  return w.corner == l.vertices.front() ? 0.0 : l.length();
+}
+
+void Remesher::put_on_face(WorkVertex& v, const Point& p, TriangleId start) const {
+  v.kind = VertexKind::face;
+  v.foot = r_.nearest(p, start);
+  v.point = r_.point(v.foot);
+  v.normal = r_.normal(v.foot);
+  resize(v, v.foot.triangle);
+}
+
+void Remesher::put_on_line(WorkVertex& v, std::int32_t line, double s) const {
+  v.kind = VertexKind::line;
+  v.line = line;
+  v.s = s;
+  v.point = r_.line_point(line, s);
+  resize(v, triangle_of(r_.lines[static_cast<std::size_t>(line)].halfedges[r_.line_place(line, s).segment]));
+}
+
+WorkVertex Remesher::middle(std::uint32_t h) const {
+  const std::uint32_t a = mesh_.from(h), b = mesh_.to(h);
+  WorkVertex v;
+  if (mesh_.line[h] != k_no_line) {
+    put_on_line(v, mesh_.line[h], 0.5 * (s_on_line(a, mesh_.line[h]) + s_on_line(b, mesh_.line[h])));
+    return v;
+  }
+  const Point p = 0.5 * (mesh_.at(a) + mesh_.at(b));
+  TriangleId start = mesh_.hint[h / 3];
+  double least = norm2(nearest_on_triangle(p, corners(*r_.mesh, start)) - p);
+  for (const std::uint32_t k : {a, b}) {
+    if (mesh_.vertices[k].kind != VertexKind::face) continue;
+    const TriangleId t = mesh_.vertices[k].foot.triangle;
+    if (const double d = norm2(nearest_on_triangle(p, corners(*r_.mesh, t)) - p); d < least) {
+      least = d;
+      start = t;
+    }
+  }
+  put_on_face(v, p, start);
+  return v;
+}
+
+// ---- splits ------------------------------------------------------------------------------------------------------------------------------
+
+/// An edge between two vertices of one line that is not of it: whether its middle is off the line, so that no triangle lies flat on it.
+bool Remesher::is_split_good(std::uint32_t h, std::uint32_t m) const {
+  const WorkVertex &first = mesh_.vertices[mesh_.from(h)], &last = mesh_.vertices[mesh_.to(h)];
+  const auto is_end = [&](const WorkVertex& corner, std::int32_t line) {
+    const auto& v = r_.lines[static_cast<std::size_t>(line)].vertices;
+    return corner.kind == VertexKind::corner && (corner.corner == v.front() || corner.corner == v.back());
+  };
+  const bool is_one_line = (first.kind == VertexKind::line && last.kind == VertexKind::line && first.line == last.line) ||
+                           (first.kind == VertexKind::line && is_end(last, first.line)) || (last.kind == VertexKind::line && is_end(first, last.line));
+  if (mesh_.line[h] != k_no_line || !is_one_line) return true;
+  for (const std::uint32_t e : {h, mesh_.twin[h]}) {
+    if (e == k_none || quality(e / 3) <= 0.0) continue;
+    const std::uint32_t a = mesh_.from(e), b = mesh_.to(e), c = mesh_.apex(e);
+    for (const std::array<std::uint32_t, 3>& v : {std::array{a, m, c}, std::array{m, b, c}})
+      if (!(quality_of(v, {mesh_.at(v[0]), mesh_.at(v[1]), mesh_.at(v[2])}, mesh_.hint[e / 3]) > k_least_after_split * quality(e / 3))) return false;
+  }
+  return true;
+}
+
+std::int64_t Remesher::split_long(double most) {
+  std::int64_t n = 0;
+  for (int round = 0; round < k_split_rounds; ++round) {
+    std::vector<std::pair<double, std::uint32_t>> found;
+    for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+      if (mesh_.is_gone(h / 3) || (mesh_.twin[h] != k_none && mesh_.twin[h] < h) || is_locked(h)) continue;
+      if (const double ratio = length_ratio(h); ratio > most) found.emplace_back(-ratio, h);
+    }
+    if (found.empty()) break;
+    std::sort(found.begin(), found.end());
+    std::int64_t done = 0;
+    for (const auto& [ratio, h] : found) {
+      if (!(length_ratio(h) > most)) continue;
+      const WorkVertex v = middle(h);
+      // On a face the middle may be held at a line, at the edge's end.
+      const double length = distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h)));
+      const auto [near, far] = std::minmax({distance(v.point, mesh_.at(mesh_.from(h))), distance(v.point, mesh_.at(mesh_.to(h)))});
+      if (near < k_least_half * length || far > k_most_half * length) continue;
+      const auto m = static_cast<std::uint32_t>(mesh_.vertices.size());
+      mesh_.vertices.push_back(v);
+      if (!is_split_good(h, m)) {
+        mesh_.vertices.pop_back();
+        continue;
+      }
+      mesh_.split(h, m);
+      quality_.resize(mesh_.triangles.size());
+      update_fan(m);
+      ++done;
+    }
+    context_.check_stop();
+    if (done == 0) break;
+    n += done;
+    flip_edges();
+  }
+  return n;
+}
+
+// ---- collapses ---------------------------------------------------------------------------------------------------------------------------
+
+/// Whether the vertex that h begins at may go to its end: kinds, lines, and the link condition.
+bool Remesher::is_collapse_legal(std::uint32_t h) const {
+  const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
+  const WorkVertex& gone = mesh_.vertices[v];
+  if (gone.kind == VertexKind::corner) return false;
+  if (gone.kind == VertexKind::line && mesh_.line[h] != gone.line) return false;
+  // At a rim one triangle goes. Each that goes leaves another one at its two other edges, and at each apex at least two.
+  for (const std::uint32_t e : {h, o}) {
+    if (e == k_none) continue;
+    const std::uint32_t p = WorkMesh::next(e), q = WorkMesh::prev(e);
+    if (mesh_.twin[p] == k_none || mesh_.twin[q] == k_none) return false;
+    if (mesh_.line[p] != k_no_line && mesh_.line[q] != k_no_line) return false;
+    int n = 0;
+    bool has_rim = false;
+    mesh_.for_out(mesh_.apex(e), [&](std::uint32_t x) {
+      ++n;
+      has_rim = has_rim || mesh_.twin[x] == k_none;
+    });
+    if (n <= (has_rim ? 2 : 3)) return false;
+  }
+  std::array<std::uint32_t, 64> ring;
+  std::size_t n_ring = 0;
+  bool is_too_many = false;
+  mesh_.for_ring(v, [&](std::uint32_t w) {
+    if (n_ring < ring.size()) ring[n_ring++] = w;
+    else is_too_many = true;
+  });
+  if (is_too_many) return false;
+  int common = 0;
+  mesh_.for_ring(u, [&](std::uint32_t w) {
+    common += std::find(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(n_ring), w) != ring.begin() + static_cast<std::ptrdiff_t>(n_ring) ? 1 : 0;
+  });
+  return common == (o == k_none ? 1 : 2);
+}
+
+/// Of the worst triangle that the collapse leaves changed; k_folded also where an edge would be longer than `most`.
+double Remesher::collapse_quality(std::uint32_t h, double most) const {
+  const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
+  const WorkVertex& stays = mesh_.vertices[u];
+  double worst = 1.0;
+  mesh_.for_out(v, [&](std::uint32_t e) {
+    if (worst == k_folded || e == h || (o != k_none && e / 3 == o / 3)) return;
+    const std::uint32_t w = mesh_.to(e);
+    const WorkVertex& other = mesh_.vertices[w];
+    if (distance(stays.point, other.point) > most * 0.5 * (stays.size + other.size)) {
+      worst = k_folded;
+      return;
+    }
+    std::array<std::uint32_t, 3> corner = mesh_.triangles[e / 3];
+    corner[e % 3] = u;
+    worst = std::min(worst, quality_of(corner, {mesh_.at(corner[0]), mesh_.at(corner[1]), mesh_.at(corner[2])}, mesh_.hint[e / 3]));
+  });
+  return worst;
+}
+
+/// Of both directions the one that leaves better triangles, if they are better than `floor`.
+bool Remesher::try_collapse(std::uint32_t h, double floor, double most) {
+  std::uint32_t best = k_none;
+  double largest = floor;
+  for (const std::uint32_t e : {h, mesh_.twin[h]}) {
+    if (e == k_none || !is_collapse_legal(e)) continue;
+    if (const double q = collapse_quality(e, most); q > largest) {
+      largest = q;
+      best = e;
+    }
+  }
+  // A rim has one half-edge only: the other direction goes over the triangle's other half-edges, which cannot be.
+  if (best == k_none) return false;
+  const std::uint32_t u = mesh_.to(best);
+  mesh_.collapse(best);
+  update_fan(u);
+  return true;
+}
+
+std::int64_t Remesher::collapse_short(double least, bool is_first) {
+  std::int64_t n = 0;
+  std::vector<std::pair<double, std::uint32_t>> found;
+  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+    if (mesh_.is_gone(h / 3) || (mesh_.twin[h] != k_none && mesh_.twin[h] < h) || is_locked(h)) continue;
+    if (const double ratio = length_ratio(h); ratio < least) found.emplace_back(ratio, h);
+  }
+  std::sort(found.begin(), found.end());
+  for (const auto& [ratio, h] : found) {
+    if (mesh_.is_gone(h / 3) || !(length_ratio(h) < least)) continue;
+    const double before = std::min(fan_quality(mesh_.from(h)), fan_quality(mesh_.to(h)));
+    if (try_collapse(h, std::max(std::min(before, k_good_enough) - 1e-12, is_first ? -2.0 : 0.0), k_longest_after_collapse)) ++n;
+  }
+  context_.check_stop();
+  return n;
+}
+
+// ---- flips -------------------------------------------------------------------------------------------------------------------------------
+
+/// Whether the edge can go and both triangles then are better than `floor`.
+bool Remesher::is_flip_good(std::uint32_t h, double floor) const {
+  const std::uint32_t o = mesh_.twin[h];
+  if (o == k_none || mesh_.line[h] != k_no_line) return false;
+  const std::uint32_t a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(o);
+  return c != d && quality_of({c, d, b}, {mesh_.at(c), mesh_.at(d), mesh_.at(b)}, mesh_.hint[h / 3]) > floor &&
+         quality_of({d, c, a}, {mesh_.at(d), mesh_.at(c), mesh_.at(a)}, mesh_.hint[o / 3]) > floor && !mesh_.is_edge(c, d);
+}
+
+void Remesher::flip(std::uint32_t h) {
+  const std::uint32_t t = h / 3, u = mesh_.twin[h] / 3;
+  mesh_.flip(h);
+  update(t);
+  update(u);
+}
+
+bool Remesher::try_flip(std::uint32_t h, double gain) {
+  const std::uint32_t o = mesh_.twin[h];
+  if (o == k_none || !is_flip_good(h, std::min(quality(h / 3), quality(o / 3)) + gain)) return false;
+  flip(h);
+  return true;
+}
+
+std::int64_t Remesher::flip_edges() {
+  std::int64_t n = 0;
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t h = static_cast<std::uint32_t>(mesh_.twin.size()); h-- > 0;) {
+    const std::uint32_t o = mesh_.twin[h];
+    if (mesh_.is_gone(h / 3) || o == k_none || o < h || mesh_.line[h] != k_no_line) continue;
+    if (std::min(quality(h / 3), quality(o / 3)) < k_flip_below) stack.push_back(h);
+  }
+  while (!stack.empty()) {
+    const std::uint32_t h = stack.back();
+    stack.pop_back();
+    const std::uint32_t o = mesh_.twin[h];
+    if (!try_flip(h, k_flip_gain)) continue;
+    ++n;
+    for (const std::uint32_t e : {3 * (h / 3) + 1, 3 * (h / 3) + 2, 3 * (o / 3) + 1, 3 * (o / 3) + 2}) stack.push_back(e);
+  }
+  context_.check_stop();
+  return n;
+}
+
+std::int64_t Remesher::regularise() {
+  std::int64_t n = 0;
+  std::vector<int> excess(mesh_.vertices.size(), 0);
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+    if (mesh_.vertices[v].out == k_none) continue;
+    excess[v] = static_cast<int>(valence(v)) - 6;
+  }
+  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+    const std::uint32_t o = mesh_.twin[h];
+    if (mesh_.is_gone(h / 3) || o == k_none || o < h || mesh_.line[h] != k_no_line) continue;
+    const std::array<std::uint32_t, 4> v{mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(o)};
+    // Of corners nothing is known of how many neighbours are good.
+    int gain = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (mesh_.vertices[v[k]].kind != VertexKind::corner) gain += k < 2 ? 2 * excess[v[k]] - 1 : -2 * excess[v[k]] - 1;
+    if (gain <= 0 || !is_flip_good(h, k_regular_floor)) continue;
+    flip(h);
+    ++n;
+    for (std::size_t k = 0; k < 4; ++k) excess[v[k]] += k < 2 ? -1 : 1;
+  }
+  context_.check_stop();
+  return n;
+}
+
+std::vector<Remesher::Strip> Remesher::strips() const {
+  std::vector<Strip> found;
+  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+    if (mesh_.is_gone(h / 3) || mesh_.twin[h] == k_none || mesh_.twin[h] < h || mesh_.line[h] != k_no_line) continue;
+    const WorkVertex &a = mesh_.vertices[mesh_.from(h)], &b = mesh_.vertices[mesh_.to(h)];
+    if (a.kind == VertexKind::face || b.kind == VertexKind::face) continue;
+    if (a.kind == VertexKind::line && b.kind == VertexKind::line && a.line == b.line) continue;
+    found.push_back({mesh_.hint[h / 3], 0.5 * (a.point + b.point), distance(a.point, b.point)});
+  }
+  return found;
+}
+
+std::vector<ErrorPlace> Remesher::needles(double angle) const {
+  constexpr double k_to_degrees = 180.0 / std::numbers::pi;
+  std::vector<std::pair<double, std::uint32_t>> found;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (mesh_.is_gone(t)) continue;
+    const auto& v = mesh_.triangles[t];
+    double least = std::numbers::pi;
+    for (std::size_t k = 0; k < 3; ++k) least = std::min(least, corner_angle(mesh_.at(v[k]), mesh_.at(v[(k + 1) % 3]), mesh_.at(v[(k + 2) % 3])));
+    if (least < angle) found.emplace_back(least, t);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<ErrorPlace> places;
+  for (const auto& [least, t] : found) {
+    const auto& v = mesh_.triangles[t];
+    int n_corners = 0, n_lines = 0, n_edges = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      n_corners += mesh_.vertices[v[k]].kind == VertexKind::corner ? 1 : 0;
+      n_lines += mesh_.vertices[v[k]].kind == VertexKind::line ? 1 : 0;
+      n_edges += mesh_.line[3 * t + k] != k_no_line ? 1 : 0;
+    }
+    std::ostringstream text;
+    text.precision(3);
+    text << least * k_to_degrees << " degrees on patch " << r_.mesh->patches[r_.mesh->triangle_patch[mesh_.hint[t]]].name << ": " << n_corners << " corners, "
+         << n_lines << " vertices on lines, " << n_edges << " edges of lines";
+    if (is_kept(t)) text << ", kept as given";
+    places.push_back({(mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0, text.str()});
+  }
+  return places;
+}
+
+TriMesh Remesher::result() const {
+  TriMesh out;
+  out.patches = r_.mesh->patches;
+  std::vector<VertexId> ids(mesh_.vertices.size());
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
+    if (mesh_.vertices[v].out != k_none) ids[v] = out.points.push_back(mesh_.vertices[v].point);
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (mesh_.is_gone(static_cast<std::uint32_t>(t))) continue;
+    const auto& v = mesh_.triangles[t];
+    out.triangles.push_back({ids[v[0]], ids[v[1]], ids[v[2]]});
+    out.triangle_patch.push_back(r_.mesh->triangle_patch[mesh_.hint[t]]);
+  }
+  return out;
+}
+
+std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const {
+  std::vector<std::uint32_t> left;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+    if (!mesh_.is_gone(t)) left.push_back(t);
+  std::vector<std::uint8_t> is_found(r_.mesh->n_triangles(), 0);
+  const auto mark_around = [&](VertexId v) {
+    for (const HalfedgeId h : r_.topology.outgoing(v)) is_found[triangle_of(h).index()] = 1;
+  };
+  for (const auto& pair : pairs)
+    for (const std::uint32_t i : pair) {
+      const std::uint32_t t = left[i];
+      const auto& v = mesh_.triangles[t];
+      Box box;
+      for (const std::uint32_t k : v) box.add(mesh_.at(k));
+      // All that the triangle covers of its smooth piece: walked to from its corners and middle.
+      std::vector<TriangleId> stack{mesh_.hint[t]};
+      for (const std::uint32_t k : v) {
+        const WorkVertex& w = mesh_.vertices[k];
+        if (w.kind == VertexKind::face) stack.push_back(w.foot.triangle);
+        else if (w.kind == VertexKind::corner) mark_around(w.corner);
+        else stack.push_back(triangle_of(r_.lines[static_cast<std::size_t>(w.line)].halfedges[r_.line_place(w.line, w.s).segment]));
+      }
+      stack.push_back(r_.nearest((mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0, stack.back()).triangle);
+      std::vector<TriangleId> seen;
+      while (!stack.empty()) {
+        const TriangleId u = stack.back();
+        stack.pop_back();
+        if (std::find(seen.begin(), seen.end(), u) != seen.end()) continue;
+        seen.push_back(u);
+        is_found[u.index()] = 1;
+        for (int k = 0; k < 3; ++k) {
+          const HalfedgeId o = r_.topology.twin(halfedge(u, k));
+          if (!o.is_valid()) continue;
+          Box other;
+          for (const Point& p : corners(*r_.mesh, triangle_of(o))) other.add(p);
+          if (overlap(box, other)) stack.push_back(triangle_of(o));
+        }
+      }
+    }
+  std::vector<TriangleId> found;
+  for (int ring = 1;; ++ring) {
+    found.clear();
+    for (std::size_t t = 0; t < is_found.size(); ++t)
+      if (is_found[t] != 0) found.emplace_back(t);
+    if (ring >= rings) return found;
+    for (const TriangleId t : found)
+      for (const VertexId v : r_.mesh->triangles[t]) mark_around(v);
+  }
+}
+
+}  // namespace sterna::surfmesh

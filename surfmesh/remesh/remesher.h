@@ -1,0 +1,94 @@
+// Local operations on the new surface: every edge towards the wanted length, every triangle towards equilateral, every vertex on the reference.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "surfmesh/remesh/remesh_sizes.h"
+#include "surfmesh/remesh/work_mesh.h"
+
+namespace sterna::surfmesh {
+
+/// Passes are serial in a fixed order (but smoothing, colour by colour), so the result is the same for any number of threads.
+class Remesher {
+ public:
+  /// Begins with the reference's own triangles. Both must outlive this.
+  Remesher(const Reference& reference, const RemeshSizes& sizes, const RunContext& context);
+
+  /// Edges shorter than `least` (of what is wanted) go; shortest first. Returns how many. The first time triangles may lie against the reference where some
+  /// did before: needles of the input do.
+  std::int64_t collapse_short(double least, bool is_first);
+  /// Edges longer than `most` are halved; longest first, until none is left.
+  std::int64_t split_long(double most);
+  /// Where that makes the worse of two triangles better.
+  std::int64_t flip_edges();
+  /// Where that brings vertices nearer to six neighbours (four at lines' sides of a straight line) and leaves good triangles.
+  std::int64_t regularise();
+  /// Vertices towards the middle of their surroundings, weighted by sizes; where the worst triangle about gets no worse, or stays better than `floor`.
+  void smooth(int rounds, double floor = 0.6);
+  /// Triangles worse than `quality` (mean ratio): their edges go, are flipped or halved, or their vertices moved, where the worst about gets better.
+  std::int64_t improve(double quality);
+  /// What is near in space comes near in memory.
+  void renumber();
+  /// Wanted lengths anew from the field.
+  void refresh_sizes();
+
+  const WorkMesh& mesh() const { return mesh_; }
+  /// Strips between lines: each edge from one line to another, at its middle, with its length.
+  struct Strip {
+    TriangleId triangle;
+    Point point;
+    double width;
+  };
+  std::vector<Strip> strips() const;
+  /// Triangles with an angle below `angle`, the least first, and what of lines and corners is there.
+  std::vector<ErrorPlace> needles(double angle) const;
+  /// Vertices and triangles that are left, in their order.
+  TriMesh result() const;
+  /// Triangles of the reference about those of result() in the pairs: the nearer of `rings` rings about what the pairs cover. Sorted, each once.
+  std::vector<TriangleId> reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const;
+
+ private:
+  double wanted(std::uint32_t h) const;
+  double length_ratio(std::uint32_t h) const;
+  bool is_locked(std::uint32_t h) const { return mesh_.line[h] != k_no_line && locked_[static_cast<std::size_t>(mesh_.line[h])] != 0; }
+  bool is_kept(std::uint32_t t) const { return r_.is_kept[mesh_.hint[t]] != 0; }
+  Vec3 normal_at(std::uint32_t v, TriangleId hint, const Point& towards) const;
+  /// As of the last update().
+  double quality(std::uint32_t t) const { return quality_[t]; }
+  double quality_now(std::uint32_t t) const;
+  void update(std::uint32_t t) { quality_[t] = quality_now(t); }
+  void update_fan(std::uint32_t v) {
+    mesh_.for_out(v, [&](std::uint32_t h) { update(h / 3); });
+  }
+  double quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const;
+  double fan_quality(std::uint32_t v) const;
+  double fan_quality_now(std::uint32_t v, double floor) const;
+  std::uint32_t valence(std::uint32_t v) const;
+  double s_on_line(std::uint32_t v, std::int32_t line) const;
+  void put_on_face(WorkVertex& v, const Point& p, TriangleId start) const;
+  void put_on_line(WorkVertex& v, std::int32_t line, double s) const;
+  void resize(WorkVertex& v, TriangleId t) const;
+  WorkVertex middle(std::uint32_t h) const;
+  bool is_split_good(std::uint32_t h, std::uint32_t m) const;
+  bool is_collapse_legal(std::uint32_t h) const;
+  double collapse_quality(std::uint32_t h, double most) const;
+  bool try_collapse(std::uint32_t h, double floor, double most);
+  bool try_flip(std::uint32_t h, double gain);
+  bool is_flip_good(std::uint32_t h, double floor) const;
+  void flip(std::uint32_t h);
+  WorkVertex smoothed(std::uint32_t v, double share) const;
+  bool move(std::uint32_t v, double good);
+  bool search(std::uint32_t v);
+  std::vector<std::vector<std::uint32_t>> colours() const;
+
+  const Reference& r_;
+  const RemeshSizes& sizes_;
+  RunContext context_;
+  WorkMesh mesh_;
+  std::vector<double> quality_;       ///< of each triangle, k_folded for one against the reference
+  std::vector<std::uint8_t> locked_;  ///< lines of kept triangles
+};
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,87 @@
+// A triangle mesh that changes in place: splits, collapses, flips; half-edge 3 t + c begins at corner c of triangle t.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geom/base/vec3.h"
+#include "surfmesh/remesh/reference.h"
+
+namespace sterna::surfmesh {
+
+inline constexpr std::uint32_t k_none = 0xffffffffu;
+
+enum class VertexKind : std::uint8_t { face, line, corner };
+
+/// Where a vertex of the new surface is on the reference.
+struct WorkVertex {
+  Point point;
+  double size = 0.0;  ///< m, wanted length of edges here
+  VertexKind kind = VertexKind::face;
+  std::int32_t line = k_no_line;  ///< of kind line
+  double s = 0.0;                 ///< m, along the line
+  Foot foot;                      ///< of kind face
+  Vec3 normal;                    ///< of kind face: the reference's at the foot
+  VertexId corner;                ///< of kind corner: vertex of the reference
+  std::uint32_t out = k_none;     ///< a half-edge that begins here; k_none: the vertex is gone
+};
+
+struct WorkMesh {
+  std::vector<WorkVertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [0] = k_none: gone
+  std::vector<std::uint32_t> twin;                      ///< for each half-edge; k_none: rim
+  std::vector<std::int32_t> line;                       ///< for each half-edge, of its edge
+  std::vector<TriangleId> hint;                         ///< for each triangle one of the reference in the same smooth piece, about there
+
+  static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static std::uint32_t prev(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  std::uint32_t from(std::uint32_t h) const { return triangles[h / 3][h % 3]; }
+  std::uint32_t to(std::uint32_t h) const { return from(next(h)); }
+  std::uint32_t apex(std::uint32_t h) const { return from(prev(h)); }
+  bool is_gone(std::uint32_t t) const { return triangles[t][0] == k_none; }
+  const Point& at(std::uint32_t v) const { return vertices[v].point; }
+
+  /// Half-edges that begin at v, one for each triangle.
+  template <class Visit>
+  void for_out(std::uint32_t v, const Visit& visit) const {
+    const std::uint32_t first = vertices[v].out;
+    std::uint32_t h = first;
+    do {
+      visit(h);
+      h = twin[prev(h)];
+    } while (h != first && h != k_none);
+    if (h == first) return;
+    for (h = twin[first]; h != k_none; h = twin[h]) {
+      h = next(h);
+      visit(h);
+    }
+  }
+  /// Neighbours of v; at a rim the one that no half-edge from v leads to, too.
+  template <class Visit>
+  void for_ring(std::uint32_t v, const Visit& visit) const {
+    for_out(v, [&](std::uint32_t h) {
+      visit(to(h));
+      if (twin[prev(h)] == k_none) visit(apex(h));
+    });
+  }
+  bool is_edge(std::uint32_t a, std::uint32_t b) const;
+
+  /// The vertex `m` becomes the middle of the edge of h.
+  void split(std::uint32_t h, std::uint32_t m);
+  /// The vertex that h begins at goes to its end.
+  /// \pre the link condition
+  void collapse(std::uint32_t h);
+  /// \pre an edge of two triangles that is no line, and none between their apexes
+  void flip(std::uint32_t h);
+  /// Drops what is gone; what is near in space comes near in memory.
+  void renumber();
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b, std::int32_t l);
+};
+
+/// The reference's own triangles.
+WorkMesh work_mesh_of(const Reference& reference);
+
+}  // namespace sterna::surfmesh
