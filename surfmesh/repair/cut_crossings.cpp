@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "geom/boolean/cgal_arrange.h"
 #include "geom/mesh/find_crossings.h"
@@ -8,9 +9,11 @@ namespace sterna::surfmesh {
 
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context) {
   bool is_cut = false;
+  std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
   for (int round = 0; round < options.rounds; ++round) {
     const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
-    if (crossings.total == 0) return is_cut;
+    if (crossings.total == 0 || crossings.total >= fewest) return is_cut;
+    fewest = crossings.total;
     if (round == 0) {  // later rounds cut what rounding did to these
       std::vector<char> crosses(state.facets.size(), 0);
       for (const auto& [i, j] : crossings.pairs) crosses[i] = crosses[j] = 1;

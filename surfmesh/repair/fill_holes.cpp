@@ -5,7 +5,9 @@
 #include <numeric>
 #include <set>
 
+#include "geom/base/error.h"
 #include "geom/boolean/cgal_fill_hole.h"
+#include "geom/math/measures.h"
 #include "surfmesh/repair/repair_state.h"
 
 namespace sterna::surfmesh {
@@ -15,6 +17,9 @@ constexpr double k_flat_rim = 2e-3;   ///< of a hole's diameter: rims nearer to 
 constexpr double k_same_plane = 1e-6;  ///< of L: loops of one plane
 constexpr double k_full_half = 0.35;  ///< of the box's longest side in the plane: what the opening of half a model spans at least
 constexpr double k_origin_half = 0.1;  ///< the same where the plane goes through the origin
+constexpr double k_covered_share = 0.1;  ///< of the opening's area: facets in its plane at most
+constexpr double k_in_plane_share = 0.5;  ///< of a loop's vertices: the loop is the rim of half a model, and of something else besides
+constexpr double k_sheet_share = 0.8;  ///< of the part's area: a hole that large has no body around it
 constexpr int k_rings = 2;            ///< of triangles that a curved filling continues
 constexpr std::size_t k_smooth_edges = 4;  ///< smaller holes need no new points
 
@@ -166,6 +171,13 @@ bool fill_one(RepairState& state, const Fans& fans, const Loop& loop, const RimS
   return true;
 }
 
+double opening_area(const RepairState& state, const Loop& loop) {
+  Vec3 sum;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += 0.5 * cross(state.points[loop[i]] - state.points[loop[0]], state.points[loop[(i + 1) % loop.size()]] - state.points[loop[0]]);
+  return norm(sum);
+}
+
 struct HalfPlane {
   std::size_t axis = 0;
   double at = 0.0, off = 0.0;
@@ -207,14 +219,63 @@ std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<L
     body = std::max(body, box.max[other] - box.min[other]);
   }
   plane.share = widest / body;
+  // A closed end with a hole in it is no half: what lies in the plane is less than the opening.
+  double covered = 0.0;
+  for (const Facet& f : state.facets) {
+    const bool is_in_plane = std::all_of(f.begin(), f.end(), [&](std::uint32_t v) { return std::abs(state.points[v][axis] - plane.at) <= tolerance; });
+    if (is_in_plane) covered += triangle_area(state.points[f[0]], state.points[f[1]], state.points[f[2]]);
+  }
+  double open = 0.0;
+  for (const std::size_t i : plane.loops) open += opening_area(state, loops[i]);
+  if (!is_asked && covered > k_covered_share * open) return std::nullopt;
   if (!is_asked && plane.share < (plane.at == 0.0 ? k_origin_half : k_full_half)) return std::nullopt;
   return plane;
+}
+
+/// Loops that leave the plane of a half model and come back (its base is open, too): each way outside is closed by the line between its ends, and filled.
+void close_ways_out(RepairState& state, const RepairOptions& options) {
+  const double tolerance = options.half_tolerance * state.length;
+  const std::vector<Loop> loops = find_loops(state);
+  const Fans fans = fans_of(state);
+  Box box;
+  for (const Facet& f : state.facets)
+    for (const std::uint32_t v : f) box.add(state.points[v]);
+  for (const Loop& loop : loops) {
+    for (const std::size_t axis : {1u, 2u, 0u}) {
+      if (options.half != "automatic" && options.half != std::string(1, "xyz"[axis])) continue;
+      bool is_done = false;
+      for (const double end : {box.min[axis], box.max[axis]}) {
+        const auto is_in = [&](std::uint32_t v) { return std::abs(state.points[v][axis] - end) <= 2.0 * tolerance; };
+        const auto n_in = static_cast<std::size_t>(std::count_if(loop.begin(), loop.end(), is_in));
+        if (n_in == loop.size() || static_cast<double>(n_in) < k_in_plane_share * static_cast<double>(loop.size())) continue;
+        const auto first_in = static_cast<std::size_t>(std::find_if(loop.begin(), loop.end(), is_in) - loop.begin());
+        Loop way;
+        for (std::size_t i = 0; i <= loop.size(); ++i) {
+          const std::uint32_t v = loop[(first_in + i) % loop.size()];
+          if (!is_in(v)) {
+            if (way.empty()) way.push_back(loop[(first_in + i + loop.size() - 1) % loop.size()]);
+            way.push_back(v);
+          } else if (!way.empty()) {
+            way.push_back(v);
+            const RimShape shape = shape_of(state, way);
+            const bool is_flat = shape.off <= k_flat_rim * shape.diameter;
+            if (way.size() > 2 && shape.diameter <= (is_flat ? options.flat_hole : options.hole) * state.length)
+              is_done |= fill_one(state, fans, way, shape, FacetMark::filled, RepairKind::filled);
+            way.clear();
+          }
+        }
+        if (is_done) break;
+      }
+      if (is_done) break;
+    }
+  }
 }
 
 }  // namespace
 
 void cap_half(RepairState& state, const RepairOptions& options) {
   if (options.half == "off") return;
+  close_ways_out(state, options);
   const std::vector<Loop> loops = find_loops(state);
   const double tolerance = options.half_tolerance * state.length;
   std::optional<HalfPlane> best;
@@ -279,6 +340,14 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
   for (const Loop& loop : loops) shapes.push_back(shape_of(state, loop));
   std::size_t n_open = 0;
   std::vector<char> is_done(loops.size(), 0);
+  std::vector<double> part_area(parts.count, 0.0);
+  double all_area = 0.0;
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    const auto c = state.corners(t);
+    part_area[parts.part[t]] += triangle_area(c[0], c[1], c[2]);
+    all_area += triangle_area(c[0], c[1], c[2]);
+  }
+  std::vector<char> is_sheet(parts.count, 0);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     context.progress(static_cast<double>(i) / static_cast<double>(loops.size()));
     if (is_done[i]) continue;
@@ -288,15 +357,24 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
     const double limit = (is_flat ? options.flat_hole : options.hole) * state.length;
     if (loops[i].size() < 3 || shape.diameter > limit || loops[i].size() > static_cast<std::size_t>(options.hole_edges)) {
       ++n_open;
+      context.debug("repair: a hole of " + std::to_string(loops[i].size()) + " edges, " + short_number(shape.diameter) + " m across (" +
+                    short_number(shape.diameter / state.length) + " body lengths, its rim " + short_number(shape.off) + " m off its plane), about " +
+                    format_point(shape.center) + " is above the limits");
+      continue;
+    }
+    const std::uint32_t its_part = fans[loops[i][0]].empty() ? 0 : parts.part[fans[loops[i][0]][0]];
+    if (kind == RepairKind::filled && opening_area(state, loops[i]) > k_sheet_share * part_area[its_part]) {
+      // What fills it would be as large as what is there: no body, but a sheet.
+      if (part_area[its_part] < 0.5 * all_area) is_sheet[its_part] = 1;
+      else ++n_open;
       continue;
     }
     if (is_flat) {
       // The other loops of this plane and part: a ring is filled as one.
       std::vector<Loop> group{loops[i]};
       std::vector<std::size_t> members;
-      const std::uint32_t part = fans[loops[i][0]].empty() ? 0 : parts.part[fans[loops[i][0]][0]];
       for (std::size_t j = i + 1; j < loops.size(); ++j) {
-        if (is_done[j] || fans[loops[j][0]].empty() || parts.part[fans[loops[j][0]][0]] != part) continue;
+        if (is_done[j] || fans[loops[j][0]].empty() || parts.part[fans[loops[j][0]][0]] != its_part) continue;
         if (std::abs(dot(shapes[j].normal, shape.normal)) < 1.0 - 1e-6) continue;
         if (std::abs(dot(shapes[j].center - shape.center, shape.normal)) > k_same_plane * state.length + shape.off || shapes[j].off > k_flat_rim * shapes[j].diameter) continue;
         if (shapes[j].diameter > options.flat_hole * state.length) continue;
@@ -314,6 +392,13 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
     }
     if (!fill_one(state, fans, loops[i], shape, FacetMark::filled, kind)) ++n_open;
   }
+  std::vector<char> is_of_sheet(state.facets.size(), 0), is_kept(state.facets.size(), 1);
+  for (std::uint32_t t = 0; t < parts.part.size(); ++t) {
+    is_of_sheet[t] = is_sheet[parts.part[t]];
+    is_kept[t] = !is_of_sheet[t];
+  }
+  state.note_parts(RepairKind::removed_sheet, is_of_sheet, state.edges());
+  state.keep(is_kept);
   return n_open;
 }
 

@@ -31,6 +31,23 @@ double sample(const std::array<Vec3, 3>& c, double spacing, const Visit& visit) 
   return longest / n;
 }
 
+/// A facet by its corners' coordinates, whatever their order.
+using FacetKey = std::array<std::array<double, 3>, 3>;
+FacetKey key_of(const std::array<Vec3, 3>& c) {
+  FacetKey key;
+  for (std::size_t k = 0; k < 3; ++k) key[k] = {c[k].x, c[k].y, c[k].z};
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// Ascending.
+std::vector<FacetKey> keys_of(const std::vector<Vec3>& points, const std::vector<Facet>& facets) {
+  std::vector<FacetKey> keys;
+  for (const Facet& f : facets) keys.push_back(key_of({points[f[0]], points[f[1]], points[f[2]]}));
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
 struct Farthest {
   double given = 0.0, filled = 0.0, spacing = 0.0;
 };
@@ -40,13 +57,14 @@ struct Farthest {
 void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, const std::vector<Facet>& input_facets, const RunContext& context) {
   const auto combine = [](Farthest a, const Farthest& b) { return Farthest{std::max(a.given, b.given), std::max(a.filled, b.filled), std::max(a.spacing, b.spacing)}; };
   const double spacing = k_sampling_share * state.length;
+  const std::vector<FacetKey> input_keys = keys_of(input_points, input_facets), result_keys = keys_of(state.points, state.facets);
   const TriangleTree input(mesh_of_facets(input_points, input_facets), context);
   const Farthest out = parallel_reduce(
       context, state.facets.size(), Farthest{},
       [&](std::size_t begin, std::size_t end) {
         Farthest far;
         for (std::size_t t = begin; t < end; ++t) {
-          if (!state.info[t].is_touched) continue;  // a facet of the input as it was
+          if (std::binary_search(input_keys.begin(), input_keys.end(), key_of(state.corners(t)))) continue;  // as it was
           double& value = state.info[t].mark == FacetMark::given ? far.given : far.filled;
           far.spacing = std::max(far.spacing, sample(state.corners(t), spacing, [&](const Vec3& p) { value = std::max(value, input.nearest(p).distance); }));
         }
@@ -60,7 +78,9 @@ void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, 
         Farthest far;
         for (std::size_t t = begin; t < end; ++t) {
           const Facet& f = input_facets[t];
-          far.spacing = std::max(far.spacing, sample({input_points[f[0]], input_points[f[1]], input_points[f[2]]}, spacing,
+          const std::array<Vec3, 3> c{input_points[f[0]], input_points[f[1]], input_points[f[2]]};
+          if (std::binary_search(result_keys.begin(), result_keys.end(), key_of(c))) continue;
+          far.spacing = std::max(far.spacing, sample(c, spacing,
                                                      [&](const Vec3& p) { far.given = std::max(far.given, result.nearest(p).distance); }));
         }
         return far;

@@ -16,7 +16,6 @@ namespace {
 constexpr int k_rays = 60;               ///< tried for each part
 constexpr double k_from_edge = 1e-6;     ///< barycentric: a ray that passes an edge nearer than that decides nothing
 constexpr double k_grazing = 1e-4;       ///< cosine to the normal below which it decides nothing, either
-constexpr double k_leak_share = 0.4;     ///< of the area that is left at least: else the outside leaks in
 
 struct AroundEdge {
   std::uint32_t third = 0;  ///< vertex
@@ -141,7 +140,7 @@ Sides find_cells(const RepairState& state, const EdgeTable& edges, const RunCont
 
 }  // namespace
 
-bool keep_outer_hull(RepairState& state, const RunContext& context) {
+bool keep_outer_hull(RepairState& state, double most_sheets, const RunContext& context) {
   const EdgeTable edges = state.edges();
   Sides sides = find_cells(state, edges, context);
   const std::uint32_t outside = sides.cells.root(sides.outside);
@@ -162,7 +161,7 @@ bool keep_outer_hull(RepairState& state, const RunContext& context) {
       if (back) is_turned[t] = 1;
     }
   }
-  if (sheets > (1.0 - k_leak_share) * all || std::find(is_kept.begin(), is_kept.end(), 1) == is_kept.end()) return false;
+  if (sheets > most_sheets * all || std::find(is_kept.begin(), is_kept.end(), 1) == is_kept.end()) return false;
   state.note_parts(RepairKind::removed_sheet, is_sheet, edges);
   state.note_parts(RepairKind::removed_inside, is_inside, edges);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t)

@@ -7,6 +7,7 @@
 namespace sterna::surfmesh {
 namespace {
 
+constexpr double k_open_share = 0.9;   ///< of the box's diagonal: the rim of a flap is longer, that of a body with a hole mostly shorter
 constexpr double k_flat_share = 1e-6;  ///< of L: the vertices of a flat sheet are that near to its plane
 
 /// Pieces that are connected over edges with two facets.
@@ -21,10 +22,18 @@ std::vector<std::uint32_t> smooth_pieces(const RepairState& state, const EdgeTab
 bool remove_flaps(RepairState& state) {
   const EdgeTable edges = state.edges();
   const std::vector<std::uint32_t> piece = smooth_pieces(state, edges);
+  std::vector<double> open_length(state.facets.size(), 0.0);
+  std::vector<Box> box(state.facets.size());
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t)
+    for (const Vec3& p : state.corners(t)) box[piece[t]].add(p);
   std::vector<char> is_open(state.facets.size(), 0), hangs(state.facets.size(), 0), is_needed(state.facets.size(), 0);
   for (const Edge& edge : edges.edges()) {
     const auto at = edges.at(edge);
-    if (edge.count == 1) is_open[piece[at[0] / 3]] = 1;
+    if (edge.count == 1) {
+      const std::uint32_t of = piece[at[0] / 3];
+      open_length[of] += distance(state.points[edge.low], state.points[edge.high]);
+      is_open[of] = open_length[of] >= k_open_share * norm(box[of].max - box[of].min);
+    }
     if (edge.count < 3) continue;
     for (const std::uint32_t h : at) {
       const std::uint32_t of = piece[h / 3];

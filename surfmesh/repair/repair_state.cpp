@@ -69,7 +69,7 @@ void RepairState::note_parts(RepairKind kind, const std::vector<char>& is_of, co
   for (const auto& [first, part] : parts) note(kind, part);
 }
 
-void weld_rounded(RepairState& state) {
+void weld_rounded(RepairState& state, bool is_oriented) {
   std::vector<std::uint32_t> order(state.points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) { return std::array{state.points[v].x, state.points[v].y, state.points[v].z}; };
@@ -96,14 +96,20 @@ void weld_rounded(RepairState& state) {
     sorted.emplace_back(key_of, t);
   }
   std::sort(sorted.begin(), sorted.end());
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].first != sorted[i - 1].first) continue;
-    is_kept[sorted[i].second] = 0;
-    if (state.info[sorted[i].second].mark != FacetMark::cap) continue;
-    // A cap that falls onto a facet is no part of the result; the first of the copies stands for all.
-    std::size_t first = i;
-    while (first > 0 && sorted[first - 1].first == sorted[i].first) --first;
-    state.info[sorted[first].second].mark = FacetMark::cap;
+  const auto is_even = [](const Facet& f) { return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2; };  // runs upwards: one of the two senses
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    bool is_cap = false;
+    std::int64_t balance = 0;
+    for (end = begin; end < sorted.size() && sorted[end].first == sorted[begin].first; ++end) {
+      const std::uint32_t t = sorted[end].second;
+      is_cap |= state.info[t].mark == FacetMark::cap;
+      balance += is_even(state.facets[t]) ? 1 : -1;
+      if (end > begin) is_kept[t] = 0;
+    }
+    if (end - begin < 2) continue;
+    // A facet that falls onto the cap is no part of the result.
+    if (is_cap) state.info[sorted[begin].second].mark = FacetMark::cap;
+    if (is_oriented && balance == 0) is_kept[sorted[begin].second] = 0;
   }
   state.keep(is_kept);
 }

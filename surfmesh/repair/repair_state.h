@@ -41,8 +41,9 @@ struct RepairState {
   void note_parts(RepairKind kind, const std::vector<char>& is_of, const EdgeTable& edges);
 };
 
-/// Vertices with equal coordinates become one; facets with a repeated vertex, without area, or written twice are dropped.
-void weld_rounded(RepairState& state);
+/// Vertices with equal coordinates become one; facets with a repeated vertex, without area, or written twice are dropped. Of copies with opposite senses none
+/// stays where `is_oriented`, for there is nothing between them; else one does.
+void weld_rounded(RepairState& state, bool is_oriented = false);
 
 /// Parts (connected over edges) whose box is smaller than allowed are dropped.
 void drop_small_parts(RepairState& state, const RepairOptions& options);
@@ -62,12 +63,12 @@ void cap_half(RepairState& state, const RepairOptions& options);
 /// Fills loops within the limits. `kind`: filled or replaced. \return loops that stay open
 std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairKind kind, const RunContext& context);
 
-/// Cuts facets where they cross, in rounds, until nothing crosses or the rounds are over. \return whether something was cut
+/// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are over, or there are more crossings than before. \return whether something was cut
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// Keeps facets with the outer fluid on one side, turned towards it; \pre nothing crosses. Returns false, and changes nothing, when too little would be left:
-/// the outside leaks in.
-bool keep_outer_hull(RepairState& state, const RunContext& context);
+/// Keeps facets with the outer fluid on one side, turned towards it; \pre nothing crosses. Returns false, and changes nothing, when more than the share
+/// `most_sheets` of the area has it on both sides: it leaks in.
+bool keep_outer_hull(RepairState& state, double most_sheets, const RunContext& context);
 
 /// Vertices and edges in which the solid touches itself become several, a little apart.
 void separate_touching(RepairState& state);
@@ -75,7 +76,7 @@ void separate_touching(RepairState& state);
 /// Edges shorter than options.sliver become a vertex, where something was changed and that turns no facet.
 void collapse_slivers(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// What still crosses is taken out with growing rings around it, and filled. \return whether nothing crosses
+/// What still crosses, crowds an edge or is open is taken out with growing rings around it, and filled. \pre oriented \return whether nothing is left
 bool replace_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
 
 /// Facets of each component get one sense where that is possible: the majority's.

@@ -8,11 +8,16 @@
 #include "geom/mesh/find_crossings.h"
 #include "surfmesh/repair/repair_state.h"
 #include "surfmesh/stitch/clean_facets.h"
+#include "surfmesh/stitch/orient.h"
 #include "surfmesh/stitch/patches.h"
 #include "surfmesh/stitch/weld.h"
 
 namespace sterna::surfmesh {
 namespace {
+
+constexpr int k_hull_tries = 3;
+constexpr double k_most_sheets = 0.6;    ///< of the area may have the outside on both sides where nothing is open
+constexpr double k_most_leaking = 0.03;  ///< the same where something is: more, and what should be inside is outside
 
 /// What repair is for; other errors are the caller's.
 bool is_reparable(ErrorCode code) {
@@ -56,6 +61,18 @@ RepairState first_state(const std::vector<SurfaceSoup>& soups, const StitchOptio
   in_metres.unit = 1.0;
   if (!is_automatic(stitching.weld_tolerance)) in_metres.weld_tolerance = stitching.weld_tolerance;
   weld_near(surface, in_metres, report, context);
+  {
+    const EdgeTable edges(surface.facets, surface.points.size());
+    const Defects defects = find_defects(surface.facets, surface.points.size(), edges);
+    WorkingSurface turned = surface;
+    const Orientation orientation = flood_orientation(surface, edges);
+    for (std::size_t t = 0; t < turned.n_facets(); ++t)
+      if (orientation.is_flipped[t]) std::swap(turned.facets[t][1], turned.facets[t][2]);
+    if (defects.crowded.empty() && orientation.conflicts.empty()) {
+      flip_flat_facets(turned, report);
+      surface = std::move(turned);
+    }
+  }
   std::vector<FacetInfo> info;
   for (const std::uint32_t patch : surface.patch) info.push_back({patch, FacetMark::given, report.n_welded_near > 0});
   state.points = std::move(surface.points);
@@ -73,9 +90,26 @@ RepairState first_state(const std::vector<SurfaceSoup>& soups, const StitchOptio
   return state;
 }
 
-bool is_closed_mod_two(const RepairState& state) {
+std::size_t count_open_edges(const RepairState& state) {
   const EdgeTable edges = state.edges();
-  return std::all_of(edges.edges().begin(), edges.edges().end(), [](const Edge& edge) { return edge.count != 1; });
+  return static_cast<std::size_t>(std::count_if(edges.edges().begin(), edges.edges().end(), [](const Edge& edge) { return edge.count == 1; }));
+}
+
+/// Cuts what crosses and takes the outer hull. Where cutting leaves open edges (copies that become one, rounding), flaps go, and if the outside still leaks in
+/// through what is left, that is filled first. \return whether a hull could be taken
+bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunContext& context) {
+  cut_crossings(state, options, context.part("cut", 0.0, 0.5));
+  for (int round = 0; round < k_hull_tries; ++round) {
+    if (count_open_edges(state) > 0) remove_sheets(state, context);
+    const std::size_t n_open = count_open_edges(state);
+    if (keep_outer_hull(state, n_open == 0 ? k_most_sheets : k_most_leaking, context)) return true;
+    if (n_open == 0) return false;
+    context.debug("repair: " + std::to_string(n_open) + " open edges after cutting");
+    fill_holes(state, options, RepairKind::filled, context);
+    weld_rounded(state);
+    cut_crossings(state, options, context);
+  }
+  return false;
 }
 
 bool needs_hull(const RepairState& state, const RunContext& context) {
@@ -173,24 +207,24 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   RepairState state = first_state(soups, stitching, input, context);
   if (state.facets.empty()) throw_bad_argument("repairing " + sources_of(soups), "no facet has an area");
   drop_small_parts(state, options);
-  remove_sheets(state, context);
   zip_seams(state, options, context.part("zip", 0.1, 0.25));
   remove_sheets(state, context);
   cap_half(state, options);
-  std::size_t n_open = fill_holes(state, options, RepairKind::filled, context.part("fill", 0.25, 0.4));
+  const std::size_t n_open = fill_holes(state, options, RepairKind::filled, context.part("fill", 0.25, 0.4));
   weld_rounded(state);
-
   const bool is_hull_possible = options.hull && stitching.fluid != "inside";
   bool is_leaking = false;
   if (n_open == 0 && is_hull_possible && needs_hull(state, context)) {
-    cut_crossings(state, options, context.part("cut", 0.4, 0.7));
-    is_leaking = !keep_outer_hull(state, context.part("hull", 0.7, 0.8));
-    if (!is_leaking) separate_touching(state);
+    is_leaking = !cut_to_hull(state, options, context.part("hull", 0.4, 0.8));
+    if (!is_leaking) {
+      drop_small_parts(state, options);
+      separate_touching(state);
+    }
   }
   make_consistent(state);
   if (!is_leaking) {
     collapse_slivers(state, options, context);
-    if (n_open == 0 && is_closed_mod_two(state)) replace_crossings(state, options, context.part("replace", 0.8, 0.9));
+    if (count_open_edges(state) == 0) replace_crossings(state, options, context.part("replace", 0.8, 0.9));
   }
 
   RepairResult result;

@@ -20,7 +20,7 @@ namespace sterna::surfmesh {
 struct RepairOptions {
   double gap = 1e-3;             ///< L; wider seams stay open, and are holes
   double hole = 0.3;             ///< L; diameter of the largest curved hole that is filled
-  double flat_hole = 1.0;        ///< L; the same for holes with a flat rim
+  double flat_hole = 2.0;        ///< L; the same for holes with a flat rim
   int hole_edges = 1000;         ///< of the largest hole that is filled
   double smallest_part = 1e-3;   ///< L; parts with a smaller box are dropped
   double sliver = 1e-7;          ///< L; shorter edges are collapsed where something was changed

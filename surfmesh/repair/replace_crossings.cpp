@@ -7,12 +7,17 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_max_rings = 5;            ///< of facets around those that cross
+constexpr double k_own_hole = 2.0;        ///< L
 constexpr double k_most_replaced = 0.05;  ///< of the facets at one time: more is no local matter
 
 }  // namespace
 
-bool replace_crossings(RepairState& state, const RepairOptions& options, const RunContext& context) {
+bool replace_crossings(RepairState& state, const RepairOptions& given, const RunContext& context) {
+  RepairOptions options = given;
+  options.hole = options.flat_hole = k_own_hole;  // what was taken out is put back, however long its facets
   for (int round = 0; round < options.rounds; ++round) {
+    if (!find_loops(state).empty()) fill_holes(state, options, RepairKind::replaced, context);
+    separate_touching(state);
     const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
     const EdgeTable edges = state.edges();
     std::vector<char> is_out(state.facets.size(), 0);
@@ -38,10 +43,11 @@ bool replace_crossings(RepairState& state, const RepairOptions& options, const R
     std::vector<char> is_kept(state.facets.size(), 1);
     for (std::uint32_t t = 0; t < state.facets.size(); ++t) is_kept[t] = !is_out[t];
     state.keep(is_kept);
-    fill_holes(state, options, RepairKind::replaced, context);
-    weld_rounded(state);
+    const std::size_t n_left = fill_holes(state, options, RepairKind::replaced, context);
+    context.debug("repair: replaced " + std::to_string(n_out) + " facets for " + std::to_string(crossings.total) + " crossings; holes left: " + std::to_string(n_left));
+    weld_rounded(state, true);
   }
-  return find_crossings(state.points, state.facets, context).total == 0;
+  return find_loops(state).empty() && find_crossings(state.points, state.facets, context).total == 0;
 }
 
 }  // namespace sterna::surfmesh

@@ -84,8 +84,8 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
       const double d = distance(p, foot);
       if (d > nearest.distance) return true;
       const double from_end = std::min(distance(foot, pu), distance(foot, pv));
-      if (from_end <= std::max(2.0 * d, 1e-3 * distance(pu, pv)) || from_end <= 1e-12 * state.length) {
-        is_at_vertex = is_at_vertex || from_end <= 2.0 * d;
+      if (from_end <= std::max(2.0 * d, k_first_share * state.length)) {
+        is_at_vertex = true;
         return true;
       }
       bool goes_along = false;
