@@ -1,0 +1,38 @@
+#include <algorithm>
+#include <limits>
+
+#include "geom/boolean/cgal_arrange.h"
+#include "geom/mesh/find_crossings.h"
+#include "surfmesh/repair/repair_state.h"
+
+namespace sterna::surfmesh {
+
+bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context) {
+  bool is_cut = false;
+  std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
+  for (int round = 0; round < options.rounds; ++round) {
+    const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
+    if (crossings.total == 0 || crossings.total >= fewest) return is_cut;
+    fewest = crossings.total;
+    if (round == 0) {  // later rounds cut what rounding did to these
+      std::vector<char> crosses(state.facets.size(), 0);
+      for (const auto& [i, j] : crossings.pairs) crosses[i] = crosses[j] = 1;
+      state.note_parts(RepairKind::cut, crosses, state.edges());
+    }
+    context.debug("repair: cutting " + std::to_string(crossings.total) + " pairs of facets that cross");
+    Arrangement pieces = arrange_triangles(state.points, state.facets, crossings.pairs, context);
+    std::vector<FacetInfo> info;
+    info.reserve(pieces.triangles.size());
+    for (const std::uint32_t parent : pieces.parent) info.push_back(state.info[parent]);
+    for (const auto& [i, j] : crossings.pairs) state.info[i].is_touched = state.info[j].is_touched = true;
+    for (std::size_t t = 0; t < info.size(); ++t) info[t].is_touched = state.info[pieces.parent[t]].is_touched;
+    state.points = std::move(pieces.points);
+    state.facets = std::move(pieces.triangles);
+    state.info = std::move(info);
+    weld_rounded(state);
+    is_cut = true;
+  }
+  return is_cut;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,405 @@
+// Loops in one plane are filled together (a ring between two of them is a ring), others one by one with the triangles around them as what they continue.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "geom/base/error.h"
+#include "geom/boolean/cgal_fill_hole.h"
+#include "geom/math/measures.h"
+#include "surfmesh/repair/repair_state.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr double k_flat_rim = 2e-3;   ///< of a hole's diameter: rims nearer to a plane than that are flat
+constexpr double k_same_plane = 1e-6;  ///< of L: loops of one plane
+constexpr double k_full_half = 0.35;  ///< of the box's longest side in the plane: what the opening of half a model spans at least
+constexpr double k_origin_half = 0.1;  ///< the same where the plane goes through the origin
+constexpr double k_covered_share = 0.1;  ///< of the opening's area: facets in its plane at most
+constexpr double k_in_plane_share = 0.5;  ///< of a loop's vertices: the loop is the rim of half a model, and of something else besides
+constexpr double k_sheet_share = 0.8;  ///< of the part's area: a hole that large has no body around it
+constexpr int k_rings = 2;            ///< of triangles that a curved filling continues
+constexpr std::size_t k_smooth_edges = 4;  ///< smaller holes need no new points
+
+using Loop = std::vector<std::uint32_t>;
+
+struct RimShape {
+  Vec3 center, normal;    ///< unit, right-handed along the loop
+  double diameter = 0.0;  ///< of the box, m
+  double off = 0.0;       ///< farthest from the plane, m
+};
+
+RimShape shape_of(const RepairState& state, const Loop& loop) {
+  RimShape shape;
+  Box box;
+  for (const std::uint32_t v : loop) {
+    shape.center += state.points[v] / static_cast<double>(loop.size());
+    box.add(state.points[v]);
+  }
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    shape.normal += cross(state.points[loop[i]] - shape.center, state.points[loop[(i + 1) % loop.size()]] - shape.center);
+  shape.normal = normalized(shape.normal);
+  shape.diameter = norm(box.max - box.min);
+  // A rim in a plane of coordinates: that plane, not one a bit off it.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.max[axis] != box.min[axis]) continue;
+    Vec3 n;
+    n[axis] = shape.normal[axis] < 0.0 ? -1.0 : 1.0;
+    shape.normal = n;
+  }
+  for (const std::uint32_t v : loop) shape.off = std::max(shape.off, std::abs(dot(state.points[v] - shape.center, shape.normal)));
+  return shape;
+}
+
+std::vector<std::vector<Vec3>> points_of(const RepairState& state, const std::vector<Loop>& loops) {
+  std::vector<std::vector<Vec3>> result;
+  for (const Loop& loop : loops) {
+    auto& points = result.emplace_back();
+    for (const std::uint32_t v : loop) points.push_back(state.points[v]);
+  }
+  return result;
+}
+
+/// Facets at each vertex, for neighbourhoods.
+using Fans = std::vector<std::vector<std::uint32_t>>;
+Fans fans_of(const RepairState& state) {
+  Fans fans(state.points.size());
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t)
+    for (const std::uint32_t v : state.facets[t]) fans[v].push_back(t);
+  return fans;
+}
+
+HoleRim rim_of(const RepairState& state, const Fans& fans, const Loop& loop) {
+  HoleRim rim;
+  rim.n_loop = static_cast<std::uint32_t>(loop.size());
+  std::set<std::uint32_t> facets;
+  std::set<std::uint32_t> front(loop.begin(), loop.end());
+  for (int ring = 0; ring < k_rings; ++ring) {
+    std::set<std::uint32_t> next;
+    for (const std::uint32_t v : front)
+      for (const std::uint32_t t : v < fans.size() ? fans[v] : std::vector<std::uint32_t>{})
+        if (facets.insert(t).second) next.insert(state.facets[t].begin(), state.facets[t].end());
+    front = std::move(next);
+  }
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (const std::uint32_t v : loop) {
+    number[v] = static_cast<std::uint32_t>(rim.points.size());
+    rim.points.push_back(state.points[v]);
+  }
+  for (const std::uint32_t t : facets) {
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = state.facets[t][k];
+      const auto [found, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(rim.points.size()));
+      if (is_new) rim.points.push_back(state.points[v]);
+      triangle[k] = found->second;
+    }
+    rim.triangles.push_back(triangle);
+  }
+  return rim;
+}
+
+/// The patch that most facets along the loop have.
+std::uint32_t patch_around(const RepairState& state, const Fans& fans, const Loop& loop) {
+  std::map<std::uint32_t, std::size_t> votes;
+  for (const std::uint32_t v : loop)
+    for (const std::uint32_t t : v < fans.size() ? fans[v] : std::vector<std::uint32_t>{})
+      if (state.info[t].mark != FacetMark::cap) ++votes[state.info[t].patch];
+  std::uint32_t best = 0;
+  std::size_t n = 0;
+  for (const auto& [patch, count] : votes)
+    if (count > n) {
+      best = patch;
+      n = count;
+    }
+  return best;
+}
+
+/// Adds the triangles of a patch over loops (numbered through), turned so that they run along the loops; notes the change.
+void add_patch(RepairState& state, const std::vector<Loop>& loops, const HolePatch& patch, std::uint32_t of_patch, FacetMark mark, RepairKind kind, double size) {
+  std::vector<std::uint32_t> number;
+  std::set<std::array<std::uint32_t, 2>> along;
+  for (const Loop& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) along.insert({loop[i], loop[(i + 1) % loop.size()]});
+    number.insert(number.end(), loop.begin(), loop.end());
+  }
+  for (const Vec3& p : patch.points) {
+    number.push_back(static_cast<std::uint32_t>(state.points.size()));
+    state.points.push_back(p);
+  }
+  std::int64_t balance = 0;
+  for (const auto& t : patch.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      balance += along.count({number[t[k]], number[t[(k + 1) % 3]]}) ? 1 : 0;
+      balance -= along.count({number[t[(k + 1) % 3]], number[t[k]]}) ? 1 : 0;
+    }
+  std::vector<std::uint32_t> added;
+  for (const auto& t : patch.triangles) {
+    added.push_back(static_cast<std::uint32_t>(state.facets.size()));
+    Facet facet{number[t[0]], number[t[1]], number[t[2]]};
+    if (balance < 0) std::swap(facet[1], facet[2]);
+    state.add(facet, {of_patch, mark, true});
+  }
+  if (mark != FacetMark::cap) state.note(kind, added, size);
+}
+
+/// Senses of nested loops must alternate for what lies between them to be filled; that is so where the filling runs along all loops.
+bool runs_along(const std::vector<Loop>& loops, const HolePatch& patch) {
+  std::vector<std::uint32_t> next;
+  for (const Loop& loop : loops) {
+    const auto first = static_cast<std::uint32_t>(next.size());
+    for (std::uint32_t i = 0; i < loop.size(); ++i) next.push_back(first + (i + 1) % static_cast<std::uint32_t>(loop.size()));
+  }
+  std::int64_t n_along = 0, n_against = 0;
+  for (const auto& t : patch.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      n_along += t[k] < next.size() && next[t[k]] == t[(k + 1) % 3];
+      n_against += t[(k + 1) % 3] < next.size() && next[t[(k + 1) % 3]] == t[k];
+    }
+  return n_against == 0 || n_along == 0;
+}
+
+bool fill_one(RepairState& state, const Fans& fans, const Loop& loop, const RimShape& shape, FacetMark mark, RepairKind kind) {
+  HolePatch patch;
+  if (loop.size() == 3) patch.triangles.push_back({0, 1, 2});
+  else if (shape.off <= k_flat_rim * shape.diameter || mark == FacetMark::cap) patch = fill_flat(points_of(state, {loop}), shape.normal);
+  if (patch.triangles.empty()) patch = fill_curved(rim_of(state, fans, loop), loop.size() > k_smooth_edges && kind == RepairKind::filled && mark != FacetMark::cap);
+  if (patch.triangles.empty()) return false;
+  add_patch(state, {loop}, patch, patch_around(state, fans, loop), mark, kind, shape.diameter);
+  return true;
+}
+
+double opening_area(const RepairState& state, const Loop& loop) {
+  Vec3 sum;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += 0.5 * cross(state.points[loop[i]] - state.points[loop[0]], state.points[loop[(i + 1) % loop.size()]] - state.points[loop[0]]);
+  return norm(sum);
+}
+
+struct HalfPlane {
+  std::size_t axis = 0;
+  double at = 0.0, off = 0.0;
+  bool is_above = true;
+  double share = 0.0;  ///< of the box that the opening spans
+  std::vector<std::size_t> loops;
+};
+
+/// All loops near one end of the box in this axis, if they are the opening of half a body.
+std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<Loop>& loops, std::size_t axis, bool is_low, bool is_asked, double tolerance) {
+  Box box;
+  for (const Facet& f : state.facets)
+    for (const std::uint32_t v : f) box.add(state.points[v]);
+  const double end = is_low ? box.min[axis] : box.max[axis];
+  HalfPlane plane{.axis = axis, .at = 0.0, .off = 0.0, .is_above = is_low, .share = 0.0, .loops = {}};
+  Box opening;
+  double sum = 0.0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    Box rim;
+    for (const std::uint32_t v : loops[i]) rim.add(state.points[v]);
+    if (rim.max[axis] - rim.min[axis] > 2.0 * tolerance || std::abs(rim.center()[axis] - end) > 2.0 * tolerance) continue;
+    plane.loops.push_back(i);
+    opening.add(rim);
+    for (const std::uint32_t v : loops[i]) {
+      sum += state.points[v][axis];
+      ++n;
+    }
+  }
+  if (n == 0) return std::nullopt;
+  plane.at = opening.min[axis] == opening.max[axis] ? opening.min[axis] : sum / static_cast<double>(n);
+  if (std::abs(plane.at) <= tolerance) plane.at = 0.0;
+  plane.off = std::max(std::abs(opening.min[axis] - plane.at), std::abs(opening.max[axis] - plane.at));
+  if (plane.off > tolerance || std::abs(end - plane.at) > tolerance) return std::nullopt;
+  double widest = 0.0, body = 0.0;
+  for (std::size_t other = 0; other < 3; ++other) {
+    if (other == axis) continue;
+    widest = std::max(widest, opening.max[other] - opening.min[other]);
+    body = std::max(body, box.max[other] - box.min[other]);
+  }
+  plane.share = widest / body;
+  // A closed end with a hole in it is no half: what lies in the plane is less than the opening.
+  double covered = 0.0;
+  for (const Facet& f : state.facets) {
+    const bool is_in_plane = std::all_of(f.begin(), f.end(), [&](std::uint32_t v) { return std::abs(state.points[v][axis] - plane.at) <= tolerance; });
+    if (is_in_plane) covered += triangle_area(state.points[f[0]], state.points[f[1]], state.points[f[2]]);
+  }
+  double open = 0.0;
+  for (const std::size_t i : plane.loops) open += opening_area(state, loops[i]);
+  if (!is_asked && covered > k_covered_share * open) return std::nullopt;
+  if (!is_asked && plane.share < (plane.at == 0.0 ? k_origin_half : k_full_half)) return std::nullopt;
+  return plane;
+}
+
+/// Loops that leave the plane of a half model and come back (its base is open, too): each way outside is closed by the line between its ends, and filled.
+void close_ways_out(RepairState& state, const RepairOptions& options) {
+  const double tolerance = options.half_tolerance * state.length;
+  const std::vector<Loop> loops = find_loops(state);
+  const Fans fans = fans_of(state);
+  Box box;
+  for (const Facet& f : state.facets)
+    for (const std::uint32_t v : f) box.add(state.points[v]);
+  for (const Loop& loop : loops) {
+    for (const std::size_t axis : {1u, 2u, 0u}) {
+      if (options.half != "automatic" && options.half != std::string(1, "xyz"[axis])) continue;
+      bool is_done = false;
+      for (const double end : {box.min[axis], box.max[axis]}) {
+        const auto is_in = [&](std::uint32_t v) { return std::abs(state.points[v][axis] - end) <= 2.0 * tolerance; };
+        const auto n_in = static_cast<std::size_t>(std::count_if(loop.begin(), loop.end(), is_in));
+        if (n_in == loop.size() || static_cast<double>(n_in) < k_in_plane_share * static_cast<double>(loop.size())) continue;
+        const auto first_in = static_cast<std::size_t>(std::find_if(loop.begin(), loop.end(), is_in) - loop.begin());
+        Loop way;
+        for (std::size_t i = 0; i <= loop.size(); ++i) {
+          const std::uint32_t v = loop[(first_in + i) % loop.size()];
+          if (!is_in(v)) {
+            if (way.empty()) way.push_back(loop[(first_in + i + loop.size() - 1) % loop.size()]);
+            way.push_back(v);
+          } else if (!way.empty()) {
+            way.push_back(v);
+            const RimShape shape = shape_of(state, way);
+            const bool is_flat = shape.off <= k_flat_rim * shape.diameter;
+            if (way.size() > 2 && shape.diameter <= (is_flat ? options.flat_hole : options.hole) * state.length)
+              is_done |= fill_one(state, fans, way, shape, FacetMark::filled, RepairKind::filled);
+            way.clear();
+          }
+        }
+        if (is_done) break;
+      }
+      if (is_done) break;
+    }
+  }
+}
+
+}  // namespace
+
+void cap_half(RepairState& state, const RepairOptions& options) {
+  if (options.half == "off") return;
+  close_ways_out(state, options);
+  const std::vector<Loop> loops = find_loops(state);
+  const double tolerance = options.half_tolerance * state.length;
+  std::optional<HalfPlane> best;
+  for (const std::size_t axis : {1u, 2u, 0u}) {  // y first: what aircraft are cut at
+    const bool is_asked = options.half == std::string(1, "xyz"[axis]);
+    if (options.half != "automatic" && !is_asked) continue;
+    for (const bool is_low : {true, false}) {
+      const auto plane = find_half(state, loops, axis, is_low, is_asked, tolerance);
+      if (plane && (!best || plane->share > best->share)) best = plane;
+    }
+  }
+  if (!best) return;
+  // Tubes that are open at both ends are no halves.
+  if (options.half == "automatic" && find_half(state, loops, best->axis, !best->is_above, false, tolerance)) return;
+  std::vector<char> is_rim(state.points.size(), 0);
+  HalfRim half{std::string(1, "xyz"[best->axis]), best->at, best->is_above, best->off, 0};
+  for (const std::size_t i : best->loops)
+    for (const std::uint32_t v : loops[i]) {
+      is_rim[v] = 1;
+      ++half.n_vertices;
+    }
+  std::vector<std::uint32_t> moved;
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t)
+    for (const std::uint32_t v : state.facets[t])
+      if (is_rim[v] && state.points[v][best->axis] != best->at && (moved.empty() || moved.back() != t)) moved.push_back(t);
+  for (std::uint32_t v = 0; v < is_rim.size(); ++v)
+    if (is_rim[v]) state.points[v][best->axis] = best->at;
+  for (const std::uint32_t t : moved) state.info[t].is_touched = true;
+  state.note(RepairKind::into_plane, moved, best->off);
+  // Facets in the plane are part of the opening.
+  std::vector<char> is_kept(state.facets.size(), 1), is_flat(state.facets.size(), 0);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    const Facet& f = state.facets[t];
+    is_flat[t] = is_rim[f[0]] && is_rim[f[1]] && is_rim[f[2]];
+    is_kept[t] = !is_flat[t];
+  }
+  state.note_parts(RepairKind::removed_sheet, is_flat, state.edges());
+  state.keep(is_kept);
+
+  std::vector<Loop> rims;
+  for (Loop& loop : find_loops(state)) {
+    const bool is_in_plane = std::all_of(loop.begin(), loop.end(), [&](std::uint32_t v) { return state.points[v][best->axis] == best->at; });
+    if (is_in_plane) rims.push_back(std::move(loop));
+  }
+  Vec3 normal;
+  normal[best->axis] = best->is_above ? -1.0 : 1.0;
+  const Fans fans = fans_of(state);
+  const HolePatch patch = fill_flat(points_of(state, rims), normal);
+  if (!patch.triangles.empty()) add_patch(state, rims, patch, patch_around(state, fans, rims.front()), FacetMark::cap, RepairKind::filled, 0.0);
+  else
+    for (const Loop& loop : rims) fill_one(state, fans, loop, shape_of(state, loop), FacetMark::cap, RepairKind::filled);
+  state.report.half = half;
+}
+
+std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairKind kind, const RunContext& context) {
+  std::vector<Loop> loops = find_loops(state);
+  if (loops.empty()) return 0;
+  const Fans fans = fans_of(state);
+  const EdgeTable edges = state.edges();
+  const Parts parts = connected_parts(state.facets.size(), edges);
+  std::vector<RimShape> shapes;
+  for (const Loop& loop : loops) shapes.push_back(shape_of(state, loop));
+  std::size_t n_open = 0;
+  std::vector<char> is_done(loops.size(), 0);
+  std::vector<double> part_area(parts.count, 0.0);
+  double all_area = 0.0;
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    const auto c = state.corners(t);
+    part_area[parts.part[t]] += triangle_area(c[0], c[1], c[2]);
+    all_area += triangle_area(c[0], c[1], c[2]);
+  }
+  std::vector<char> is_sheet(parts.count, 0);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    context.progress(static_cast<double>(i) / static_cast<double>(loops.size()));
+    if (is_done[i]) continue;
+    is_done[i] = 1;
+    const RimShape& shape = shapes[i];
+    const bool is_flat = shape.off <= k_flat_rim * shape.diameter;
+    const double limit = (is_flat ? options.flat_hole : options.hole) * state.length;
+    if (loops[i].size() < 3 || shape.diameter > limit || loops[i].size() > static_cast<std::size_t>(options.hole_edges)) {
+      ++n_open;
+      context.debug("repair: a hole of " + std::to_string(loops[i].size()) + " edges, " + short_number(shape.diameter) + " m across (" +
+                    short_number(shape.diameter / state.length) + " body lengths, its rim " + short_number(shape.off) + " m off its plane), about " +
+                    format_point(shape.center) + " is above the limits");
+      continue;
+    }
+    const std::uint32_t its_part = fans[loops[i][0]].empty() ? 0 : parts.part[fans[loops[i][0]][0]];
+    if (kind == RepairKind::filled && opening_area(state, loops[i]) > k_sheet_share * part_area[its_part]) {
+      // What fills it would be as large as what is there: no body, but a sheet.
+      if (part_area[its_part] < 0.5 * all_area) is_sheet[its_part] = 1;
+      else ++n_open;
+      continue;
+    }
+    if (is_flat) {
+      // The other loops of this plane and part: a ring is filled as one.
+      std::vector<Loop> group{loops[i]};
+      std::vector<std::size_t> members;
+      for (std::size_t j = i + 1; j < loops.size(); ++j) {
+        if (is_done[j] || fans[loops[j][0]].empty() || parts.part[fans[loops[j][0]][0]] != its_part) continue;
+        if (std::abs(dot(shapes[j].normal, shape.normal)) < 1.0 - 1e-6) continue;
+        if (std::abs(dot(shapes[j].center - shape.center, shape.normal)) > k_same_plane * state.length + shape.off || shapes[j].off > k_flat_rim * shapes[j].diameter) continue;
+        if (shapes[j].diameter > options.flat_hole * state.length) continue;
+        group.push_back(loops[j]);
+        members.push_back(j);
+      }
+      if (!members.empty()) {
+        const HolePatch patch = fill_flat(points_of(state, group), shape.normal);
+        if (!patch.triangles.empty() && runs_along(group, patch)) {
+          for (const std::size_t j : members) is_done[j] = 1;
+          add_patch(state, group, patch, patch_around(state, fans, loops[i]), FacetMark::filled, kind, shape.diameter);
+          continue;
+        }
+      }
+    }
+    if (!fill_one(state, fans, loops[i], shape, FacetMark::filled, kind)) ++n_open;
+  }
+  std::vector<char> is_of_sheet(state.facets.size(), 0), is_kept(state.facets.size(), 1);
+  for (std::uint32_t t = 0; t < parts.part.size(); ++t) {
+    is_of_sheet[t] = is_sheet[parts.part[t]];
+    is_kept[t] = !is_of_sheet[t];
+  }
+  state.note_parts(RepairKind::removed_sheet, is_of_sheet, state.edges());
+  state.keep(is_kept);
+  return n_open;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,173 @@
+// Every facet has two sides. Around an edge, the side of one facet and the side of the next that face each other see the same space; so sides fall into cells.
+// Parts that hang together over edges have cells of their own; rays say which cells of different parts are one, and which is the outside. That is what winding
+// numbers would tell of closed parts, and does not depend on the sense of the facets.
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/disjoint_sets.h"
+#include "geom/math/measures.h"
+#include "geom/math/predicates.h"
+#include "geom/mesh/bvh.h"
+#include "surfmesh/repair/repair_state.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr int k_rays = 60;               ///< tried for each part
+constexpr double k_from_edge = 1e-6;     ///< barycentric: a ray that passes an edge nearer than that decides nothing
+constexpr double k_grazing = 1e-4;       ///< cosine to the normal below which it decides nothing, either
+
+struct AroundEdge {
+  std::uint32_t third = 0;  ///< vertex
+  std::uint32_t facet = 0;
+  bool is_along = false;  ///< the facet runs from the edge's low to its high vertex
+};
+
+/// Facets at an edge by angle about low -> high, counter-clockwise from the first.
+std::vector<AroundEdge> around(const RepairState& state, const EdgeTable& edges, const Edge& edge) {
+  std::vector<AroundEdge> list;
+  for (const std::uint32_t h : edges.at(edge)) {
+    const Facet& f = state.facets[h / 3];
+    list.push_back({f[previous_halfedge(h) % 3], h / 3, f[h % 3] == edge.low});
+  }
+  if (list.size() < 3) return list;
+  const Vec3 &u = state.points[edge.low], &v = state.points[edge.high];
+  const Vec3& w0 = state.points[list[0].third];
+  const Vec3 axis = normalized(v - u);
+  const auto across = [&](const Vec3& p) { return (p - u) - dot(p - u, axis) * axis; };
+  const Vec3 first = across(w0);
+  const auto half = [&](const AroundEdge& x) {  // 0: the first's direction, 1: less than half a turn, 2: half, 3: more
+    const Vec3& p = state.points[x.third];
+    const int side = orient3d(u, v, w0, p);
+    if (side != 0) return side > 0 ? 1 : 3;
+    return dot(across(p), first) > 0.0 ? 0 : 2;
+  };
+  std::sort(list.begin() + 1, list.end(), [&](const AroundEdge& a, const AroundEdge& b) {
+    const int ha = half(a), hb = half(b);
+    if (ha != hb) return ha < hb;
+    const int side = orient3d(u, v, state.points[a.third], state.points[b.third]);
+    return side != 0 ? side > 0 : a.facet < b.facet;
+  });
+  return list;
+}
+
+/// Side 2 f is where the normal of facet f points to, 2 f + 1 the other.
+std::uint32_t side_ahead(const AroundEdge& x) { return 2 * x.facet + (x.is_along ? 0 : 1); }
+std::uint32_t side_behind(const AroundEdge& x) { return 2 * x.facet + (x.is_along ? 1 : 0); }
+
+struct Sides {
+  DisjointSets cells;
+  std::uint32_t outside;
+};
+
+/// Walks the ray and joins the sides that see each other. False when it decides nothing.
+bool join_along(const TriMesh& mesh, const TriangleTree& tree, std::uint32_t start, const Vec3& direction, Sides& sides) {
+  const auto c = corners(mesh, TriangleId(start));
+  const Vec3 p = (c[0] + c[1] + c[2]) / 3.0;
+  std::vector<std::uint32_t> crossed{start};
+  for (const auto& hit : tree.ray(p, direction)) {
+    if (hit.triangle.value() != start) crossed.push_back(hit.triangle.value());
+  }
+  const auto cosine = [&](std::uint32_t t) {
+    const auto k = corners(mesh, TriangleId(t));
+    return dot(normalized(area_vector(k[0], k[1], k[2])), direction);
+  };
+  for (std::size_t i = 0; i < crossed.size(); ++i) {
+    if (std::abs(cosine(crossed[i])) < k_grazing) return false;
+    if (i == 0) continue;
+    const auto k = corners(mesh, TriangleId(crossed[i]));
+    const double whole = dot(cross(k[1] - k[0], k[2] - k[0]), direction);
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Vec3 a = k[e] - p, b = k[(e + 1) % 3] - p;
+      if (dot(cross(a, b), direction) / whole < k_from_edge) return false;
+    }
+  }
+  std::uint32_t before = 2 * start + (cosine(start) > 0.0 ? 0 : 1);
+  for (std::size_t i = 1; i < crossed.size(); ++i) {
+    const bool is_up = cosine(crossed[i]) > 0.0;
+    sides.cells.join(before, 2 * crossed[i] + (is_up ? 1 : 0));
+    before = 2 * crossed[i] + (is_up ? 0 : 1);
+  }
+  sides.cells.join(before, sides.outside);
+  return true;
+}
+
+TriMesh mesh_of(const RepairState& state) {
+  TriMesh mesh;
+  const PatchId patch = mesh.patches.push_back({"wall", PatchKind::wall});
+  mesh.points.raw() = state.points;
+  for (const Facet& f : state.facets) {
+    mesh.triangles.push_back({VertexId(f[0]), VertexId(f[1]), VertexId(f[2])});
+    mesh.triangle_patch.push_back(patch);
+  }
+  return mesh;
+}
+
+/// Spread over the sphere, none along an axis.
+Vec3 ray_direction(int i) {
+  const double golden = 2.399963229728653, z = 1.0 - (2.0 * i + 1.0) / k_rays, r = std::sqrt(1.0 - z * z);
+  return normalized(Vec3{r * std::cos(golden * i + 0.3), r * std::sin(golden * i + 0.3), z + 0.0123});
+}
+
+Sides find_cells(const RepairState& state, const EdgeTable& edges, const RunContext& context) {
+  const auto n = static_cast<std::uint32_t>(2 * state.facets.size());
+  Sides sides{DisjointSets(n + 1), n};
+  for (const Edge& edge : edges.edges()) {
+    const std::vector<AroundEdge> list = around(state, edges, edge);
+    for (std::size_t i = 0; i < list.size(); ++i) sides.cells.join(side_ahead(list[i]), side_behind(list[(i + 1) % list.size()]));
+  }
+  const Parts parts = connected_parts(state.facets.size(), edges);
+  std::vector<std::vector<std::uint32_t>> facets(parts.count);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) facets[parts.part[t]].push_back(t);
+  const TriMesh mesh = mesh_of(state);
+  const TriangleTree tree(mesh, context);
+  for (auto& part : facets) {
+    context.check_stop();
+    const auto area = [&](std::uint32_t t) {
+      const auto c = state.corners(t);
+      return norm2(area_vector(c[0], c[1], c[2]));
+    };
+    const std::size_t n_first = std::min<std::size_t>(part.size(), 8);
+    std::partial_sort(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(n_first), part.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const double aa = area(a), ab = area(b);
+      return aa != ab ? aa > ab : a < b;
+    });
+    bool is_decided = false;
+    for (int i = 0; i < k_rays && !is_decided; ++i) is_decided = join_along(mesh, tree, part[static_cast<std::size_t>(i) % n_first], ray_direction(i), sides);
+  }
+  return sides;
+}
+
+}  // namespace
+
+bool keep_outer_hull(RepairState& state, double most_sheets, const RunContext& context) {
+  const EdgeTable edges = state.edges();
+  Sides sides = find_cells(state, edges, context);
+  const std::uint32_t outside = sides.cells.root(sides.outside);
+  std::vector<char> is_kept(state.facets.size(), 0), is_sheet(state.facets.size(), 0), is_inside(state.facets.size(), 0), is_turned(state.facets.size(), 0);
+  double all = 0.0, sheets = 0.0;
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    const bool front = sides.cells.root(2 * t) == outside, back = sides.cells.root(2 * t + 1) == outside;
+    const auto c = state.corners(t);
+    const double area = triangle_area(c[0], c[1], c[2]);
+    all += area;
+    if (front && back) {
+      is_sheet[t] = 1;
+      sheets += area;
+    } else if (!front && !back) {
+      is_inside[t] = 1;
+    } else {
+      is_kept[t] = 1;
+      if (back) is_turned[t] = 1;
+    }
+  }
+  if (sheets > most_sheets * all || std::find(is_kept.begin(), is_kept.end(), 1) == is_kept.end()) return false;
+  state.note_parts(RepairKind::removed_sheet, is_sheet, edges);
+  state.note_parts(RepairKind::removed_inside, is_inside, edges);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t)
+    if (is_turned[t]) std::swap(state.facets[t][1], state.facets[t][2]);
+  state.keep(is_kept);
+  return true;
+}
+
+}  // namespace sterna::surfmesh

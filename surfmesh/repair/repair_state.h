@@ -1,0 +1,88 @@
+// Private to surfmesh/repair: the surface between two steps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "surfmesh/repair/repair_surface.h"
+#include "surfmesh/stitch/edge_table.h"
+#include "surfmesh/stitch/working_surface.h"
+
+namespace sterna::surfmesh {
+
+enum class FacetMark : std::uint8_t {
+  given,   ///< a facet of the input, or a piece of one
+  filled,  ///< fills a hole
+  cap      ///< closes half a model in its plane while the surface is repaired; not part of the result
+};
+
+struct FacetInfo {
+  std::uint32_t patch = 0;  ///< as in WorkingSurface
+  FacetMark mark = FacetMark::given;
+  bool is_touched = false;  ///< new, cut or moved
+};
+
+struct RepairState {
+  std::vector<Vec3> points;  ///< m
+  std::vector<Facet> facets;
+  std::vector<FacetInfo> info;  ///< per facet
+  double length = 0.0;          ///< m, L
+  RepairReport report;
+
+  std::array<Vec3, 3> corners(std::size_t t) const { return {points[facets[t][0]], points[facets[t][1]], points[facets[t][2]]}; }
+  EdgeTable edges() const { return EdgeTable(facets, points.size()); }
+  void keep(const std::vector<char>& is_kept);
+  void add(const Facet& facet, const FacetInfo& of);
+
+  /// Notes a change and draws these facets as they are now. `size` < 0: the diameter of their box.
+  void note(RepairKind kind, const std::vector<std::uint32_t>& of, double size = -1.0);
+  /// The same for a set of facets: one change for each of its parts that hang together over edges.
+  void note_parts(RepairKind kind, const std::vector<char>& is_of, const EdgeTable& edges);
+};
+
+/// Vertices with equal coordinates become one; facets with a repeated vertex, without area, or written twice are dropped. Of copies with opposite senses none
+/// stays where `is_oriented`, for there is nothing between them; else one does.
+void weld_rounded(RepairState& state, bool is_oriented = false);
+
+/// Parts (connected over edges) whose box is smaller than allowed are dropped.
+void drop_small_parts(RepairState& state, const RepairOptions& options);
+
+/// Rims within a tolerance that grows from rounding to options.gap are joined, vertices to vertices and vertices to edges; never beyond half an edge.
+void zip_seams(RepairState& state, const RepairOptions& options, const RunContext& context);
+
+/// Flat open parts, and open flaps on edges that are closed without them.
+void remove_sheets(RepairState& state, const RunContext& context);
+
+/// Closed polygons of edges with an odd number of facets, each simple; a loop runs against its facets. Edges that end nowhere are left out.
+std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state);
+
+/// Recognises the opening of half a model, puts its rim into the plane and closes it with facets of mark `cap`; sets report.half.
+void cap_half(RepairState& state, const RepairOptions& options);
+
+/// Fills loops within the limits. `kind`: filled or replaced. \return loops that stay open
+std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairKind kind, const RunContext& context);
+
+/// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are over, or there are more crossings than before. \return whether something was cut
+bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
+
+/// Keeps facets with the outer fluid on one side, turned towards it; \pre nothing crosses. Returns false, and changes nothing, when more than the share
+/// `most_sheets` of the area has it on both sides: it leaks in.
+bool keep_outer_hull(RepairState& state, double most_sheets, const RunContext& context);
+
+/// Vertices and edges in which the solid touches itself become several, a little apart.
+void separate_touching(RepairState& state);
+
+/// Edges shorter than options.sliver become a vertex, where something was changed and that turns no facet.
+void collapse_slivers(RepairState& state, const RepairOptions& options, const RunContext& context);
+
+/// What still crosses, crowds an edge or is open is taken out with growing rings around it, and filled. \pre oriented \return whether nothing is left
+bool replace_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
+
+/// Facets of each component get one sense where that is possible: the majority's.
+void make_consistent(RepairState& state);
+
+/// Samples distances both ways. \pre result made of `state` without the cap
+void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, const std::vector<Facet>& input_facets, const RunContext& context);
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,272 @@
+// The driver. What it hands on between steps is a soup with shared vertices (RepairState); that the result is what it should be is stitch_surface's verdict on it.
+#include "surfmesh/repair/repair_surface.h"
+
+#include <algorithm>
+#include <set>
+
+#include "geom/base/error.h"
+#include "geom/mesh/find_crossings.h"
+#include "surfmesh/repair/repair_state.h"
+#include "surfmesh/stitch/clean_facets.h"
+#include "surfmesh/stitch/orient.h"
+#include "surfmesh/stitch/patches.h"
+#include "surfmesh/stitch/weld.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr int k_hull_tries = 3;
+constexpr double k_most_sheets = 0.6;    ///< of the area may have the outside on both sides where nothing is open
+constexpr double k_most_leaking = 0.03;  ///< the same where something is: more, and what should be inside is outside
+
+/// What repair is for; other errors are the caller's.
+bool is_reparable(ErrorCode code) {
+  return code == ErrorCode::open_surface || code == ErrorCode::non_manifold_surface || code == ErrorCode::self_intersection || code == ErrorCode::not_orientable;
+}
+
+struct Input {
+  std::vector<Vec3> points;  ///< m
+  std::vector<Facet> facets;
+};
+
+/// Notes the facets of `before` that `after` no longer has.
+void note_dropped(RepairState& state, const WorkingSurface& before, const WorkingSurface& after) {
+  std::set<std::array<std::uint32_t, 2>> left;
+  for (const FacetOrigin& origin : after.origin) left.insert({origin.soup, origin.facet});
+  RepairState drawn;
+  drawn.points = state.points;
+  for (std::size_t t = 0; t < before.n_facets(); ++t)
+    if (!left.count({before.origin[t].soup, before.origin[t].facet})) state.add(before.facets[t], {before.patch[t], FacetMark::given, true});
+  const std::vector<char> all(state.facets.size(), 1);
+  state.note_parts(RepairKind::dropped, all, state.edges());
+  state.facets.clear();
+  state.info.clear();
+}
+
+RepairState first_state(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, Input& input, const RunContext& context) {
+  RepairState state;
+  StitchReport& report = state.report.stitch;
+  WorkingSurface surface = weld_exact(soups, stitching, report);
+  for (Vec3& p : surface.points) p = surface.metres(p);
+  surface.to_metres = 1.0;
+  state.points = surface.points;
+  state.length = surface.box().longest_side();
+  state.report.length = state.length;
+  drop_degenerate_facets(surface, report);
+  input = {surface.points, surface.facets};
+  const WorkingSurface before = surface;
+  drop_doubled_facets(surface, report);
+  note_dropped(state, before, surface);
+  StitchOptions in_metres = stitching;
+  in_metres.unit = 1.0;
+  if (!is_automatic(stitching.weld_tolerance)) in_metres.weld_tolerance = stitching.weld_tolerance;
+  weld_near(surface, in_metres, report, context);
+  {
+    const EdgeTable edges(surface.facets, surface.points.size());
+    const Defects defects = find_defects(surface.facets, surface.points.size(), edges);
+    WorkingSurface turned = surface;
+    const Orientation orientation = flood_orientation(surface, edges);
+    for (std::size_t t = 0; t < turned.n_facets(); ++t)
+      if (orientation.is_flipped[t]) std::swap(turned.facets[t][1], turned.facets[t][2]);
+    if (defects.crowded.empty() && orientation.conflicts.empty()) {
+      flip_flat_facets(turned, report);
+      surface = std::move(turned);
+    }
+  }
+  std::vector<FacetInfo> info;
+  for (const std::uint32_t patch : surface.patch) info.push_back({patch, FacetMark::given, report.n_welded_near > 0});
+  state.points = std::move(surface.points);
+  state.facets = std::move(surface.facets);
+  state.info = std::move(info);
+  // Facets without area fill T-junctions at best; those are found as such.
+  std::vector<char> is_flat(state.facets.size(), 0), is_kept(state.facets.size(), 1);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    const auto c = state.corners(t);
+    is_flat[t] = is_collinear(c[0], c[1], c[2]);
+    is_kept[t] = !is_flat[t];
+  }
+  state.note_parts(RepairKind::dropped, is_flat, state.edges());
+  state.keep(is_kept);
+  return state;
+}
+
+std::size_t count_open_edges(const RepairState& state) {
+  const EdgeTable edges = state.edges();
+  return static_cast<std::size_t>(std::count_if(edges.edges().begin(), edges.edges().end(), [](const Edge& edge) { return edge.count == 1; }));
+}
+
+/// Cuts what crosses and takes the outer hull. Where cutting leaves open edges (copies that become one, rounding), flaps go, and if the outside still leaks in
+/// through what is left, that is filled first. \return whether a hull could be taken
+bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunContext& context) {
+  cut_crossings(state, options, context.part("cut", 0.0, 0.5));
+  for (int round = 0; round < k_hull_tries; ++round) {
+    if (count_open_edges(state) > 0) remove_sheets(state, context);
+    const std::size_t n_open = count_open_edges(state);
+    if (keep_outer_hull(state, n_open == 0 ? k_most_sheets : k_most_leaking, context)) return true;
+    if (n_open == 0) return false;
+    context.debug("repair: " + std::to_string(n_open) + " open edges after cutting");
+    fill_holes(state, options, RepairKind::filled, context);
+    weld_rounded(state);
+    cut_crossings(state, options, context);
+  }
+  return false;
+}
+
+bool needs_hull(const RepairState& state, const RunContext& context) {
+  const EdgeTable edges = state.edges();
+  for (const Edge& edge : edges.edges())
+    if (edge.count > 2) return true;
+  return find_crossings(state.points, state.facets, context, 1).total > 0;
+}
+
+SurfaceSoup soup_of(const RepairState& state, const std::vector<SurfaceSoup>& soups) {
+  SurfaceSoup soup;
+  soup.points = state.points;
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    if (state.info[t].mark == FacetMark::cap) continue;
+    soup.triangles.push_back(state.facets[t]);
+    soup.patch.push_back(state.info[t].patch);
+  }
+  soup.patch_names = clean_patch_names(soups);
+  soup.has_names = true;
+  for (const SurfaceSoup& of : soups) soup.source += (soup.source.empty() ? "" : ", ") + of.source;
+  return soup;
+}
+
+std::string sources_of(const std::vector<SurfaceSoup>& soups) {
+  std::string text;
+  for (const SurfaceSoup& soup : soups) text += (text.empty() ? "" : ", ") + soup.source;
+  return text;
+}
+
+/// One sentence a kind: how many places, the largest, the first.
+std::vector<std::string> tell(const RepairReport& report) {
+  static constexpr std::array<const char*, k_repair_kinds> k_words = {"dropped (no area, copies)",
+                                                                      "welded within rounding",
+                                                                      "seams zipped",
+                                                                      "rim of the half model moved into its plane",
+                                                                      "holes filled",
+                                                                      "cut where facets cross",
+                                                                      "sheets without thickness removed",
+                                                                      "facets inside the body removed",
+                                                                      "small parts removed",
+                                                                      "touching vertices separated",
+                                                                      "short edges collapsed",
+                                                                      "crossing facets replaced by a filling",
+                                                                      "turned to the sense of their neighbours"};
+  std::vector<std::string> messages;
+  for (std::size_t k = 0; k < k_repair_kinds; ++k) {
+    std::int64_t n = 0, n_facets = 0;
+    const RepairChange* largest = nullptr;
+    for (const RepairChange& change : report.changes) {
+      if (static_cast<std::size_t>(change.kind) != k) continue;
+      ++n;
+      n_facets += change.n_facets;
+      if (!largest || change.size > largest->size) largest = &change;
+    }
+    if (n == 0) continue;
+    messages.push_back(std::string(k_words[k]) + ": " + count_of(n, "place", "places") + " (" + count_of(n_facets, "facet", "facets") + "), the largest " +
+                       short_number(largest->size) + " m at " + format_point(largest->position));
+  }
+  if (report.half)
+    messages.push_back("half model: open at " + report.half->axis + " = " + short_number(report.half->at) + " m, the body is on the side of " +
+                       (report.half->is_above ? "larger " : "smaller ") + report.half->axis);
+  return messages;
+}
+
+}  // namespace
+
+std::string_view to_string(RepairKind kind) {
+  static constexpr std::array<std::string_view, k_repair_kinds> k_names = {"dropped",       "welded",         "zipped",       "into_plane", "filled",    "cut",     "removed_sheet",
+                                                                          "removed_inside", "removed_part", "separated",  "collapsed", "replaced", "turned"};
+  return k_names[static_cast<std::size_t>(kind)];
+}
+
+std::int64_t RepairReport::count(RepairKind kind) const {
+  return std::count_if(changes.begin(), changes.end(), [kind](const RepairChange& change) { return change.kind == kind; });
+}
+
+RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context) {
+  RepairOptions checked = options;
+  for (const Option& option : options_of(checked)) set_option(option, option.get());  // refuses what is out of range
+  StitchOptions strict = stitching;
+  strict.allow_open = false;
+  strict.check_intersections = true;
+  try {
+    StitchResult clean = stitch_surface(soups, strict, context.part("stitch", 0.0, 0.1));
+    RepairResult result{std::move(clean.mesh), {}};
+    result.report.length = body_length(result.mesh);
+    result.report.stitch = std::move(clean.report);
+    return result;
+  } catch (const Error& error) {
+    if (!is_reparable(error.code())) throw;
+    context.info("repair: " + error.info().problem);
+  }
+
+  Input input;
+  RepairState state = first_state(soups, stitching, input, context);
+  if (state.facets.empty()) throw_bad_argument("repairing " + sources_of(soups), "no facet has an area");
+  drop_small_parts(state, options);
+  zip_seams(state, options, context.part("zip", 0.1, 0.25));
+  remove_sheets(state, context);
+  cap_half(state, options);
+  const std::size_t n_open = fill_holes(state, options, RepairKind::filled, context.part("fill", 0.25, 0.4));
+  weld_rounded(state);
+  const bool is_hull_possible = options.hull && stitching.fluid != "inside";
+  bool is_leaking = false;
+  if (n_open == 0 && is_hull_possible && needs_hull(state, context)) {
+    is_leaking = !cut_to_hull(state, options, context.part("hull", 0.4, 0.8));
+    if (!is_leaking) {
+      drop_small_parts(state, options);
+      separate_touching(state);
+    }
+  }
+  make_consistent(state);
+  if (!is_leaking) {
+    collapse_slivers(state, options, context);
+    if (count_open_edges(state) == 0) replace_crossings(state, options, context.part("replace", 0.8, 0.9));
+  }
+
+  RepairResult result;
+  try {
+    StitchOptions proving;
+    proving.weld_tolerance = 0.0;
+    proving.split_angle = stitching.split_angle;
+    proving.fluid = stitching.fluid;
+    proving.allow_open = state.report.half.has_value();
+    StitchResult proved = stitch_surface({soup_of(state, soups)}, proving, context.part("prove", 0.9, 0.95));
+    result.mesh = std::move(proved.mesh);
+    state.report.stitch = std::move(proved.report);
+  } catch (const Error& error) {
+    if (!is_reparable(error.code()) && error.code() != ErrorCode::empty_surface) throw;
+    ErrorInfo info = error.info();
+    info.attempted = "repairing " + sources_of(soups);
+    info.problem = "after repair, " + info.problem + (is_leaking ? "; the outside reaches what should be inside, so no hull could be taken" : "");
+    std::string done;
+    for (const std::string& message : tell(state.report)) done += (done.empty() ? "done before: " : "; ") + message;
+    info.hint = "wrap makes a closed surface of anything that is roughly a body; or raise repair's limits (gap, hole, flat_hole, hole_edges). " + done;
+    throw Error(std::move(info));
+  }
+  {
+    std::vector<char> is_kept(state.facets.size());
+    for (std::size_t t = 0; t < is_kept.size(); ++t) is_kept[t] = state.info[t].mark != FacetMark::cap;
+    state.keep(is_kept);
+  }
+  measure_changes(state, input.points, input.facets, context);
+  state.report.messages = tell(state.report);
+  for (const std::string& message : state.report.messages) context.info("repair: " + message);
+  if (state.report.moved > options.largest_move * state.length) {
+    ErrorInfo info;
+    info.code = ErrorCode::mesh_invalid;
+    info.attempted = "repairing " + sources_of(soups);
+    info.problem = "what is left of the surface would move by " + short_number(state.report.moved) + " m, more than " +
+                   short_number(options.largest_move * state.length) + " m (largest_move = " + short_number(options.largest_move) + " body lengths)";
+    info.hint = "lower gap, or raise largest_move";
+    throw Error(std::move(info));
+  }
+  result.report = std::move(state.report);
+  context.progress(1.0);
+  return result;
+}
+
+}  // namespace sterna::surfmesh
