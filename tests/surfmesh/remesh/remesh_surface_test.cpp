@@ -163,9 +163,10 @@ TEST(RemeshSurface, NeedlesOfAWingGoAndItsEdgesStay) {
   EXPECT_EQ(along.front(), -2.0);
   EXPECT_EQ(along.back(), 2.0);
   // Tips stay plane, and theirs.
-  for (const TriangleId t : result.mesh.triangles.ids())
-    if (result.mesh.triangle_patch[t] == PatchId(1))
-      for (const Point& p : corners(result.mesh, t)) EXPECT_EQ(std::abs(p.y), 2.0);
+  for (const TriangleId t : result.mesh.triangles.ids()) {
+    if (result.mesh.triangle_patch[t] != PatchId(1)) continue;
+    for (const Point& p : corners(result.mesh, t)) EXPECT_EQ(std::abs(p.y), 2.0);
+  }
 }
 
 TEST(RemeshSurface, ThinPlateKeepsItsSides) {
@@ -229,7 +230,9 @@ TEST(RemeshSurface, HalfKeepsItsRim) {
   expect_sound(half, result.mesh);
   const Topology topology(result.mesh, k_context);
   for (std::size_t h = 0; h < topology.n_halfedges(); ++h)
-    if (topology.is_boundary(HalfedgeId(h))) EXPECT_NEAR(result.mesh.points[topology.from(HalfedgeId(h))].y, 0.0, 1e-14);
+    if (topology.is_boundary(HalfedgeId(h))) {
+      EXPECT_NEAR(result.mesh.points[topology.from(HalfedgeId(h))].y, 0.0, 1e-14);
+    }
 }
 
 TEST(RemeshSurface, SameBytesForAnyThreads) {
