@@ -45,6 +45,7 @@ set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 12
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)
 add_dependencies(test_scripting_manual sterna)
+add_dependencies(test_scripting_remesh sterna)
 add_dependencies(test_io_volume sterna)
 add_dependencies(test_scripting_series sterna)
 file(GLOB scripts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scripts/*.lua)
