@@ -11,6 +11,22 @@ local wall = read_surface{ "data/cessna.msh.gz",
   take_boundary = false,            -- true: a volume mesh gives all of its boundary; else it is refused
 }
 
+-- What is open, crossing, doubled or folded becomes a surface that can be meshed, with as few changes as possible; this one is sound and stays as it is.
+-- read_surface{ ..., repair = true } does it at once, auto = true only where it has to be done, and wraps where that is not enough.
+wall = repair{ wall,
+  gap = 1e-3,                       -- widest seam that is zipped, in body lengths, as all of these
+  hole = 0.3,                       -- diameter of the largest curved hole that is filled
+  flat_hole = 1,                    -- the same of holes with a flat rim
+  hole_edges = 1000,                -- edges of the largest hole
+  smallest_part = 1e-3,             -- smaller parts are dropped
+  sliver = 1e-7,                    -- shorter edges are collapsed where something was changed
+  largest_move = 0.01,              -- more is an error
+  half = "automatic",               -- plane in which half a model is open: automatic, off, x, y, z
+  half_tolerance = 1e-3,            -- how far off its plane the rim may lie
+  hull = true,                      -- of what crosses keep only what the outer flow reaches
+  rounds = 6,                       -- of cutting, at most
+}
+
 -- New triangles, as of CAD; the rest of this script goes on with the given ones. read_surface{ ..., remesh = { max_edge = 0.3 } } does it at once.
 print(remesh{ wall,
   max_edge = 0.6,                   -- metres; automatic: a twentieth of the root of the area

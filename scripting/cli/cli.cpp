@@ -31,6 +31,7 @@
 #include "scripting/terminal/console.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/terminal/interrupt.h"
+#include "scripting/values/repair_surfaces.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/draw_command.h"
 #include "scripting/verbs/farfield_verbs.h"
@@ -168,6 +169,11 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->add_flag(
       "--half", mesh.is_half,
       "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
+  command->add_flag("--auto", mesh.is_auto,
+                    "take the files as they are where they can be meshed, else repair them, else wrap them; faces of models that cross are united or meshed as "
+                    "triangles first. What was done comes first in summary and manifest");
+  command->add_flag("--repair", mesh.is_repaired,
+                    "repair the files first: `sterna repair --help`; its options with --set repair.gap=1e-3 --set repair.hole=0.5");
   command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first: `sterna wrap --help`; its options with --set wrap.edge=5mm --set wrap.gap=20mm");
   command->add_flag(
       "--remesh", mesh.is_remeshed,
@@ -202,6 +208,8 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
       ->required()
       ->allow_extra_args(false)
       ->take_all();
+  command->add_flag("--auto", surface.is_auto,
+                    "unite, repair or wrap where faces cross or the surface is open; triangulations, too, are repaired or wrapped where they have to be");
   surfmesh::SurfaceMeshOptions options;
   ReadCadOptions reading;
   add_schema_options(*command, model_surface_options(options, reading), surface.options);
@@ -294,6 +302,27 @@ void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(unite, context); };
     request.trouble = beside(unite.output);
+  });
+}
+
+void add_repair_command(CLI::App& app, RepairCommand& repair, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand(
+      "repair", "close seams and holes of surfaces, cut facets that cross, drop sheets and inner walls; as little as possible, each change told");
+  command->add_option("parts", repair.inputs, "surface files. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", repair.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  command->add_option("--changes", repair.changes, "VTU with the facets that were changed or taken out");
+  command->add_option("--report", repair.report, "JSON with every change: kind, place, size, facets; and the distances");
+  surfmesh::StitchOptions stitching;
+  surfmesh::RepairOptions options;
+  add_schema_options(*command, repair_options(stitching, options), repair.options);
+  add_set_option(*command, set);
+  add_cache_options(*command, repair.cache);
+  command->footer("docs/dirty_surfaces.md says what is done, in which order and how far it goes.");
+  command->final_callback([&] {
+    for (auto& [name, text] : repair.options) text = with_degrees(name, text);
+    repair.options.insert(repair.options.end(), set.begin(), set.end());
+    request.execute = [&](const CommandContext& context) { return execute(repair, context); };
+    request.trouble = beside(repair.output);
   });
 }
 
@@ -492,6 +521,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   RemeshCommand remesh;
   CacheCommand cache;
   UnionCommand unite;
+  RepairCommand repair;
   WrapCommand wrap;
   CheckCommand check;
   GateCommands gates;
@@ -512,6 +542,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_remesh_command(app, remesh, set, request);
   add_cache_command(app, cache, request);
   add_union_command(app, unite, request);
+  add_repair_command(app, repair, set, request);
   add_wrap_command(app, wrap, set, request);
   add_check_command(app, check, request);
   add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });

@@ -29,6 +29,7 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/remeshed_surface.h"
+#include "scripting/values/repair_surfaces.h"
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
@@ -244,13 +245,64 @@ void complete_options(volmesh::MeshCase& options, const MeshCommand& command, co
       if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);
 }
 
+/// Options of repair and wrap, where they are asked for.
+void add_preparation(const MeshCommand& command, AutoSurface& asked, OptionTable& table) {
+  if (command.is_repaired + command.is_wrapped + command.is_auto > 1)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading the options", .problem = "more than one of --repair, --wrap and --auto"});
+  if (command.is_repaired || command.is_auto)
+    for (Option& option : sterna::options_of(asked.repair)) table.push_back(std::move(option));
+  if (command.is_wrapped || command.is_auto)
+    for (Option& option : sterna::options_of(asked.wrap))
+      if (option.name != "unit" && option.name != "split_angle" && option.name != "fluid") table.push_back(std::move(option));  // those of reading count
+}
+
+/// The wall of triangulations.
+SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& inputs, const AutoSurface& asked, const Reuse& reuse,
+                     const CommandContext& context) {
+  if (command.is_auto) return auto_surface(inputs, asked, reuse, context.run.part("surface", 0.0, k_surface_end));
+  const std::vector<UnionItem> items(inputs.begin(), inputs.end());
+  if (command.is_repaired) return repair_surfaces(items, asked.stitching, asked.repair, reuse, context.run.part("surface", 0.0, k_surface_end));
+  if (command.is_wrapped) {
+    surfmesh::WrapOptions wrap = asked.wrap;
+    wrap.unit = asked.stitching.unit;
+    wrap.split_angle = asked.stitching.split_angle;
+    wrap.fluid = asked.stitching.fluid;
+    return wrap_surfaces(items, wrap, reuse, context.run.part("surface", 0.0, k_surface_end));
+  }
+  return read_wall(inputs, asked.stitching, context.run.part("surface", 0.0, k_read_end));
+}
+
+/// The volume mesh; with --auto once more on new triangles, where those given allow no envelope or no tetrahedra.
+MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
+               const CommandContext& context) {
+  const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
+  try {
+    return make_volume_mesh(wall, options, command.stages, part, reuse);
+  } catch (const Error& error) {
+    constexpr std::array k_triangles_at_fault = {ErrorCode::envelope_failed, ErrorCode::tetra_engine_failed, ErrorCode::tetra_result_invalid,
+                                                 ErrorCode::mesh_invalid, ErrorCode::self_intersection};
+    if (!command.is_auto || command.is_remeshed || std::ranges::find(k_triangles_at_fault, error.code()) == k_triangles_at_fault.end()) throw;
+    context.run.info("auto: " + error.info().attempted + ": " + error.info().problem + "; remesh is tried");
+    RemeshRecipe recipe;
+    recipe.options.refinement = options.family.refinement;
+    return make_volume_mesh(remeshed(wall, recipe, {}, part, reuse), options, command.stages, part, reuse);
+  }
+}
+
 /// Of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
 MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const Reuse& reuse, const CommandContext& context) {
-  SurfaceRecipe recipe;
-  ReadCadOptions reading;
+  if (command.is_repaired || command.is_wrapped)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = command.is_repaired ? "option --repair" : "option --wrap",
+                 .problem = inputs.front().name + " is a model, not a triangulation",
+                 .hint = "--auto meshes its faces, and repairs or wraps their triangles where they cross or are open"});
+  AutoSurface asked;
+  SurfaceRecipe& recipe = asked.recipe;
+  ReadCadOptions& reading = asked.reading;
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
   OptionTable table = volmesh::required_options_of(volume_options);
+  add_preparation(command, asked, table);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
   set_options(table, command.options, context);
   if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
@@ -258,10 +310,12 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.periodic = periodic_of(command);
-  SurfaceValue wall = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, k_surface_end), reuse);
+  const RunContext surface_part = context.run.part("surface", 0.0, k_surface_end);
+  SurfaceValue wall = command.is_auto ? auto_surface(inputs, asked, reuse, surface_part) : mesh_model_files(inputs, reading, recipe, surface_part, reuse);
+  remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
-  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_surface_end, k_mesh_end), reuse);
+  return fill(command, std::move(wall), volume_options, k_surface_end, reuse, context);
 }
 
 MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
@@ -269,33 +323,22 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   for (const std::string& name : command.inputs) inputs.push_back({name, name});
   if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); }))
     return make_mesh_of_models(command, inputs, reuse, context);
-  surfmesh::StitchOptions surface_options;
+  AutoSurface asked;
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches);
-  surface_options.allow_open = command.is_half;
-  surfmesh::WrapOptions wrap_options;
+  asked.stitching.allow_open = command.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);
-  for (Option& option : sterna::options_of(surface_options)) table.push_back(std::move(option));
-  if (command.is_wrapped)
-    for (Option& option : sterna::options_of(wrap_options))
-      if (option.name != "unit" && option.name != "split_angle" && option.name != "fluid") table.push_back(std::move(option));  // those of reading count
+  for (Option& option : sterna::options_of(asked.stitching)) table.push_back(std::move(option));
+  add_preparation(command, asked, table);
   set_options(table, command.options, context);
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.periodic = periodic_of(command);
-  SurfaceValue wall;
-  if (command.is_wrapped) {
-    wrap_options.unit = surface_options.unit;
-    wrap_options.split_angle = surface_options.split_angle;
-    wrap_options.fluid = surface_options.fluid;
-    wall = wrap_surfaces(std::vector<UnionItem>(inputs.begin(), inputs.end()), wrap_options, reuse, context.run.part("surface", 0.0, k_surface_end));
-  } else {
-    wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
-  }
+  SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
-  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end), reuse);
+  return fill(command, std::move(wall), volume_options, k_read_end, reuse, context);
 }
 
 std::string read_write(bool is_read, bool is_written) { return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-"; }
@@ -405,15 +448,47 @@ int execute(const HalfCommand& command, const CommandContext& context) {
   return k_exit_success;
 }
 
-int execute(const WrapCommand& command, const CommandContext& context) {
-  for (const std::string& name : command.inputs) {
+namespace {
+
+void require_other_output(const std::vector<std::string>& inputs, const std::filesystem::path& output, const std::string& attempted) {
+  for (const std::string& name : inputs) {
     std::error_code none;  // of files that are not there
-    if (std::filesystem::equivalent(name, command.output, none))
+    if (std::filesystem::equivalent(name, output, none))
       throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "wrap",
-                   .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace",
+                   .attempted = attempted,
+                   .problem = "the output " + output.string() + " is one of the inputs, which it would replace",
                    .hint = "give it another name"});
   }
+}
+
+}  // namespace
+
+int execute(const RepairCommand& command, const CommandContext& context) {
+  require_other_output(command.inputs, command.output, "repair");
+  surfmesh::StitchOptions stitching;
+  surfmesh::RepairOptions options;
+  set_options(repair_options(stitching, options), command.options, context);
+  require_surface_output(command.output);
+  std::vector<UnionItem> items;
+  for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  std::function<void(const surfmesh::RepairReport&)> look;
+  if (!command.changes.empty() || !command.report.empty())
+    look = [&](const surfmesh::RepairReport& report) {
+      if (!command.changes.empty() && !report.changes.empty()) io::write_trouble_vtu(changed_facets(report), command.changes);
+      if (!command.report.empty()) io::write_whole(command.report, repair_json(report));
+    };
+  const SurfaceValue repaired =
+      repair_surfaces(items, stitching, options, {.cache = cache.get(), .lines = nullptr}, context.run.part("repair", 0.0, k_mesh_end), look);
+  write_surface(repaired, command.output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  for (const std::string& change : repaired.changes) context.run.info("changed: " + change);
+  context.run.info("wrote " + command.output.string() + ": " + describe(repaired));
+  return k_exit_success;
+}
+
+int execute(const WrapCommand& command, const CommandContext& context) {
+  require_other_output(command.inputs, command.output, "wrap");
   surfmesh::WrapOptions options;
   set_options(sterna::options_of(options), command.options, context);
   require_surface_output(command.output);

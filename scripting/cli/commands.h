@@ -46,7 +46,9 @@ struct MeshCommand {
   std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
   bool is_half = false;               ///< the half of the surface
+  bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
+  bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   bool is_remeshed = false;           ///< the surface gets new triangles first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
@@ -60,6 +62,7 @@ struct SurfaceCommand {
   std::vector<std::string> sources;                              ///< source_of_text
   OptionOverrides options;
   CacheChoice cache;
+  bool is_auto = false;  ///< --auto: what crosses or is open is repaired or wrapped
 };
 
 struct CacheCommand {
@@ -87,6 +90,15 @@ struct UnionCommand {
   std::vector<std::string> inputs;
   std::filesystem::path output;
   OptionOverrides options;
+};
+
+struct RepairCommand {
+  std::vector<std::string> inputs;
+  std::filesystem::path output;
+  std::filesystem::path changes;  ///< VTU of the changed facets; empty: none
+  std::filesystem::path report;   ///< JSON of all changes; empty: none
+  OptionOverrides options;
+  CacheChoice cache;
 };
 
 struct WrapCommand {
@@ -139,6 +151,7 @@ int execute(const HalfCommand& command, const CommandContext& context);
 int execute(const RemeshCommand& command, const CommandContext& context);
 int execute(const CacheCommand& command, const CommandContext& context);
 int execute(const UnionCommand& command, const CommandContext& context);
+int execute(const RepairCommand& command, const CommandContext& context);
 int execute(const WrapCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);

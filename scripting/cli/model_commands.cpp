@@ -9,6 +9,7 @@
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
+#include "scripting/values/repair_surfaces.h"
 #include "scripting/values/summary.h"
 #include "scripting/verbs/source_verbs.h"
 
@@ -69,10 +70,14 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   std::vector<InputPath> inputs;
   for (const std::string& name : command.inputs) inputs.push_back(input_of(name));
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
-  SurfaceValue surface = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, 0.95), {.cache = cache.get(), .lines = nullptr});
+  const Reuse reuse{.cache = cache.get(), .lines = nullptr};
+  const RunContext part = context.run.part("surface", 0.0, 0.95);
+  SurfaceValue surface =
+      command.is_auto ? auto_surface(inputs, {.reading = reading, .recipe = recipe}, reuse, part) : mesh_model_files(inputs, reading, recipe, part, reuse);
   add_layer_rules(layers, surface);
   for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
+  for (const std::string& change : surface.changes) context.run.info("changed: " + change);
   for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + ": " + describe(surface));
   return k_exit_success;
 }

@@ -169,9 +169,10 @@ void check_overrides(const OptionOverrides& overrides) {
   volmesh::MeshCase volume;
   UnionOptions unite;
   surfmesh::SurfaceMeshOptions surface_mesh;
+  surfmesh::RepairOptions repair;
   surfmesh::WrapOptions wrap;
   OptionTable table = all_options(surface, volume);
-  for (OptionTable more : {sterna::options_of(unite), sterna::options_of(surface_mesh), sterna::options_of(wrap)})
+  for (OptionTable more : {sterna::options_of(unite), sterna::options_of(surface_mesh), sterna::options_of(repair), sterna::options_of(wrap)})
     for (Option& option : more) table.push_back(std::move(option));
   for (const auto& [name, text] : overrides) set_option_as_typed(find_option(table, name, "--set " + name), text);
 }

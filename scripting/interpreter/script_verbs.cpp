@@ -37,6 +37,7 @@
 #include "scripting/verbs/inspect_verbs.h"
 #include "scripting/verbs/model_gates.h"
 #include "scripting/verbs/model_methods.h"
+#include "scripting/verbs/repair_verbs.h"
 #include "scripting/verbs/source_verbs.h"
 #include "scripting/verbs/stage_verbs.h"
 #include "scripting/verbs/su2_verbs.h"
@@ -59,10 +60,12 @@ ScriptValue read_surface(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<InputPath> files = file_names(call, reader);
   reader.read_options(schema);
+  const SurfaceReader read_otherwise = read_surface_entry(reader, call);
   const RemeshEntry remesh = read_remesh_entry(reader, call);
   apply_overrides(call, schema);
   reader.finish();
-  SurfaceValue wall = read_wall(files, options, call.session.context.part("read_surface", 0.0, remesh ? 0.5 : 1.0));
+  const RunContext part = call.session.context.part("read_surface", 0.0, remesh ? 0.5 : 1.0);
+  SurfaceValue wall = read_otherwise ? read_otherwise(files, options, part, call.session.reuse()) : read_wall(files, options, part);
   if (remesh) wall = remesh(wall, call.session.context.part("remesh", 0.5, 1.0), call.session.reuse());
   return std::make_shared<const SurfaceValue>(std::move(wall));
 }
@@ -321,7 +324,11 @@ ScriptValue error_field(const ScriptCall& call) {
 
 std::string surface_help() {
   surfmesh::StitchOptions options;
-  return options_help(sterna::options_of(options)) + "remesh = true or { max_edge = 0.1, ... }: new triangles, as the verb remesh makes them\n";
+  return options_help(sterna::options_of(options)) +
+         "repair = true or { gap = 1e-3, ... }, wrap = true or { edge = 0.01, ... }: as those verbs do it; auto = true: as it is where that can be meshed, "
+         "else repaired, "
+         "else wrapped (models, too)\n"
+         "remesh = true or { max_edge = 0.1, ... }: new triangles, as the verb remesh makes them\n";
 }
 std::string union_help() {
   UnionOptions options;
@@ -368,6 +375,7 @@ const ScriptVerb k_error_field = {"error", "", "", error_field};
 std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_first_verbs.begin(), k_first_verbs.end());
+    verbs.insert(verbs.end(), repair_verbs().begin(), repair_verbs().end());
     verbs.insert(verbs.end(), wrap_verbs().begin(), wrap_verbs().end());
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
     verbs.insert(verbs.end(), inspect_verbs().begin(), inspect_verbs().end());

@@ -104,6 +104,9 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     UnionOptions unite = mesh.origin->union_options.value_or(UnionOptions{});
     if (mesh.origin->union_options)
       for (Option& option : sterna::options_of(unite)) options.push_back(std::move(option));
+    surfmesh::RepairOptions repair = mesh.origin->repair_options.value_or(surfmesh::RepairOptions{});
+    if (mesh.origin->repair_options)
+      for (Option& option : sterna::options_of(repair)) options.push_back(std::move(option));
     surfmesh::WrapOptions wrap = mesh.origin->wrap_options.value_or(surfmesh::WrapOptions{});
     if (mesh.origin->wrap_options)
       for (Option& option : sterna::options_of(wrap)) options.push_back(std::move(option));

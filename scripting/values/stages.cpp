@@ -280,6 +280,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   value.check = std::move(result.check);
   value.origin = MeshOrigin{.surface_options = wall.options,
                             .union_options = wall.union_options,
+                            .repair_options = wall.repair_options,
                             .wrap_options = wall.wrap_options,
                             .recipe = wall.recipe,
                             .smooth_angle = wall.smooth_angle,

@@ -31,6 +31,8 @@ inline constexpr std::size_t k_members<surfmesh::StitchOptions> = 7;
 template <>
 inline constexpr std::size_t k_members<surfmesh::StitchReport> = 11;
 template <>
+inline constexpr std::size_t k_members<surfmesh::RepairOptions> = 11;
+template <>
 inline constexpr std::size_t k_members<surfmesh::WrapOptions> = 10;
 template <>
 inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 22;

@@ -17,6 +17,7 @@
 #include "scripting/lua/input_path.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "surfmesh/repair/repair_surface.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "surfmesh/wrap/wrap_surface.h"
 #include "volmesh/case/patch_rule.h"
@@ -46,6 +47,7 @@ struct SurfaceValue {
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
   std::optional<UnionOptions> union_options = {};               ///< of a surface that union made
+  std::optional<surfmesh::RepairOptions> repair_options = {};   ///< of a surface that repair looked at
   std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< of a surface that wrap made
   std::optional<SurfaceRecipe> recipe = {};                     ///< of a surface that surface_mesh made
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
@@ -62,6 +64,7 @@ struct SurfaceValue {
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
   std::optional<UnionOptions> union_options;
+  std::optional<surfmesh::RepairOptions> repair_options;
   std::optional<surfmesh::WrapOptions> wrap_options;
   std::optional<SurfaceRecipe> recipe;
   std::optional<double> smooth_angle;  ///< of the wall

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double k_apart_share = 1e-5;     ///< of L
 constexpr double k_apart_of_edge = 0.02;   ///< of the shortest edge at the vertex: no facet turns over
-constexpr std::uint32_t k_no_twin = 0xffffffffu;
+constexpr std::uint32_t k_no_partner = 0xffffffffu;
 
 /// Twins of half-edges; at crowded edges by wedges of the solid. \pre normals out of the solid
 std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable& edges) {
-  std::vector<std::uint32_t> twin(3 * state.facets.size(), k_no_twin);
+  std::vector<std::uint32_t> twin(3 * state.facets.size(), k_no_partner);
   for (const Edge& edge : edges.edges()) {
     const auto at = edges.at(edge);
     if (at.size() == 2) {
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       }
     }
     for (const std::uint32_t h : at)
-      if (twin[h] != k_no_twin && twin[twin[h]] != h) twin[h] = k_no_twin;  // no alternation: left to the verdict
+      if (twin[h] != k_no_partner && twin[twin[h]] != h) twin[h] = k_no_partner;  // no alternation: left to the verdict
   }
   return twin;
 }
@@ -73,11 +73,11 @@ void separate_touching(RepairState& state) {
         members.push_back(h);
         // The neighbours over both edges of this corner.
         const std::uint32_t in = twin[previous_halfedge(h)];
-        if (in != k_no_twin && !fan.count(in)) {
+        if (in != k_no_partner && !fan.count(in)) {
           fan[in] = 1;
           stack.push_back(in);
         }
-        if (twin[h] != k_no_twin) {
+        if (twin[h] != k_no_partner) {
           const std::uint32_t out = next_halfedge(twin[h]);
           if (!fan.count(out)) {
             fan[out] = 1;

@@ -141,6 +141,8 @@ TEST(ContentKeys, ASurfaceIsItsMeshAndWhatManifestsSayOfIt) {
   other.union_options = UnionOptions{};
   expect_other(other, "union");
   other = surface;
+  other.repair_options = surfmesh::RepairOptions{};
+  expect_other(other, "repair");
   other.wrap_options = surfmesh::WrapOptions{};
   expect_other(other, "wrap");
   other = surface;

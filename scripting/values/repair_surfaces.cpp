@@ -1,0 +1,164 @@
+#include "scripting/values/repair_surfaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "scripting/cache/stage_cache.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/values/models.h"
+#include "scripting/values/stored_types.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/surface_items.h"
+#include "scripting/values/value_keys.h"
+#include "scripting/values/wrap_surfaces.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr const char* k_repair_stage = "repair";
+constexpr double k_repair_read_end = 0.1;  ///< of repair_surfaces's progress
+// Of auto_surface's.
+constexpr double k_as_it_is_end = 0.3;
+constexpr double k_triangles_end = 0.35;
+constexpr double k_repair_end = 0.6;
+
+/// What a cache keeps of a repair.
+struct RepairedWall {
+  TriMesh mesh;
+  surfmesh::StitchReport report;
+  std::vector<std::string> messages;
+  bool is_changed = false;
+};
+
+ContentKey repair_key(const SurfaceItems& items, surfmesh::RepairOptions options) {
+  KeyMaker maker(k_repair_stage);
+  for (const SurfaceSoup& soup : items.soups)
+    maker.add(soup.points).add(soup.triangles).add(soup.patch).add(soup.patch_names).add(soup.source).add(soup.has_names).add(soup.single_precision);
+  surfmesh::StitchOptions stitching = items.wall.options;
+  return maker.add(sterna::options_of(stitching)).add(sterna::options_of(options)).key();
+}
+
+bool are_models(std::span<const InputPath> files) {
+  return std::ranges::all_of(files, [](const InputPath& file) { return is_model_file(file.path); });
+}
+
+}  // namespace
+
+SurfaceValue repair_surfaces(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const surfmesh::RepairOptions& options,
+                             const Reuse& reuse, const RunContext& context, const std::function<void(const surfmesh::RepairReport&)>& look) {
+  const SurfaceItems read = read_items(items, stitching, context.part("read", 0.0, k_repair_read_end));
+  const StageTimer timer(context, k_repair_stage);
+  const auto make = [&] {
+    surfmesh::RepairResult result = surfmesh::repair_surface(read.soups, read.wall.options, options, context.part("repair", k_repair_read_end, 1.0));
+    if (look) look(result.report);
+    return RepairedWall{std::move(result.mesh), std::move(result.report.stitch), std::move(result.report.messages), !result.report.changes.empty()};
+  };
+  const std::optional<ContentKey> key = reuse.cache && !look ? std::optional(repair_key(read, options)) : std::nullopt;
+  RepairedWall made = cached<RepairedWall>(
+      reuse, k_repair_stage, {}, key, context, make,
+      [](ByteSink& sink, const RepairedWall& wall) {
+        write_value(sink, wall.mesh);
+        write_value(sink, wall.report);
+        write_value(sink, wall.messages);
+        write_value(sink, wall.is_changed);
+      },
+      std::function<RepairedWall(ByteSource&)>([](ByteSource& source) {
+        RepairedWall wall;
+        read_value(source, wall.mesh);
+        read_value(source, wall.report);
+        read_value(source, wall.messages);
+        read_value(source, wall.is_changed);
+        return wall;
+      }));
+  SurfaceValue wall = with_mesh(read, std::move(made.mesh), std::move(made.report));
+  wall.repair_options = options;
+  if (made.is_changed) wall.changes.push_back(change_text("repaired", made.messages));
+  context.info(describe(wall) + (made.is_changed ? " (repaired)" : " (nothing to repair)"));
+  return wall;
+}
+
+OptionTable repair_options(surfmesh::StitchOptions& stitching, surfmesh::RepairOptions& options) {
+  OptionTable table = sterna::options_of(options);
+  for (Option& option : sterna::options_of(stitching))
+    if (option.name != "allow_open" && option.name != "check_intersections") table.push_back(std::move(option));
+  return table;
+}
+
+TroubleGeometry changed_facets(const surfmesh::RepairReport& report) { return {report.drawing.points, report.drawing.triangles, {}, {}}; }
+
+std::string repair_json(const surfmesh::RepairReport& report) {
+  nlohmann::ordered_json json = {{"schema", "sterna-repair-1"}, {"messages", report.messages}, {"length", report.length}};
+  json["distance"] = {{"moved", report.moved}, {"from_result", report.from_result}, {"from_input", report.from_input}, {"sampling", report.sampling}};
+  if (report.half) json["half"] = {{"axis", report.half->axis}, {"at", report.half->at}, {"off", report.half->off}};
+  json["changes"] = nlohmann::ordered_json::array();
+  for (const surfmesh::RepairChange& change : report.changes)
+    json["changes"].push_back({{"kind", to_string(change.kind)},
+                               {"at", {change.position.x, change.position.y, change.position.z}},
+                               {"size", change.size},
+                               {"facets", change.n_facets}});
+  return json.dump(2) + "\n";
+}
+
+bool is_about_surface(const Error& error) {
+  switch (error.code()) {
+    case ErrorCode::empty_surface:
+    case ErrorCode::open_surface:
+    case ErrorCode::non_manifold_surface:
+    case ErrorCode::self_intersection:
+    case ErrorCode::not_orientable:
+    case ErrorCode::geometry_failed:
+    case ErrorCode::mesh_invalid: return true;
+    default: return false;
+  }
+}
+
+SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
+  ErrorInfo first;
+  std::optional<SurfaceValue> open;  // a model's, perhaps half of it
+  surfmesh::StitchOptions stitching = options.stitching;
+  try {
+    const RunContext as_it_is = context.part("as it is", 0.0, k_as_it_is_end);
+    if (!are_models(files)) return read_wall(files, stitching, as_it_is);
+    SurfaceValue surface = mesh_model_files(files, options.reading, options.recipe, as_it_is, reuse);
+    if (surface.report.is_closed) return surface;
+    first = {.code = ErrorCode::open_surface, .attempted = "meshing the model's surface", .problem = "it is open"};
+    open = std::move(surface);
+  } catch (const Error& error) {
+    if (!is_about_surface(error)) throw;
+    first = error.info();
+  }
+  context.info("auto: " + first.attempted + ": " + first.problem + "; repair is tried");
+  std::vector<UnionItem> items(files.begin(), files.end());
+  if (are_models(files)) {
+    SurfaceRecipe recipe = options.recipe;
+    recipe.options.crossings = "ignore";
+    const RunContext part = context.part("triangles", k_as_it_is_end, k_triangles_end);
+    items = {std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse))};
+    stitching.unit = 1.0;
+  }
+  try {
+    SurfaceValue repaired = repair_surfaces(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end));
+    return open && repaired.changes.size() == open->changes.size() ? *open : repaired;
+  } catch (const Error& error) {
+    if (!is_about_surface(error)) throw;
+    first.problem += "; repair: " + error.info().problem;
+    context.info("auto: repair: " + error.info().problem + "; wrap is tried");
+  }
+  try {
+    surfmesh::WrapOptions wrap = options.wrap;
+    wrap.unit = stitching.unit;
+    wrap.split_angle = stitching.split_angle;
+    wrap.fluid = stitching.fluid;
+    return wrap_surfaces(items, wrap, reuse, context.part("wrap", k_repair_end, 1.0));
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    first.problem += "; wrap: " + error.info().problem;
+    throw Error(std::move(first));
+  }
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,64 @@
+#include "scripting/values/surface_items.h"
+
+#include <utility>
+
+#include "scripting/values/wall_files.h"
+
+namespace sterna::scripting {
+namespace {
+
+SurfaceSoup soup_of_surface(const SurfaceValue& surface, double unit) {
+  SurfaceSoup soup;
+  soup.source = surface.inputs.empty() ? "surface" : surface.inputs.front().name;
+  soup.has_names = true;
+  for (const Point& p : surface.mesh.points) soup.points.push_back(p / unit);
+  for (const Patch& patch : surface.mesh.patches) soup.patch_names.push_back(patch.name);
+  for (const TriangleId t : surface.mesh.triangles.ids()) {
+    const TriangleVertices& v = surface.mesh.triangles[t];
+    soup.triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
+    soup.patch.push_back(surface.mesh.triangle_patch[t].value());
+  }
+  return soup;
+}
+
+}  // namespace
+
+SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::StitchOptions& options, const RunContext& context) {
+  SurfaceItems all;
+  SurfaceValue& wall = all.wall;
+  wall.options = options;
+  const auto add = [&](const SurfaceValue& known) {
+    wall.inputs.insert(wall.inputs.end(), known.inputs.begin(), known.inputs.end());
+    wall.layers.insert(wall.layers.end(), known.layers.begin(), known.layers.end());
+    wall.changes.insert(wall.changes.end(), known.changes.begin(), known.changes.end());
+    if (known.recipe && items.size() == 1) wall.recipe = known.recipe;
+  };
+  for (const UnionItem& item : items) {
+    if (const auto* file = std::get_if<InputPath>(&item)) {
+      WallFiles read = read_wall_files(std::span(file, 1), wall.options, context);
+      add(read.wall);
+      if (items.size() == 1) wall.smooth_angle = read.wall.smooth_angle;
+      all.kinds.insert(read.kinds.begin(), read.kinds.end());
+      wall.options = read.wall.options;
+      for (SurfaceSoup& soup : read.soups) all.soups.push_back(std::move(soup));
+    } else {
+      const SurfaceValue& surface = *std::get<SurfaceHandle>(item);
+      add(surface);
+      if (items.size() == 1) wall.smooth_angle = surface.smooth_angle;
+      for (const Patch& patch : surface.mesh.patches) all.kinds.insert({patch.name, patch.kind});
+      all.soups.push_back(soup_of_surface(surface, options.unit));
+    }
+  }
+  return all;
+}
+
+SurfaceValue with_mesh(const SurfaceItems& items, TriMesh mesh, surfmesh::StitchReport report) {
+  SurfaceValue wall = items.wall;
+  wall.mesh = std::move(mesh);
+  wall.report = std::move(report);
+  for (Patch& patch : wall.mesh.patches)
+    if (const auto kind = items.kinds.find(patch.name); kind != items.kinds.end()) patch.kind = kind->second;
+  return wall;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,28 @@
+// Files and surfaces as soups, for what takes them torn: repair and wrap.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+#include "scripting/values/verbs.h"
+
+namespace sterna::scripting {
+
+struct SurfaceItems {
+  SurfaceValue wall;                       ///< what is known of them but for a mesh; its options know what the manifests beside the files say
+  std::vector<SurfaceSoup> soups;          ///< in units of wall.options.unit
+  std::map<std::string, PatchKind> kinds;  ///< of patches by name
+};
+
+/// Files are read with the unit of the options; surfaces are in metres.
+/// \throws Error of io
+SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::StitchOptions& options, const RunContext& context);
+
+/// The wall with a mesh made of its soups.
+SurfaceValue with_mesh(const SurfaceItems& items, TriMesh mesh, surfmesh::StitchReport report);
+
+}  // namespace sterna::scripting

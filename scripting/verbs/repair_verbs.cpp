@@ -1,0 +1,96 @@
+#include "scripting/verbs/repair_verbs.h"
+
+#include <array>
+
+#include "scripting/lua/verb_tools.h"
+#include "scripting/values/repair_surfaces.h"
+#include "scripting/values/wrap_surfaces.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::string_view k_repair_usage = "repair{ \"torn.stl\", gap = 1e-3, hole = 0.3 }";
+
+std::string repair_help() {
+  surfmesh::StitchOptions stitching;
+  surfmesh::RepairOptions options;
+  return options_help(repair_options(stitching, options));
+}
+
+ScriptValue repair_parts(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_repair_usage);
+  surfmesh::StitchOptions stitching;
+  surfmesh::RepairOptions options;
+  const OptionTable schema = repair_options(stitching, options);
+  TableReader reader(table, call.attempted());
+  std::vector<UnionItem> items;
+  std::size_t number = 0;
+  for (const ScriptValue& item : reader.items()) {
+    ++number;
+    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) items.emplace_back(*surface);
+    else if (const auto* name = std::get_if<std::string>(&item)) items.emplace_back(find_input(call, *name));
+    else reader.add_problem("entry " + std::to_string(number) + ": expected a surface or a file name, not " + std::string(type_text(item)));
+  }
+  if (number == 0) reader.add_problem("needs a surface or a file name");
+  reader.read_options(schema);
+  apply_overrides(call, schema);
+  reader.finish();
+  return std::make_shared<const SurfaceValue>(repair_surfaces(items, stitching, options, call.session.reuse(), call.session.context.part("repair", 0.0, 1.0)));
+}
+
+constexpr std::array<ScriptVerb, 1> k_repair_verbs = {{
+    {"repair", k_repair_usage,
+     "Closes seams and holes of surfaces, cuts facets that cross and keeps the outer hull, drops sheets and inner walls, recognises half models; as little as "
+     "possible, each change told. What is sound stays as it is.",
+     repair_parts, repair_help, true, "surface"},
+}};
+
+/// Whether an entry that is true, false or a table asks for something; options of a table go to `schema`.
+bool is_asked(TableReader& reader, const ScriptCall& call, const std::string& name, const OptionTable& schema) {
+  const ScriptValue* value = reader.field(name);
+  if (value == nullptr) return false;
+  if (const auto* flag = std::get_if<bool>(value)) return *flag;
+  const auto* table = std::get_if<TableHandle>(value);
+  if (table == nullptr) {
+    reader.add_problem(name + ": expected true or a table of options, not " + std::string(type_text(*value)));
+    return false;
+  }
+  const ScriptTable own_table = **table;
+  TableReader own(own_table, Attempt(std::string(call.attempted()) + ", " + name, nullptr, false));
+  own.read_options(schema);
+  own.finish();
+  return true;
+}
+
+}  // namespace
+
+std::span<const ScriptVerb> repair_verbs() { return k_repair_verbs; }
+
+SurfaceReader read_surface_entry(TableReader& reader, const ScriptCall& call) {
+  AutoSurface asked;
+  const bool is_repaired = is_asked(reader, call, "repair", sterna::options_of(asked.repair));
+  const bool is_wrapped = is_asked(reader, call, "wrap", sterna::options_of(asked.wrap));
+  const bool is_auto = is_asked(reader, call, "auto", {});
+  if (is_repaired + is_wrapped + is_auto > 1) reader.add_problem("at most one of repair, wrap and auto");
+  if (is_auto)
+    return [asked](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
+      AutoSurface with_reading = asked;
+      with_reading.stitching = stitching;
+      return auto_surface(files, with_reading, reuse, context);
+    };
+  if (is_repaired)
+    return [asked](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
+      return repair_surfaces(std::vector<UnionItem>(files.begin(), files.end()), stitching, asked.repair, reuse, context);
+    };
+  if (is_wrapped)
+    return [asked](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
+      surfmesh::WrapOptions wrap = asked.wrap;
+      wrap.unit = stitching.unit;
+      wrap.split_angle = stitching.split_angle;
+      wrap.fluid = stitching.fluid;
+      return wrap_surfaces(std::vector<UnionItem>(files.begin(), files.end()), wrap, reuse, context);
+    };
+  return {};
+}
+
+}  // namespace sterna::scripting
