@@ -24,7 +24,8 @@ using Point2 = ExactKernel::Point_2;
 using Point3 = ExactKernel::Point_3;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, ExactKernel>;
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<ExactKernel>;
-using Planar = CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_intersections_tag>;
+using Planar =
+    CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_intersections_tag>;
 constexpr std::uint32_t k_no_vertex = 0xffffffffu;
 
 struct PointOrder {

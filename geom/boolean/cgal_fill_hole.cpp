@@ -20,7 +20,8 @@ namespace {
 using FillKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using FlatVertex = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, FillKernel>;
 using FlatFace = CGAL::Triangulation_face_base_with_info_2<int, FillKernel, CGAL::Constrained_triangulation_face_base_2<FillKernel>>;
-using Flat = CGAL::Constrained_Delaunay_triangulation_2<FillKernel, CGAL::Triangulation_data_structure_2<FlatVertex, FlatFace>, CGAL::No_constraint_intersection_tag>;
+using Flat =
+    CGAL::Constrained_Delaunay_triangulation_2<FillKernel, CGAL::Triangulation_data_structure_2<FlatVertex, FlatFace>, CGAL::No_constraint_intersection_tag>;
 using FillMesh = CGAL::Surface_mesh<FillKernel::Point_3>;
 constexpr int k_unknown = -1;
 
@@ -55,12 +56,11 @@ HolePatch fill_by_loop(const HoleRim& rim) {
     if (found != opposite.end()) third.push_back(cgal_point(rim.points[found->second]));
   }
   std::vector<CGAL::Triple<int, int, int>> triangles;
-  if (third.size() == loop.size())
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(loop, third, std::back_inserter(triangles));
-  else
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(loop, std::back_inserter(triangles));
+  if (third.size() == loop.size()) CGAL::Polygon_mesh_processing::triangulate_hole_polyline(loop, third, std::back_inserter(triangles));
+  else CGAL::Polygon_mesh_processing::triangulate_hole_polyline(loop, std::back_inserter(triangles));
   HolePatch patch;
-  for (const auto& t : triangles) patch.triangles.push_back({static_cast<std::uint32_t>(t.first), static_cast<std::uint32_t>(t.second), static_cast<std::uint32_t>(t.third)});
+  for (const auto& t : triangles)
+    patch.triangles.push_back({static_cast<std::uint32_t>(t.first), static_cast<std::uint32_t>(t.second), static_cast<std::uint32_t>(t.third)});
   return patch;
 }
 

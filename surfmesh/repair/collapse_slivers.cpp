@@ -53,7 +53,8 @@ void collapse_slivers(RepairState& state, const RepairOptions& options, const Ru
       const bool is_low_kept = is_on_cap[edge.low] || !is_on_cap[edge.high];
       list.push_back({length, is_low_kept ? edge.high : edge.low, is_low_kept ? edge.low : edge.high});
     }
-    std::sort(list.begin(), list.end(), [](const ShortEdge& a, const ShortEdge& b) { return std::tie(a.length, a.from, a.to) < std::tie(b.length, b.from, b.to); });
+    std::sort(list.begin(), list.end(),
+              [](const ShortEdge& a, const ShortEdge& b) { return std::tie(a.length, a.from, a.to) < std::tie(b.length, b.from, b.to); });
     const RepairState before = state;
     std::vector<char> is_busy(state.points.size(), 0), is_kept(state.facets.size(), 1);
     std::size_t n_done = 0;

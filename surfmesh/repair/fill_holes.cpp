@@ -13,14 +13,14 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_flat_rim = 2e-3;   ///< of a hole's diameter: rims nearer to a plane than that are flat
-constexpr double k_same_plane = 1e-6;  ///< of L: loops of one plane
-constexpr double k_full_half = 0.35;  ///< of the box's longest side in the plane: what the opening of half a model spans at least
-constexpr double k_origin_half = 0.1;  ///< the same where the plane goes through the origin
-constexpr double k_covered_share = 0.1;  ///< of the opening's area: facets in its plane at most
-constexpr double k_in_plane_share = 0.5;  ///< of a loop's vertices: the loop is the rim of half a model, and of something else besides
-constexpr double k_sheet_share = 0.8;  ///< of the part's area: a hole that large has no body around it
-constexpr int k_rings = 2;            ///< of triangles that a curved filling continues
+constexpr double k_flat_rim = 2e-3;        ///< of a hole's diameter: rims nearer to a plane than that are flat
+constexpr double k_same_plane = 1e-6;      ///< of L: loops of one plane
+constexpr double k_full_half = 0.35;       ///< of the box's longest side in the plane: what the opening of half a model spans at least
+constexpr double k_origin_half = 0.1;      ///< the same where the plane goes through the origin
+constexpr double k_covered_share = 0.1;    ///< of the opening's area: facets in its plane at most
+constexpr double k_in_plane_share = 0.6;   ///< of a loop's vertices: the loop is the rim of half a model, and of something else besides
+constexpr double k_sheet_share = 0.8;      ///< of the part's area: a hole that large has no body around it
+constexpr int k_rings = 2;                 ///< of triangles that a curved filling continues
 constexpr std::size_t k_smooth_edges = 4;  ///< smaller holes need no new points
 
 using Loop = std::vector<std::uint32_t>;
@@ -118,7 +118,8 @@ std::uint32_t patch_around(const RepairState& state, const Fans& fans, const Loo
 }
 
 /// Adds the triangles of a patch over loops (numbered through), turned so that they run along the loops; notes the change.
-void add_patch(RepairState& state, const std::vector<Loop>& loops, const HolePatch& patch, std::uint32_t of_patch, FacetMark mark, RepairKind kind, double size) {
+void add_patch(RepairState& state, const std::vector<Loop>& loops, const HolePatch& patch, std::uint32_t of_patch, FacetMark mark, RepairKind kind,
+               double size) {
   std::vector<std::uint32_t> number;
   std::set<std::array<std::uint32_t, 2>> along;
   for (const Loop& loop : loops) {
@@ -165,7 +166,8 @@ bool fill_one(RepairState& state, const Fans& fans, const Loop& loop, const RimS
   HolePatch patch;
   if (loop.size() == 3) patch.triangles.push_back({0, 1, 2});
   else if (shape.off <= k_flat_rim * shape.diameter || mark == FacetMark::cap) patch = fill_flat(points_of(state, {loop}), shape.normal);
-  if (patch.triangles.empty()) patch = fill_curved(rim_of(state, fans, loop), loop.size() > k_smooth_edges && kind == RepairKind::filled && mark != FacetMark::cap);
+  if (patch.triangles.empty())
+    patch = fill_curved(rim_of(state, fans, loop), loop.size() > k_smooth_edges && kind == RepairKind::filled && mark != FacetMark::cap);
   if (patch.triangles.empty()) return false;
   add_patch(state, {loop}, patch, patch_around(state, fans, loop), mark, kind, shape.diameter);
   return true;
@@ -376,7 +378,9 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
       for (std::size_t j = i + 1; j < loops.size(); ++j) {
         if (is_done[j] || fans[loops[j][0]].empty() || parts.part[fans[loops[j][0]][0]] != its_part) continue;
         if (std::abs(dot(shapes[j].normal, shape.normal)) < 1.0 - 1e-6) continue;
-        if (std::abs(dot(shapes[j].center - shape.center, shape.normal)) > k_same_plane * state.length + shape.off || shapes[j].off > k_flat_rim * shapes[j].diameter) continue;
+        if (std::abs(dot(shapes[j].center - shape.center, shape.normal)) > k_same_plane * state.length + shape.off ||
+            shapes[j].off > k_flat_rim * shapes[j].diameter)
+          continue;
         if (shapes[j].diameter > options.flat_hole * state.length) continue;
         group.push_back(loops[j]);
         members.push_back(j);

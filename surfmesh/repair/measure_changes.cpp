@@ -1,9 +1,10 @@
-// Facets are sampled at points of a regular pattern whose gaps are at most `sampling`; the distance to the other surface changes by no more than the way, so no
-// point is farther than the largest sample plus that.
+// Facets are sampled at points of a regular pattern that no point of them is farther from than `sampling`; the distance to the other surface changes by no more
+// than the way, so no point is farther than the largest sample plus that.
 #include <algorithm>
 #include <cmath>
 
 #include "geom/base/parallel.h"
+#include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
 #include "surfmesh/repair/repair_state.h"
 
@@ -11,7 +12,8 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_sampling_share = 2e-3;  ///< of L
-constexpr int k_max_cuts = 64;             ///< of an edge: a facet as long as the body has 2145 samples at most
+constexpr double k_most_samples = 1e5;     ///< in all, about: more, and they are farther apart
+constexpr double k_max_steps = 1e4;        ///< in one row
 
 TriMesh mesh_of_facets(const std::vector<Vec3>& points, const std::vector<Facet>& facets) {
   TriMesh mesh;
@@ -20,15 +22,19 @@ TriMesh mesh_of_facets(const std::vector<Vec3>& points, const std::vector<Facet>
   return mesh;
 }
 
-/// Calls visit for samples of a triangle. \return how far a point of it is from the nearest sample at most
+/// Calls visit for samples of a triangle: rows along its longest edge, a spacing apart, and points in them, a spacing apart.
 template <class Visit>
-double sample(const std::array<Vec3, 3>& c, double spacing, const Visit& visit) {
-  const double longest = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
-  const int n = std::clamp(static_cast<int>(std::ceil(longest / spacing)), 1, k_max_cuts);
-  const Vec3 u = (c[1] - c[0]) / n, v = (c[2] - c[0]) / n;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n - i; ++j) visit(c[0] + static_cast<double>(i) * u + static_cast<double>(j) * v);
-  return longest / n;
+void sample(std::array<Vec3, 3> c, double spacing, const Visit& visit) {
+  if (distance(c[1], c[2]) > distance(c[0], c[1])) c = {c[1], c[2], c[0]};
+  if (distance(c[1], c[2]) > distance(c[0], c[1])) c = {c[1], c[2], c[0]};
+  const auto steps = [&](double length) { return std::max(1, static_cast<int>(std::ceil(std::min(length / spacing, k_max_steps)))); };
+  const int n_rows = steps(std::min(distance(c[0], c[2]), distance(c[1], c[2])));
+  for (int row = 0; row <= n_rows; ++row) {
+    const double t = static_cast<double>(row) / n_rows;
+    const Vec3 a = c[0] + t * (c[2] - c[0]), b = c[1] + t * (c[2] - c[1]);
+    const int n = row == n_rows ? 0 : steps(distance(a, b));
+    for (int i = 0; i <= n; ++i) visit(a + (n > 0 ? static_cast<double>(i) / n : 0.0) * (b - a));
+  }
 }
 
 /// A facet by its corners' coordinates, whatever their order.
@@ -49,15 +55,20 @@ std::vector<FacetKey> keys_of(const std::vector<Vec3>& points, const std::vector
 }
 
 struct Farthest {
-  double given = 0.0, filled = 0.0, spacing = 0.0;
+  double given = 0.0, filled = 0.0;
 };
 
 }  // namespace
 
 void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, const std::vector<Facet>& input_facets, const RunContext& context) {
-  const auto combine = [](Farthest a, const Farthest& b) { return Farthest{std::max(a.given, b.given), std::max(a.filled, b.filled), std::max(a.spacing, b.spacing)}; };
-  const double spacing = k_sampling_share * state.length;
+  const auto combine = [](Farthest a, const Farthest& b) { return Farthest{std::max(a.given, b.given), std::max(a.filled, b.filled)}; };
   const std::vector<FacetKey> input_keys = keys_of(input_points, input_facets), result_keys = keys_of(state.points, state.facets);
+  double area = 0.0;
+  for (std::size_t t = 0; t < state.facets.size(); ++t) {
+    const auto c = state.corners(t);
+    if (!std::binary_search(input_keys.begin(), input_keys.end(), key_of(c))) area += triangle_area(c[0], c[1], c[2]);
+  }
+  const double spacing = std::max(k_sampling_share * state.length, std::sqrt(area / k_most_samples));
   const TriangleTree input(mesh_of_facets(input_points, input_facets), context);
   const Farthest out = parallel_reduce(
       context, state.facets.size(), Farthest{},
@@ -66,7 +77,7 @@ void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, 
         for (std::size_t t = begin; t < end; ++t) {
           if (std::binary_search(input_keys.begin(), input_keys.end(), key_of(state.corners(t)))) continue;  // as it was
           double& value = state.info[t].mark == FacetMark::given ? far.given : far.filled;
-          far.spacing = std::max(far.spacing, sample(state.corners(t), spacing, [&](const Vec3& p) { value = std::max(value, input.nearest(p).distance); }));
+          sample(state.corners(t), spacing, [&](const Vec3& p) { value = std::max(value, input.nearest(p).distance); });
         }
         return far;
       },
@@ -80,8 +91,7 @@ void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, 
           const Facet& f = input_facets[t];
           const std::array<Vec3, 3> c{input_points[f[0]], input_points[f[1]], input_points[f[2]]};
           if (std::binary_search(result_keys.begin(), result_keys.end(), key_of(c))) continue;
-          far.spacing = std::max(far.spacing, sample(c, spacing,
-                                                     [&](const Vec3& p) { far.given = std::max(far.given, result.nearest(p).distance); }));
+          sample(c, spacing, [&](const Vec3& p) { far.given = std::max(far.given, result.nearest(p).distance); });
         }
         return far;
       },
@@ -89,7 +99,7 @@ void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, 
   state.report.moved = out.given;
   state.report.from_result = std::max(out.given, out.filled);
   state.report.from_input = in.given;
-  state.report.sampling = std::max(out.spacing, in.spacing);
+  state.report.sampling = spacing;
 }
 
 }  // namespace sterna::surfmesh

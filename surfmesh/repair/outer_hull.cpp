@@ -5,17 +5,22 @@
 #include <cmath>
 
 #include "geom/base/disjoint_sets.h"
+#include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "geom/mesh/bvh.h"
 #include "surfmesh/repair/repair_state.h"
+#include "surfmesh/stitch/orient.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_rays = 60;               ///< tried for each part
-constexpr double k_from_edge = 1e-6;     ///< barycentric: a ray that passes an edge nearer than that decides nothing
-constexpr double k_grazing = 1e-4;       ///< cosine to the normal below which it decides nothing, either
+constexpr int k_rays = 60;                ///< tried for each part
+constexpr double k_from_edge = 1e-6;      ///< barycentric: a ray that passes an edge nearer than that decides nothing
+constexpr double k_beside_share = 1e-7;   ///< of L: how far beside a facet its sides are looked at
+constexpr double k_most_leaking = 0.005;  ///< of the area may be solid for the winding number and have the outside on both sides: more, and it leaks in
+constexpr double k_least_kept = 0.01;     ///< of the area: less is no body
+constexpr double k_grazing = 1e-4;        ///< cosine to the normal below which it decides nothing, either
 
 struct AroundEdge {
   std::uint32_t third = 0;  ///< vertex
@@ -140,28 +145,67 @@ Sides find_cells(const RepairState& state, const EdgeTable& edges, const RunCont
 
 }  // namespace
 
-bool keep_outer_hull(RepairState& state, double most_sheets, const RunContext& context) {
+TriMesh winding_reference(const RepairState& state) {
+  const EdgeTable edges = state.edges();
+  WorkingSurface surface;
+  surface.points = state.points;
+  surface.facets = state.facets;
+  const Orientation orientation = flood_orientation(surface, edges);
+  const Vec3 origin = surface.box().center();
+  std::vector<double> volume(orientation.n_components, 0.0);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    const auto c = state.corners(t);
+    volume[orientation.component[t]] += (orientation.is_flipped[t] ? -1.0 : 1.0) * tet_volume(origin, c[0], c[1], c[2]);
+  }
+  TriMesh mesh = mesh_of(state);
+  for (const TriangleId t : mesh.triangles.ids())
+    if (static_cast<bool>(orientation.is_flipped[t.index()]) != (volume[orientation.component[t.index()]] < 0.0))
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  return mesh;
+}
+
+bool keep_outer_hull(RepairState& state, const TriMesh& reference, const RunContext& context) {
   const EdgeTable edges = state.edges();
   Sides sides = find_cells(state, edges, context);
   const std::uint32_t outside = sides.cells.root(sides.outside);
-  std::vector<char> is_kept(state.facets.size(), 0), is_sheet(state.facets.size(), 0), is_inside(state.facets.size(), 0), is_turned(state.facets.size(), 0);
-  double all = 0.0, sheets = 0.0;
+  const TriangleTree winding(reference, context);
+  const double off = k_beside_share * state.length;
+  const auto is_solid = [&](std::uint32_t t, double side) {
+    const auto c = state.corners(t);
+    const Vec3 p = (c[0] + c[1] + c[2]) / 3.0 + side * off * normalized(area_vector(c[0], c[1], c[2]));
+    return std::abs(winding.winding_number(p)) > 0.5;
+  };
+  std::vector<char> front(state.facets.size()), back(state.facets.size());  // whether the outside is there
+  double all = 0.0, leaking = 0.0;
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
-    const bool front = sides.cells.root(2 * t) == outside, back = sides.cells.root(2 * t + 1) == outside;
+    front[t] = sides.cells.root(2 * t) == outside;
+    back[t] = sides.cells.root(2 * t + 1) == outside;
     const auto c = state.corners(t);
     const double area = triangle_area(c[0], c[1], c[2]);
     all += area;
-    if (front && back) {
-      is_sheet[t] = 1;
-      sheets += area;
-    } else if (!front && !back) {
-      is_inside[t] = 1;
-    } else {
-      is_kept[t] = 1;
-      if (back) is_turned[t] = 1;
-    }
+    if (front[t] && back[t] && (is_solid(t, 1.0) || is_solid(t, -1.0))) leaking += area;
   }
-  if (sheets > most_sheets * all || std::find(is_kept.begin(), is_kept.end(), 1) == is_kept.end()) return false;
+  if (leaking > k_most_leaking * all) {
+    context.debug("repair: the outside leaks in through open edges: sides by winding numbers");
+    parallel_for(
+        context, state.facets.size(),
+        [&](std::size_t t) {
+          front[t] = !is_solid(static_cast<std::uint32_t>(t), 1.0);
+          back[t] = !is_solid(static_cast<std::uint32_t>(t), -1.0);
+        },
+        256);
+  }
+  std::vector<char> is_kept(state.facets.size(), 0), is_sheet(state.facets.size(), 0), is_inside(state.facets.size(), 0), is_turned(state.facets.size(), 0);
+  double kept = 0.0;
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    is_sheet[t] = front[t] && back[t];
+    is_inside[t] = !front[t] && !back[t];
+    is_kept[t] = front[t] != back[t];
+    is_turned[t] = is_kept[t] && back[t];
+    const auto c = state.corners(t);
+    if (is_kept[t]) kept += triangle_area(c[0], c[1], c[2]);
+  }
+  if (kept < k_least_kept * all) return false;
   state.note_parts(RepairKind::removed_sheet, is_sheet, edges);
   state.note_parts(RepairKind::removed_inside, is_inside, edges);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t)

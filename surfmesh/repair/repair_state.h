@@ -63,12 +63,17 @@ void cap_half(RepairState& state, const RepairOptions& options);
 /// Fills loops within the limits. `kind`: filled or replaced. \return loops that stay open
 std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairKind kind, const RunContext& context);
 
-/// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are over, or there are more crossings than before. \return whether something was cut
+/// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are over, or there are more crossings than before. \return whether something was
+/// cut
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// Keeps facets with the outer fluid on one side, turned towards it; \pre nothing crosses. Returns false, and changes nothing, when more than the share
-/// `most_sheets` of the area has it on both sides: it leaks in.
-bool keep_outer_hull(RepairState& state, double most_sheets, const RunContext& context);
+/// The surface with components turned outwards, for winding numbers. \pre closed, perhaps crossing itself
+TriMesh winding_reference(const RepairState& state);
+
+/// Keeps facets with the outer fluid on one side, turned towards it; \pre nothing crosses. Sides are cells between facets; where open edges make the outside
+/// leak into what is solid by the winding numbers of `reference`, winding numbers decide. Returns false, and changes nothing, when hardly anything would be
+/// left.
+bool keep_outer_hull(RepairState& state, const TriMesh& reference, const RunContext& context);
 
 /// Vertices and edges in which the solid touches itself become several, a little apart.
 void separate_touching(RepairState& state);

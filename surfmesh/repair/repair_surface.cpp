@@ -1,4 +1,5 @@
-// The driver. What it hands on between steps is a soup with shared vertices (RepairState); that the result is what it should be is stitch_surface's verdict on it.
+// The driver. What it hands on between steps is a soup with shared vertices (RepairState); that the result is what it should be is stitch_surface's verdict on
+// it.
 #include "surfmesh/repair/repair_surface.h"
 
 #include <algorithm>
@@ -16,12 +17,12 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_hull_tries = 3;
-constexpr double k_most_sheets = 0.6;    ///< of the area may have the outside on both sides where nothing is open
-constexpr double k_most_leaking = 0.03;  ///< the same where something is: more, and what should be inside is outside
+constexpr std::int64_t k_most_again = 200;  ///< crossings in a second try
 
 /// What repair is for; other errors are the caller's.
 bool is_reparable(ErrorCode code) {
-  return code == ErrorCode::open_surface || code == ErrorCode::non_manifold_surface || code == ErrorCode::self_intersection || code == ErrorCode::not_orientable;
+  return code == ErrorCode::open_surface || code == ErrorCode::non_manifold_surface || code == ErrorCode::self_intersection ||
+         code == ErrorCode::not_orientable;
 }
 
 struct Input {
@@ -95,28 +96,28 @@ std::size_t count_open_edges(const RepairState& state) {
   return static_cast<std::size_t>(std::count_if(edges.edges().begin(), edges.edges().end(), [](const Edge& edge) { return edge.count == 1; }));
 }
 
-/// Cuts what crosses and takes the outer hull. Where cutting leaves open edges (copies that become one, rounding), flaps go, and if the outside still leaks in
-/// through what is left, that is filled first. \return whether a hull could be taken
-bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunContext& context) {
-  cut_crossings(state, options, context.part("cut", 0.0, 0.5));
-  for (int round = 0; round < k_hull_tries; ++round) {
-    if (count_open_edges(state) > 0) remove_sheets(state, context);
-    const std::size_t n_open = count_open_edges(state);
-    if (keep_outer_hull(state, n_open == 0 ? k_most_sheets : k_most_leaking, context)) return true;
-    if (n_open == 0) return false;
-    context.debug("repair: " + std::to_string(n_open) + " open edges after cutting");
-    fill_holes(state, options, RepairKind::filled, context);
-    weld_rounded(state);
-    cut_crossings(state, options, context);
-  }
-  return false;
-}
-
 bool needs_hull(const RepairState& state, const RunContext& context) {
   const EdgeTable edges = state.edges();
   for (const Edge& edge : edges.edges())
     if (edge.count > 2) return true;
   return find_crossings(state.points, state.facets, context, 1).total > 0;
+}
+
+/// Cuts what crosses, takes the outer hull and mends what that leaves. \return whether a hull could be taken
+bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunContext& context) {
+  for (int round = 0; round < k_hull_tries && needs_hull(state, context); ++round) {
+    // What replacing could not mend, and is much, would only be cut into ever smaller pieces.
+    if (round > 0 && find_crossings(state.points, state.facets, context).total > k_most_again) break;
+    const TriMesh reference = winding_reference(state);
+    cut_crossings(state, options, context.part("cut", 0.0, 0.5));
+    if (count_open_edges(state) > 0) remove_sheets(state, context);
+    if (!keep_outer_hull(state, reference, context)) return false;
+    drop_small_parts(state, options);
+    separate_touching(state);
+    collapse_slivers(state, options, context);
+    if (replace_crossings(state, options, context)) break;
+  }
+  return true;
 }
 
 SurfaceSoup soup_of(const RepairState& state, const std::vector<SurfaceSoup>& soups) {
@@ -177,8 +178,9 @@ std::vector<std::string> tell(const RepairReport& report) {
 }  // namespace
 
 std::string_view to_string(RepairKind kind) {
-  static constexpr std::array<std::string_view, k_repair_kinds> k_names = {"dropped",       "welded",         "zipped",       "into_plane", "filled",    "cut",     "removed_sheet",
-                                                                          "removed_inside", "removed_part", "separated",  "collapsed", "replaced", "turned"};
+  static constexpr std::array<std::string_view, k_repair_kinds> k_names = {"dropped",   "welded",        "zipped",         "into_plane",   "filled",
+                                                                           "cut",       "removed_sheet", "removed_inside", "removed_part", "separated",
+                                                                           "collapsed", "replaced",      "turned"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -215,17 +217,10 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   const bool is_hull_possible = options.hull && stitching.fluid != "inside";
   bool is_leaking = false;
   if (n_open == 0 && is_hull_possible && needs_hull(state, context)) {
-    is_leaking = !cut_to_hull(state, options, context.part("hull", 0.4, 0.8));
-    if (!is_leaking) {
-      drop_small_parts(state, options);
-      separate_touching(state);
-    }
+    is_leaking = !cut_to_hull(state, options, context.part("hull", 0.4, 0.9));
   }
   make_consistent(state);
-  if (!is_leaking) {
-    collapse_slivers(state, options, context);
-    if (count_open_edges(state) == 0) replace_crossings(state, options, context.part("replace", 0.8, 0.9));
-  }
+  if (!is_leaking && count_open_edges(state) == 0) collapse_slivers(state, options, context);
 
   RepairResult result;
   try {

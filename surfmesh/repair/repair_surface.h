@@ -18,13 +18,13 @@ namespace sterna::surfmesh {
 
 /// Lengths are shares of the body length L (the longest side of the box), so that the defaults fit any body.
 struct RepairOptions {
-  double gap = 1e-3;             ///< L; wider seams stay open, and are holes
-  double hole = 0.3;             ///< L; diameter of the largest curved hole that is filled
-  double flat_hole = 2.0;        ///< L; the same for holes with a flat rim
-  int hole_edges = 1000;         ///< of the largest hole that is filled
-  double smallest_part = 1e-3;   ///< L; parts with a smaller box are dropped
-  double sliver = 1e-7;          ///< L; shorter edges are collapsed where something was changed
-  double largest_move = 0.01;    ///< L; of what is left of the input; more is an error
+  double gap = 1e-3;            ///< L; wider seams stay open, and are holes
+  double hole = 0.3;            ///< L; diameter of the largest curved hole that is filled
+  double flat_hole = 2.0;       ///< L; the same for holes with a flat rim
+  int hole_edges = 1000;        ///< of the largest hole that is filled
+  double smallest_part = 1e-3;  ///< L; parts with a smaller box are dropped
+  double sliver = 1e-7;         ///< L; shorter edges are collapsed where something was changed
+  double largest_move = 0.01;   ///< L; of what is left of the input; more is an error
   std::string half = "automatic";
   double half_tolerance = 1e-3;  ///< L; how far from its plane the rim of a half model may lie
   bool hull = true;
@@ -67,24 +67,24 @@ struct RepairDrawing {
 
 /// The opening of half a body: its rim lies in the plane, exactly.
 struct HalfRim {
-  std::string axis;   ///< "x", "y" or "z"
-  double at = 0.0;    ///< m
+  std::string axis;      ///< "x", "y" or "z"
+  double at = 0.0;       ///< m
   bool is_above = true;  ///< the body is on the side of larger coordinates
-  double off = 0.0;   ///< m; how far the rim was off the plane at most
+  double off = 0.0;      ///< m; how far the rim was off the plane at most
   std::int64_t n_vertices = 0;
 };
 
 struct RepairReport {
-  StitchReport stitch;                 ///< of the result, which stitch_surface proves
-  std::vector<RepairChange> changes;   ///< in the order in which they were made; empty: the input is as good as the result, which has its bytes
+  StitchReport stitch;                ///< of the result, which stitch_surface proves
+  std::vector<RepairChange> changes;  ///< in the order in which they were made; empty: the input is as good as the result, which has its bytes
   std::optional<HalfRim> half;
-  double length = 0.0;                 ///< m, L
-  double moved = 0.0;                  ///< m; farthest sample of what is left of the input's facets from the input
-  double from_result = 0.0;            ///< m; farthest sample of the result from the input: the middle of the largest filled hole, mostly
-  double from_input = 0.0;             ///< m; farthest sample of the input from the result: what was removed
-  double sampling = 0.0;               ///< m; no point is farther than the figures above plus this
+  double length = 0.0;       ///< m, L
+  double moved = 0.0;        ///< m; farthest sample of what is left of the input's facets from the input
+  double from_result = 0.0;  ///< m; farthest sample of the result from the input: the middle of the largest filled hole, mostly
+  double from_input = 0.0;   ///< m; farthest sample of the input from the result: what was removed
+  double sampling = 0.0;     ///< m; no point is farther than the figures above plus this
   RepairDrawing drawing;
-  std::vector<std::string> messages;   ///< one sentence for each kind of change, as logged
+  std::vector<std::string> messages;  ///< one sentence for each kind of change, as logged
 
   std::int64_t count(RepairKind kind) const;
 };
@@ -95,9 +95,9 @@ struct RepairResult {
 };
 
 /// Steps: weld and drop (as stitch_surface); small parts; seams zipped with a growing tolerance, T-junctions, too; sheets; the opening of a half model
-/// recognised and put into its plane; holes filled, flat ones flat; crossings cut exactly and the outer hull kept (facets with the fluid on one side); vertices and
-/// edges in which the hull touches itself separated; short edges collapsed; what still crosses after rounding replaced by a filling, in growing rings.
-/// A surface that stitch_surface accepts (without allow_open) comes back with the same bytes and no change.
+/// recognised and put into its plane; holes filled, flat ones flat; crossings cut exactly and the outer hull kept (facets with the fluid on one side); vertices
+/// and edges in which the hull touches itself separated; short edges collapsed; what still crosses after rounding replaced by a filling, in growing rings. A
+/// surface that stitch_surface accepts (without allow_open) comes back with the same bytes and no change.
 /// \post closed, or with a rim in report.half's plane to the bit; manifold, oriented, without crossings (stitch_surface is asked); patches are those of the nearest
 /// facets of the input.
 /// \throws Error as stitch_surface for what is left, with places and the next thing to try; mesh_invalid when the surface would move by more than allowed
@@ -114,10 +114,15 @@ struct Schema<surfmesh::RepairOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "gap", .member = &O::gap, .min = 0.0, .max = 0.02, .help = "widest seam that is zipped, as a share of the body length"},
       Field<O>{.name = "hole", .member = &O::hole, .min = 0.0, .max = 10.0, .help = "diameter of the largest curved hole that is filled, in body lengths"},
-      Field<O>{.name = "flat_hole", .member = &O::flat_hole, .min = 0.0, .max = 10.0, .help = "diameter of the largest hole with a flat rim that is filled, in body lengths"},
+      Field<O>{.name = "flat_hole",
+               .member = &O::flat_hole,
+               .min = 0.0,
+               .max = 10.0,
+               .help = "diameter of the largest hole with a flat rim that is filled, in body lengths"},
       Field<O>{.name = "hole_edges", .member = &O::hole_edges, .min = 3, .max = 100000, .help = "edges of the largest hole that is filled"},
       Field<O>{.name = "smallest_part", .member = &O::smallest_part, .min = 0.0, .max = 0.5, .help = "parts with a smaller box are dropped; in body lengths"},
-      Field<O>{.name = "sliver", .member = &O::sliver, .min = 0.0, .max = 1e-3, .help = "shorter edges are collapsed where something was changed; in body lengths"},
+      Field<O>{
+          .name = "sliver", .member = &O::sliver, .min = 0.0, .max = 1e-3, .help = "shorter edges are collapsed where something was changed; in body lengths"},
       Field<O>{.name = "largest_move",
                .member = &O::largest_move,
                .min = 0.0,
@@ -127,8 +132,11 @@ struct Schema<surfmesh::RepairOptions> {
                .member = &O::half,
                .help = "plane in which half a model is open: found where it is clear, none, or its axis",
                .choices = "automatic off x y z"},
-      Field<O>{.name = "half_tolerance", .member = &O::half_tolerance, .min = 0.0, .max = 0.02, .help = "how far off that plane the rim may lie, in body lengths"},
-      Field<O>{.name = "hull", .member = &O::hull, .help = "where facets cross or more than two meet in an edge, keep only what the outer flow reaches from one side"},
+      Field<O>{
+          .name = "half_tolerance", .member = &O::half_tolerance, .min = 0.0, .max = 0.02, .help = "how far off that plane the rim may lie, in body lengths"},
+      Field<O>{.name = "hull",
+               .member = &O::hull,
+               .help = "where facets cross or more than two meet in an edge, keep only what the outer flow reaches from one side"},
       Field<O>{.name = "rounds", .member = &O::rounds, .min = 1, .max = 50, .help = "how often cutting and replacing are tried at most"},
   };
 };

@@ -44,7 +44,8 @@ bool replace_crossings(RepairState& state, const RepairOptions& given, const Run
     for (std::uint32_t t = 0; t < state.facets.size(); ++t) is_kept[t] = !is_out[t];
     state.keep(is_kept);
     const std::size_t n_left = fill_holes(state, options, RepairKind::replaced, context);
-    context.debug("repair: replaced " + std::to_string(n_out) + " facets for " + std::to_string(crossings.total) + " crossings; holes left: " + std::to_string(n_left));
+    context.debug("repair: replaced " + std::to_string(n_out) + " facets for " + std::to_string(crossings.total) +
+                  " crossings; holes left: " + std::to_string(n_left));
     weld_rounded(state, true);
   }
   return find_loops(state).empty() && find_crossings(state.points, state.facets, context).total == 0;

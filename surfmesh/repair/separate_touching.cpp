@@ -1,5 +1,5 @@
-// At an edge with four facets or more, the two on the sides of one wedge of the solid stay together. Fans of facets that hang together so at a vertex get a copy
-// of it each; all of them move a little into their solid, so that they no longer touch.
+// At an edge with four facets or more, the two on the sides of one wedge of the solid stay together. Fans of facets that hang together so at a vertex get a
+// copy of it each; all of them move a little into their solid, so that they no longer touch.
 #include <algorithm>
 #include <map>
 
@@ -10,8 +10,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_apart_share = 1e-5;     ///< of L
-constexpr double k_apart_of_edge = 0.02;   ///< of the shortest edge at the vertex: no facet turns over
+constexpr double k_apart_share = 1e-5;    ///< of L
+constexpr double k_apart_of_edge = 0.02;  ///< of the shortest edge at the vertex: no facet turns over
 constexpr std::uint32_t k_no_partner = 0xffffffffu;
 
 /// Twins of half-edges; at crowded edges by wedges of the solid. \pre normals out of the solid
@@ -71,17 +71,14 @@ void separate_touching(RepairState& state) {
         const std::uint32_t h = stack.back();
         stack.pop_back();
         members.push_back(h);
-        // The neighbours over both edges of this corner.
-        const std::uint32_t in = twin[previous_halfedge(h)];
-        if (in != k_no_partner && !fan.count(in)) {
-          fan[in] = 1;
-          stack.push_back(in);
-        }
-        if (twin[h] != k_no_partner) {
-          const std::uint32_t out = next_halfedge(twin[h]);
-          if (!fan.count(out)) {
-            fan[out] = 1;
-            stack.push_back(out);
+        // The neighbours over both edges of this corner, whatever their sense.
+        for (const std::uint32_t over : {previous_halfedge(h), h}) {
+          if (twin[over] == k_no_partner) continue;
+          const std::uint32_t facet = twin[over] / 3;
+          for (std::uint32_t g = 3 * facet; g < 3 * facet + 3; ++g) {
+            if (state.facets[facet][g % 3] != v || fan.count(g)) continue;
+            fan[g] = 1;
+            stack.push_back(g);
           }
         }
       }

@@ -1,5 +1,5 @@
-// For each tolerance: rim vertices near the middle of another rim's edge split that edge (which moves nothing), then the nearest pairs of rim vertices become one
-// at their midpoint, where the rim goes on beside them in the same way. A pair is refused where it would turn a facet, crowd an edge, or where the two are
+// For each tolerance: rim vertices near the middle of another rim's edge split that edge (which moves nothing), then the nearest pairs of rim vertices become
+// one at their midpoint, where the rim goes on beside them in the same way. A pair is refused where it would turn a facet, crowd an edge, or where the two are
 // farther from each other than half of their rims' edges: features are larger than gaps.
 #include <algorithm>
 #include <map>
@@ -23,10 +23,10 @@ constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60
 constexpr std::uint32_t k_nobody = 0xffffffffu;
 
 struct Rims {
-  std::vector<std::uint32_t> halfedges;               ///< of edges with one facet
-  std::vector<std::uint32_t> vertices;                ///< ascending
+  std::vector<std::uint32_t> halfedges;                ///< of edges with one facet
+  std::vector<std::uint32_t> vertices;                 ///< ascending
   std::vector<std::vector<std::uint32_t>> neighbours;  ///< per vertex of the surface, along rims
-  std::vector<double> shortest;                       ///< rim edge at a vertex, m
+  std::vector<double> shortest;                        ///< rim edge at a vertex, m
 };
 
 Rims find_rims(const RepairState& state) {
@@ -91,7 +91,8 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
       bool goes_along = false;
       for (const std::uint32_t w : rims.neighbours[a])
         goes_along |= w == u || w == v || distance(state.points[w], nearest_on_segment(state.points[w], pu, pv)) <= tolerance ||
-                      distance(pu, nearest_on_segment(pu, p, state.points[w])) <= tolerance || distance(pv, nearest_on_segment(pv, p, state.points[w])) <= tolerance;
+                      distance(pu, nearest_on_segment(pu, p, state.points[w])) <= tolerance ||
+                      distance(pv, nearest_on_segment(pv, p, state.points[w])) <= tolerance;
       if (goes_along && (d < nearest.distance || nearest.halfedge == k_nobody)) nearest = {d, h, a, foot};
       return true;
     });

@@ -231,8 +231,8 @@ TEST(RepairSurface, AMissingFacetOfAFlatSideIsNoHalfModel) {
 TEST(RepairSurface, ASheetIsNoBody) {
   SurfaceSoup soup;
   soup.patch_names = {""};
-  add_facet(soup, {0, 0, 0}, {1, 0, 0}, {0, 1, 0.1});
-  add_facet(soup, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1});
+  add_facet(soup, {0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.3});
+  add_facet(soup, {1, 0, 0.3}, {1, 1, 0}, {0, 1, 0.3});
   EXPECT_THAT(message_of([&] { repaired({soup}); }), testing::HasSubstr("wrap"));
 }
 
