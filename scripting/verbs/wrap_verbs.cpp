@@ -8,7 +8,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_wrap_usage = "wrap{ \"torn.stl\", \"tail.stl\", edge = 5*mm, gap = 20*mm }";
+constexpr std::string_view k_wrap_usage = "wrap{ \"torn.stl\", \"tail.stl\", edge = 5*cm, gap = 20*cm }";
 
 std::string wrap_help() {
   surfmesh::WrapOptions options;

@@ -14,6 +14,8 @@
 #include "scripting/interpreter/script_state.h"
 #include "scripting/interpreter/script_verbs.h"
 #include "scripting/lua/script_check.h"
+#include "scripting/values/repair_surfaces.h"
+#include "surfmesh/remesh/remesh_surface.h"
 #include "tests/scripting/manual/option_values.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
@@ -121,8 +123,8 @@ std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGrou
 class EveryOption : public testing::Test {
  protected:
   EveryOption() {
-    for (const char* name :
-         {"wing.stl", "body.stl", "sting.stl", "model.step", "model.igs", "sting.step", "widebody.smx", "d150.xml", "mesh.su2", "case.sterna", "sizes.vtu"})
+    for (const char* name : {"wing.stl", "body.stl", "sting.stl", "torn.stl", "tail.stl", "model.step", "model.igs", "sting.step", "widebody.smx", "d150.xml",
+                             "mesh.su2", "case.sterna", "sizes.vtu"})
       std::ofstream(folder_ / name) << "";
     state_ = std::make_unique<ScriptState>(
         ScriptSettings{.script = folder_ / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}, .check = &check_},
@@ -232,9 +234,15 @@ TEST(EveryOptionOfCommands, IsSetAsAnOptionAndWithSet) {
       of_surface{{"surface", "m.step", "-o", "s.stl"}, model_surface_options(surface, reading)},
       halving{{"half", "box.stl", "-o", "h.stl"}, sterna::options_of(half)}, uniting{{"union", "box.stl", "-o", "u.stl"}, sterna::options_of(unite)},
       of_models{{"union", "m.step", "-o", "u.step"}, sterna::options_of(unite_models)}, convert{{"convert", "m.step", "c.step"}, converting};
+  surfmesh::StitchOptions stitching;
+  surfmesh::RepairOptions repair;
+  surfmesh::WrapOptions wrap;
+  surfmesh::RemeshOptions remesh;
+  const Case repairing{{"repair", "box.stl", "-o", "r.stl"}, repair_options(stitching, repair)},
+      wrapping{{"wrap", "box.stl", "-o", "w.stl"}, sterna::options_of(wrap)}, remeshing{{"remesh", "box.stl", "-o", "n.stl"}, sterna::options_of(remesh)};
   DrawOptions draw;
   const Case drawing{{"draw", "box.stl", "-o", "d.png"}, sterna::options_of(draw)};
-  for (const Case* command : {&mesh, &of_surface, &halving, &uniting, &of_models, &convert, &drawing}) {
+  for (const Case* command : {&mesh, &of_surface, &halving, &uniting, &of_models, &convert, &drawing, &repairing, &wrapping, &remeshing}) {
     SCOPED_TRACE(command->arguments.front());
     expect_all_set(*command, false, folder);
   }

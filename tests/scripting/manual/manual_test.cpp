@@ -43,8 +43,8 @@ TEST(Manual, EveryExampleRuns) {
   const std::filesystem::path folder = test::scratch();
   const InFolder in(folder);
   std::ofstream("sizes.vtu") << k_sizes_vtu;
-  if (!std::filesystem::exists("wall.stl"))
-    std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", "wall.stl");
+  for (const char* name : {"wall.stl", "torn.stl", "tail.stl"})
+    if (!std::filesystem::exists(name)) std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", name);
   const bool has_cpacs = std::filesystem::exists(test::shared_data() / "cpacs" / "simpletest.cpacs.xml");
   if (has_cpacs) std::filesystem::copy(test::shared_data() / "cpacs" / "simpletest.cpacs.xml", "d150.xml");
   ScriptState state({.script = folder / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}}, RunContext({.threads = 2}));
