@@ -46,6 +46,7 @@ class Improver {
     std::vector<std::uint32_t> worked;     ///< places in `tets` of its bad ones
     std::vector<std::uint8_t> n_failures;  ///< of these
     bool has_changed = false;
+    std::uint64_t effort = 0;            ///< Region::effort()
     std::vector<Vec3> points;            ///< of the local vertices, new ones at the end
     std::vector<double> size_weights;    ///< likewise
     std::vector<std::uint32_t> removed;  ///< of `tets`
@@ -62,7 +63,7 @@ class Improver {
   void list_incident();
   std::vector<Job> choose_jobs(int pass) const;
   void claim_ring(Job& job, std::uint32_t number, std::uint32_t ring);
-  void work(Job& job, std::uint32_t number, Region& region);
+  void work(Job& job, std::uint32_t number, std::uint64_t most_effort, Region& region);
   void put_back(const Job& job);
   /// Calls f for every living tetrahedron at a vertex, perhaps twice.
   template <class F>

@@ -49,6 +49,7 @@ void Region::assign(std::span<const Vec3> points, std::span<const VertexRole> ro
   n_boundary_ = static_cast<std::uint32_t>(std::ranges::find_if_not(roles, is_of_boundary) - roles.begin());
   changed_.assign(points.size(), 0);
   clock_ = 1;
+  effort_ = 0;
   for (auto& list : incident_) list.clear();
   incident_.resize(std::max(incident_.size(), points.size()));
   tets_.clear();
@@ -63,6 +64,7 @@ void Region::add(const Corners& c) {
 
 /// On top of the layer the last prism is what a size is compared with, elsewhere the sizes around the vertices.
 Region::Grade Region::grade(const TetShape& shape, const Corners& c, double weights) const {
+  ++effort_;
   const std::optional<double> on_layer = quality_on_layer(shape, c, layer_faces_, n_boundary_, limits_);
   return {shape.quality, on_layer ? *on_layer : quality_among(shape, weights, limits_)};
 }
@@ -290,7 +292,7 @@ bool Region::has_all_neighbours(std::uint32_t tet) const {
   return std::ranges::all_of(tets_[tet].corners, [&](std::uint32_t v) { return roles_[v] == VertexRole::free || roles_[v] == VertexRole::boundary; });
 }
 
-bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures) {
+bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures, std::uint64_t most_effort) {
   std::vector<std::uint32_t> work(tets.begin(), tets.end());
   for (std::size_t i = 0; i < tets.size(); ++i) tets_[tets[i]].n_failures = n_failures[i];
   const std::uint32_t start = clock_;
@@ -299,7 +301,7 @@ bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::u
     std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target || is_given_up(t); });
     for (const std::uint32_t t : work)
       if (!is_stuck(t) && (worst == k_none || tets_[t].quality < tets_[worst].quality)) worst = t;
-    if (worst == k_none) return clock_ > start;
+    if (worst == k_none || effort_ > most_effort) return clock_ > start;
     const std::size_t n_before = tets_.size();
     if (!help(worst)) {
       tets_[worst].tried = clock_;

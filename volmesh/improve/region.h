@@ -65,8 +65,10 @@ class Region {
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets) { assign(points, roles, tets, Sizes{}); }
   /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and
   /// their neighbours are, or nothing helped max_failures() times; only tries with all neighbours here count, for one flip with a tetrahedron elsewhere may be
-  /// all that it takes. `n_failures` of the given ones so far. True when something changed.
-  bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
+  /// all that it takes. `n_failures` of the given ones so far. Ends early once `most_effort` tetrahedra were graded. True when something changed.
+  bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures, std::uint64_t most_effort = k_endless);
+  static constexpr std::uint64_t k_endless = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t effort() const { return effort_; }  ///< tetrahedra graded since assign()
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
   std::span<const double> size_weights() const { return size_weights_; }
@@ -162,6 +164,7 @@ class Region {
   std::vector<std::vector<std::uint32_t>> incident_;  ///< living tetrahedra of each vertex
   std::vector<std::uint32_t> changed_;                ///< clock of the last change at each vertex
   std::uint32_t clock_ = 1;
+  mutable std::uint64_t effort_ = 0;  ///< tetrahedra graded since assign()
   struct Applied {
     std::vector<std::uint32_t> removed;
     std::size_t n_added = 0;
