@@ -189,8 +189,10 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
       throw Error(std::move(info));
     }
     KeyMaker maker("united");
-    for (const ModelHandle& model : models) maker.add(model->provenance.key());
-    united->provenance = maker.key();
+    const bool are_known = std::ranges::all_of(models, [](const ModelHandle& model) { return model->provenance.key().has_value(); });
+    for (const ModelHandle& model : models)
+      if (are_known) maker.add(*model->provenance.key());
+    if (are_known) united->provenance = maker.key();
     SurfaceValue surface = mesh_models({united}, recipe, {}, context.part("united", k_second_unite_end, 1.0), reuse);
     surface.changes.push_back(fmt::format("{} closed parts stand in each other and were united: {} closed now", n_solids, united->model.solids.size()));
     context.info("changed: " + surface.changes.back());
