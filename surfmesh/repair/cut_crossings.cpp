@@ -1,11 +1,39 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "geom/base/sort_unique.h"
 #include "geom/boolean/cgal_arrange.h"
 #include "geom/mesh/find_crossings.h"
 #include "surfmesh/repair/repair_state.h"
 
 namespace sterna::surfmesh {
+namespace {
+
+constexpr double k_grid_share = 1e-10;  ///< of L: a hundred times finer than what welding takes for one vertex
+
+}  // namespace
+
+void snap_crossings(RepairState& state, const RunContext& context) {
+  // A power of two: numbers with few digits stay as they are.
+  const double grid = std::exp2(std::floor(std::log2(k_grid_share * state.length)));
+  const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
+  std::vector<std::uint32_t> crossing;
+  std::vector<char> is_of(state.points.size(), 0);
+  for (const auto& pair : crossings.pairs)
+    for (const std::uint32_t t : pair) {
+      crossing.push_back(t);
+      for (const std::uint32_t v : state.facets[t]) is_of[v] = 1;
+    }
+  sort_unique(crossing);
+  for (std::uint32_t v = 0; v < is_of.size(); ++v)
+    if (is_of[v])
+      for (std::size_t axis = 0; axis < 3; ++axis) state.points[v][axis] = grid * std::round(state.points[v][axis] / grid);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t)
+    for (const std::uint32_t v : state.facets[t]) state.info[t].is_touched = state.info[t].is_touched || is_of[v];
+  state.note(RepairKind::welded, crossing, grid);
+  weld_rounded(state);
+}
 
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context) {
   bool is_cut = false;

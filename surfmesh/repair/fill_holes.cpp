@@ -180,6 +180,15 @@ double opening_area(const RepairState& state, const Loop& loop) {
   return norm(sum);
 }
 
+double area_of(const RepairState& state) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < state.facets.size(); ++t) {
+    const auto c = state.corners(t);
+    area += triangle_area(c[0], c[1], c[2]);
+  }
+  return area;
+}
+
 struct HalfPlane {
   std::size_t axis = 0;
   double at = 0.0, off = 0.0;
@@ -229,6 +238,7 @@ std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<L
   }
   double open = 0.0;
   for (const std::size_t i : plane.loops) open += opening_area(state, loops[i]);
+  if (!is_asked && open > k_sheet_share * area_of(state)) return std::nullopt;
   if (!is_asked && covered > k_covered_share * open) return std::nullopt;
   if (!is_asked && plane.share < (plane.at == 0.0 ? k_origin_half : k_full_half)) return std::nullopt;
   return plane;
@@ -242,7 +252,9 @@ void close_ways_out(RepairState& state, const RepairOptions& options) {
   Box box;
   for (const Facet& f : state.facets)
     for (const std::uint32_t v : f) box.add(state.points[v]);
+  const double area = area_of(state);
   for (const Loop& loop : loops) {
+    if (opening_area(state, loop) > k_sheet_share * area) continue;
     for (const std::size_t axis : {1u, 2u, 0u}) {
       if (options.half != "automatic" && options.half != std::string(1, "xyz"[axis])) continue;
       bool is_done = false;

@@ -63,6 +63,9 @@ void cap_half(RepairState& state, const RepairOptions& options);
 /// Fills loops within the limits. `kind`: filled or replaced. \return loops that stay open
 std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairKind kind, const RunContext& context);
 
+/// Vertices of facets that cross go to a grid of about 1e-10 of the length: planes that were meant to be one and are not, by rounding, become one.
+void snap_crossings(RepairState& state, const RunContext& context);
+
 /// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are over, or there are more crossings than before. \return whether something was
 /// cut
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);

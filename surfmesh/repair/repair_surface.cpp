@@ -103,13 +103,27 @@ bool needs_hull(const RepairState& state, const RunContext& context) {
   return find_crossings(state.points, state.facets, context, 1).total > 0;
 }
 
+/// Cuts what crosses; where that opens edges or leaves crossings, planes cross that were meant to be one: then once more, from a grid.
+void cut_or_snap(RepairState& state, const RepairOptions& options, const RunContext& context) {
+  const auto trouble = [&](const RepairState& of) {
+    return static_cast<std::int64_t>(count_open_edges(of)) + find_crossings(of.points, of.facets, context).total;
+  };
+  RepairState snapped = state;
+  cut_crossings(state, options, context.part("cut", 0.0, 0.4));
+  const std::int64_t before = trouble(state);
+  if (before == 0) return;
+  snap_crossings(snapped, context);
+  cut_crossings(snapped, options, context.part("cut", 0.4, 0.8));
+  if (trouble(snapped) < before) state = std::move(snapped);
+}
+
 /// Cuts what crosses, takes the outer hull and mends what that leaves. \return whether a hull could be taken
 bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunContext& context) {
   for (int round = 0; round < k_hull_tries && needs_hull(state, context); ++round) {
     // What replacing could not mend, and is much, would only be cut into ever smaller pieces.
     if (round > 0 && find_crossings(state.points, state.facets, context).total > k_most_again) break;
     const TriMesh reference = winding_reference(state);
-    cut_crossings(state, options, context.part("cut", 0.0, 0.5));
+    cut_or_snap(state, options, context);
     if (count_open_edges(state) > 0) remove_sheets(state, context);
     if (!keep_outer_hull(state, reference, context)) return false;
     drop_small_parts(state, options);
