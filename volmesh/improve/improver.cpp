@@ -1,7 +1,5 @@
 #include "volmesh/improve/improver.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -173,9 +171,9 @@ int Improver::run(int max_passes) {
     std::vector<Job> jobs = choose_jobs(pass);
     if (jobs.empty()) break;
     if (left == 0) {
-      context_.log(LogLevel::warning,
-                   fmt::format("improvement of tetrahedra ends with {} places left: strips and fans of needles take more than {} tries a tetrahedron",
-                               jobs.size(), k_effort_of_tet));
+      context_.log(LogLevel::warning, "improvement of tetrahedra ends with " + std::to_string(jobs.size()) +
+                                          " places left: strips and fans of needles take more than " + std::to_string(k_effort_of_tet) +
+                                          " tries a tetrahedron");
       break;
     }
     const std::uint64_t share = std::max(left / jobs.size(), k_effort_of_job);
