@@ -22,6 +22,15 @@ OptionTable inspect_options(surfmesh::StitchOptions& surface, volmesh::InspectRe
   return table;
 }
 
+/// The same of models: their faces are meshed first.
+OptionTable inspect_options_of_models(SurfaceRecipe& recipe, ReadCadOptions& reading, volmesh::InspectRequest& request) {
+  OptionTable table = sterna::options_of(request.limits);
+  for (Option& option : volmesh::options_of(request.volume)) table.push_back(std::move(option));
+  for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
+  for (Option& option : table) option.required = false;
+  return table;
+}
+
 bool is_given(const InspectCommand& command, std::string_view name) {
   return std::ranges::any_of(command.options, [&](const auto& option) { return option.first == name || option.first == "envelope." + std::string(name); });
 }
@@ -35,7 +44,10 @@ std::string names_of(const InspectCommand& command) {
 }  // namespace
 
 void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std::function<void()>& chosen) {
-  command.add_option("surfaces", inspect.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
+  command
+      .add_option("surfaces", inspect.inputs,
+                  "surface files; several are joined to one wall. Or model files, whose faces are meshed first. `sterna formats` lists what is read")
+      ->required();
   command
       .add_option(
           "-o,--output", inspect.output,
@@ -54,29 +66,26 @@ void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std
       "what patches with such names ask for instead, as of `sterna mesh`, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\"; may be given several times");
   command.footer(
       "Without --first-height the surface is looked at, but not how high the layers will be. Options of later stages (tetrahedra ...) are taken and have no "
-      "effect.");
+      "effect. Of models, options of their surface: --set surface_mesh.max_edge=0.2.");
   command.final_callback(chosen);
 }
 
 int execute(const InspectCommand& command, const CommandContext& context) {
   std::vector<InputPath> inputs;
-  for (const std::string& name : command.inputs) {
-    inputs.push_back({name, name});
-    if (is_model_file(name))
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "inspect " + name,
-                   .problem = "it is a model",
-                   .hint = "`sterna surface` meshes its faces, and that surface can be inspected; `sterna check` says whether the model is closed"});
-  }
+  for (const std::string& name : command.inputs) inputs.push_back({name, name});
+  const bool is_model = std::ranges::any_of(command.inputs, [](const std::string& name) { return is_model_file(name); });
   surfmesh::StitchOptions surface;
   volmesh::InspectRequest request;
-  request.volume.patches = layer_rules_of(command.patches);
-  set_options(inspect_options(surface, request), command.options, context);
+  ReadCadOptions reading;
+  SurfaceRecipe recipe;
+  request.volume.patches = layer_rules_of(command.patches, is_model ? &recipe.patches : nullptr);
+  set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), command.options, context);
   choose_solve_for(
       request.volume, [&](std::string_view name) { return is_given(command, name); }, "reading the options");
   if (!command.flow.empty()) request.flow = quantity_of_text("y_plus 1 " + command.flow).flow;
   if (!command.output.empty()) require_inspection_output(command.output);
-  const volmesh::InspectReport report = inspect_files(inputs, surface, request, context.run);
+  const Inspection report = is_model ? inspect_models(inputs, reading, recipe, request, context.run) : inspect_files(inputs, surface, request, context.run);
+  context.console.end_progress();
   const std::string name = names_of(command);
   context.console.print(command.is_json ? json_of(report, name) : text_of(report, name));
   if (!command.output.empty()) {

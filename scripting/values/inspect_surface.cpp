@@ -16,8 +16,10 @@
 #include "io/file/surface_file.h"
 #include "io/file/volume_file.h"
 #include "io/output/atomic_file.h"
+#include "scripting/values/model_surface.h"
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/surface_items.h"
 #include "scripting/values/wall_files.h"
 
 namespace sterna::scripting {
@@ -30,7 +32,8 @@ using volmesh::InspectRequest;
 using volmesh::Severity;
 using PlainJson = nlohmann::json;
 
-constexpr double k_joined = 0.3;  ///< of the progress: files read and joined
+constexpr double k_joined = 0.3;     ///< of the progress: files read and joined
+constexpr double k_inspected = 0.9;  ///< the rest is what has to be done to it
 constexpr double k_percent = 100.0;
 
 FindingKind kind_of(ErrorCode code) {
@@ -60,6 +63,18 @@ void replace_finding(InspectReport& report, Finding finding) {
   const auto same = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& other) { return other.kind == finding.kind; });
   if (same != report.findings.end()) *same = std::move(finding);
   else volmesh::add_finding(report, std::move(finding), {});
+}
+
+std::vector<std::string> names_of(std::span<const InputPath> files) {
+  std::vector<std::string> names;
+  for (const InputPath& file : files) names.push_back(file.name);
+  return names;
+}
+
+/// The corner below which volume_mesh takes a triangle for a needle, or would if it looked.
+double needle_limit_of(const InspectRequest& request) {
+  const double asked = request.volume.needles.split_needles;
+  return asked > 0.0 ? asked : volmesh::NeedleOptions{}.split_needles;
 }
 
 /// All triangles as the files have them, in metres; nothing is joined but corners of STL at one place.
@@ -119,7 +134,7 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
 
 }  // namespace
 
-InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context) {
+Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context) {
   WallFiles files = read_wall_files(inputs, options, context.part("read", 0.0, 0.5 * k_joined));
   files.wall.options.check_intersections = false;  // inspect_wall finds the pairs itself
   std::optional<Finding> refusal;
@@ -134,21 +149,72 @@ InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::S
       if (!refusal) refusal = finding_of(error, request);
     }
   }
+  Inspection report;
+  const RunContext inspecting = context.part("inspect", k_joined, k_inspected);
   if (wall) {
     request.volume = with_wall_facts(*wall, request.volume);
-    InspectReport report = volmesh::inspect_wall(wall->mesh, request, context.part("inspect", k_joined, 1.0));
+    static_cast<InspectReport&>(report) = volmesh::inspect_wall(wall->mesh, request, inspecting);
     if (refusal) replace_finding(report, std::move(*refusal));
     add_repairs(*wall, files, request, report);
-    return report;
+  } else {
+    static_cast<InspectReport&>(report) = volmesh::inspect_triangles(triangles_of(files), request, inspecting);
+    replace_finding(report, std::move(*refusal));
   }
-  InspectReport report = volmesh::inspect_triangles(triangles_of(files), request, context.part("inspect", k_joined, 1.0));
-  replace_finding(report, std::move(*refusal));
+  AutoSurface asked;
+  asked.stitching = files.wall.options;
+  report.preparation =
+      foresee_preparation(files.soups, report, asked, needle_limit_of(request), names_of(inputs), false, context.part("foresee", k_inspected, 1.0));
   return report;
 }
 
-InspectReport inspect_surface(const SurfaceValue& surface, InspectRequest request, const RunContext& context) {
+namespace {
+
+Inspection inspect_joined(const SurfaceValue& surface, InspectRequest request, bool must_close, const RunContext& context) {
   request.volume = with_wall_facts(surface, request.volume);
-  return volmesh::inspect_wall(surface.mesh, request, context);
+  Inspection report;
+  static_cast<InspectReport&>(report) = volmesh::inspect_wall(surface.mesh, request, context.part("inspect", 0.0, k_inspected));
+  const SurfaceHandle borrowed(SurfaceHandle(), &surface);
+  const std::array items = {UnionItem(borrowed)};
+  AutoSurface asked;
+  asked.stitching.fluid = surface.options.fluid;
+  report.preparation = foresee_preparation(read_items(items, asked.stitching, context).soups, report, asked, needle_limit_of(request), {}, must_close,
+                                           context.part("foresee", k_inspected, 1.0));
+  return report;
+}
+
+}  // namespace
+
+Inspection inspect_surface(const SurfaceValue& surface, InspectRequest request, const RunContext& context) {
+  return inspect_joined(surface, std::move(request), false, context);
+}
+
+Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, InspectRequest request,
+                          const RunContext& context) {
+  std::optional<Error> refusal;
+  SurfaceValue surface;
+  try {
+    surface = mesh_model_files(files, reading, recipe, context.part("surface", 0.0, k_joined));
+  } catch (const Error& error) {
+    if (!is_about_surface(error)) throw;
+    refusal = error;
+  }
+  if (refusal) {
+    SurfaceRecipe lenient = recipe;
+    lenient.options.crossings = "ignore";
+    try {
+      surface = mesh_model_files(files, reading, lenient, context.part("triangles", 0.0, k_joined));
+    } catch (const Error& error) {
+      if (!is_about_surface(error)) throw;
+      Inspection report;
+      replace_finding(report, finding_of(error, request));
+      report.preparation = {.needed = Strength::beyond, .is_model = true, .reason = "its faces give no triangles: " + error.info().problem};
+      return report;
+    }
+  }
+  Inspection report = inspect_joined(surface, request, true, context.part("inspect", k_joined, 1.0));
+  if (refusal) replace_finding(report, finding_of(*refusal, request));
+  complete_for_model(report.preparation, static_cast<std::int64_t>(surface.mesh.n_triangles()), surface.changes, names_of(files));
+  return report;
 }
 
 // ---- Telling it ------------------------------------------------------------------------------------------------------------------------------
@@ -174,9 +240,10 @@ std::string prediction_of(const volmesh::LayerPrediction& layer) {
 
 }  // namespace
 
-std::string text_of(const InspectReport& report, const std::string& name) {
-  std::string text = fmt::format("inspect {}: {} triangles, {}, {} {}, {:.4g} m long\n", name, count_text(static_cast<std::int64_t>(report.mesh.n_triangles())),
-                                 report.is_closed ? "closed" : "not closed", report.n_bodies, report.n_bodies == 1 ? "part" : "parts", report.length);
+std::string text_of(const Inspection& report, const std::string& name) {
+  std::string text = fmt::format("inspect {}: {} {}, {}, {} {}, {:.4g} m long\n", name, count_text(static_cast<std::int64_t>(report.mesh.n_triangles())),
+                                 report.mesh.n_triangles() == 1 ? "triangle" : "triangles", report.is_closed ? "closed" : "not closed", report.n_bodies,
+                                 report.n_bodies == 1 ? "part" : "parts", report.length);
   for (const Finding& finding : report.findings) {
     text += fmt::format("  {:<5} {:<13} {}\n", to_string(finding.severity), to_string(finding.kind), finding.text);
     for (const volmesh::FindingPlace& place : finding.places)
@@ -184,10 +251,11 @@ std::string text_of(const InspectReport& report, const std::string& name) {
     if (!finding.advice.empty()) text += "        try: " + finding.advice + "\n";
   }
   if (report.layer.is_known) text += "  " + prediction_of(report.layer) + "\n";
+  text += text_of(report.preparation);
   return text + "  " + verdict_of(report);
 }
 
-std::string json_of(const InspectReport& report, const std::string& name) {
+std::string json_of(const Inspection& report, const std::string& name) {
   const auto number = [](double value) { return std::isfinite(value) ? PlainJson(value) : PlainJson(nullptr); };
   const auto point = [](const Point& p) { return PlainJson{p.x, p.y, p.z}; };
   PlainJson json = {{"schema", "sterna-inspect-1"},
@@ -200,6 +268,7 @@ std::string json_of(const InspectReport& report, const std::string& name) {
                     {"errors", report.count(Severity::error)},
                     {"warnings", report.count(Severity::warn)},
                     {"notes", report.count(Severity::note)}};
+  json["preparation"] = PlainJson::parse(json_of(report.preparation));
   json["findings"] = PlainJson::array();
   for (const Finding& finding : report.findings) {
     PlainJson places = PlainJson::array();

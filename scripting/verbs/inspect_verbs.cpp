@@ -9,6 +9,7 @@
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/inspect_surface.h"
 #include "scripting/values/layer_options.h"
+#include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/verbs/farfield_verbs.h"
@@ -66,7 +67,22 @@ TableHandle finding_table(const volmesh::Finding& finding) {
   return handle(std::move(table));
 }
 
-TableHandle report_table(const volmesh::InspectReport& report) {
+TableHandle preparation_table(const Preparation& preparation) {
+  ScriptTable table;
+  table.fields = {{"needed", std::string(to_string(preparation.needed))},
+                  {"reason", preparation.reason},
+                  {"command", preparation.command},
+                  {"script", preparation.script},
+                  {"hint", preparation.hint},
+                  {"seconds", preparation.seconds},
+                  {"basis", preparation.basis},
+                  {"remesh", preparation.is_remesh_advised},
+                  {"needle_share", preparation.needle_share}};
+  if (preparation.place) table.fields["at"] = point_table(*preparation.place);
+  return handle(std::move(table));
+}
+
+TableHandle report_table(const Inspection& report) {
   ScriptTable table, findings;
   for (const volmesh::Finding& finding : report.findings) findings.items.emplace_back(finding_table(finding));
   table.fields = {{"ok", report.is_ok()},
@@ -77,6 +93,7 @@ TableHandle report_table(const volmesh::InspectReport& report) {
                   {"parts", report.n_bodies},
                   {"is_closed", report.is_closed},
                   {"length", report.length},
+                  {"preparation", preparation_table(report.preparation)},
                   {"findings", handle(std::move(findings))}};
   if (report.layer.is_known) {
     table.fields["coverage"] = report.layer.coverage;
@@ -119,7 +136,8 @@ ScriptValue inspect(const ScriptCall& call) {
   const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(limits);
   reader.read_options(volume);
-  if (!given.surface) reader.read_options(surface);
+  const bool is_model = std::ranges::any_of(given.files, [](const InputPath& file) { return is_model_file(file.path); });
+  if (!given.surface && !is_model) reader.read_options(surface);
   options.sources = read_sources(reader, call);
   options.discs = read_interfaces(reader, call);
   options.periodic = read_periodic(reader);
@@ -140,8 +158,9 @@ ScriptValue inspect(const ScriptCall& call) {
   if (!output.empty()) require_inspection_output(output);
   if (given.surface) set_first_heights(first_heights, *given.surface, options, call.session.context);
   const RunContext context = call.session.context.part("inspect", 0.0, 1.0);
-  const volmesh::InspectReport report =
-      given.surface ? inspect_surface(*given.surface, request, context) : inspect_files(given.files, reading, request, context);
+  const Inspection report = given.surface ? inspect_surface(*given.surface, request, context)
+                            : is_model    ? inspect_models(given.files, {}, {}, request, context)
+                                          : inspect_files(given.files, reading, request, context);
   std::string name;
   if (given.surface)
     for (const InputFile& input : given.surface->inputs) name += (name.empty() ? "" : " ") + input.name;
@@ -159,7 +178,8 @@ std::string inspect_help() {
          "and what volume_mesh takes, first_height too if the layer is to be predicted; with names of files what read_surface takes\n"
          "gives a table: ok (nothing is an error), errors, warnings, notes, coverage, compressed, collapsed (predicted shares of the area), findings = { { "
          "kind, severity, count, share, value, limit, unit, at, patch, "
-         "text, advice, places = { { at, patch, value, what } } } }\n";
+         "text, advice, places = { { at, patch, value, what } } } }, preparation = { needed (none, repair, wrap, remesh, beyond), reason, at, command, script, "
+         "hint, seconds (of one thread, about), basis, remesh (advised, perhaps after repair), needle_share }\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_inspect_verbs = {{

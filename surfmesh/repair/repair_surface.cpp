@@ -6,7 +6,9 @@
 #include <set>
 
 #include "geom/base/error.h"
+#include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
+#include "geom/mesh/topology.h"
 #include "surfmesh/repair/repair_state.h"
 #include "surfmesh/stitch/clean_facets.h"
 #include "surfmesh/stitch/orient.h"
@@ -134,6 +136,30 @@ bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunCont
   return true;
 }
 
+void check_options(RepairOptions options) {
+  for (const Option& option : options_of(options)) set_option(option, option.get());  // refuses what is out of range
+}
+
+StitchOptions strictly(StitchOptions stitching) {
+  stitching.allow_open = false;
+  stitching.check_intersections = true;
+  return stitching;
+}
+
+/// Whether facets that cross are cut and a hull is taken.
+bool is_cutting(const StitchOptions& stitching, const RepairOptions& options) { return options.hull && stitching.fluid != "inside"; }
+
+/// All that is done before facets are cut. \return openings that stay
+std::size_t close_up(RepairState& state, const RepairOptions& options, const RunContext& context) {
+  drop_small_parts(state, options);
+  zip_seams(state, options, context.part("zip", 0.0, 0.5));
+  remove_sheets(state, context);
+  cap_half(state, options);
+  const std::size_t n_open = fill_holes(state, options, RepairKind::filled, context.part("fill", 0.5, 1.0));
+  weld_rounded(state);
+  return n_open;
+}
+
 SurfaceSoup soup_of(const RepairState& state, const std::vector<SurfaceSoup>& soups) {
   SurfaceSoup soup;
   soup.points = state.points;
@@ -189,6 +215,27 @@ std::vector<std::string> tell(const RepairReport& report) {
   return messages;
 }
 
+/// \throws Error(open_surface) where half a model is open elsewhere, too
+void require_rim_in_plane(const TriMesh& mesh, const HalfRim& half, const RunContext& context) {
+  const Topology topology(mesh, context);
+  const auto axis = static_cast<std::size_t>(half.axis[0] - 'x');
+  ErrorInfo info{.code = ErrorCode::open_surface};
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
+    const HalfedgeId h(static_cast<std::uint64_t>(i));
+    if (!topology.is_boundary(h)) continue;
+    const Vec3 &a = mesh.points[topology.from(h)], &b = mesh.points[topology.to(h)];
+    if (a[axis] == half.at && b[axis] == half.at) continue;
+    info.add_place(0.5 * (a + b), "edge of one facet");
+    info.geometry.points.insert(info.geometry.points.end(), {a, b});
+    const auto last = static_cast<std::uint32_t>(info.geometry.points.size());
+    info.geometry.edges.push_back({last - 2, last - 1});
+  }
+  if (info.n_places == 0) return;
+  info.problem =
+      "the half model is open along " + count_of(info.n_places, "edge", "edges") + " outside of its plane " + half.axis + " = " + short_number(half.at) + " m";
+  throw Error(std::move(info));
+}
+
 }  // namespace
 
 std::string_view to_string(RepairKind kind) {
@@ -203,13 +250,9 @@ std::int64_t RepairReport::count(RepairKind kind) const {
 }
 
 RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context) {
-  RepairOptions checked = options;
-  for (const Option& option : options_of(checked)) set_option(option, option.get());  // refuses what is out of range
-  StitchOptions strict = stitching;
-  strict.allow_open = false;
-  strict.check_intersections = true;
+  check_options(options);
   try {
-    StitchResult clean = stitch_surface(soups, strict, context.part("stitch", 0.0, 0.1));
+    StitchResult clean = stitch_surface(soups, strictly(stitching), context.part("stitch", 0.0, 0.1));
     RepairResult result{std::move(clean.mesh), {}};
     result.report.length = body_length(result.mesh);
     result.report.stitch = std::move(clean.report);
@@ -222,15 +265,9 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   Input input;
   RepairState state = first_state(soups, stitching, input, context);
   if (state.facets.empty()) throw_bad_argument("repairing " + sources_of(soups), "no facet has an area");
-  drop_small_parts(state, options);
-  zip_seams(state, options, context.part("zip", 0.1, 0.25));
-  remove_sheets(state, context);
-  cap_half(state, options);
-  const std::size_t n_open = fill_holes(state, options, RepairKind::filled, context.part("fill", 0.25, 0.4));
-  weld_rounded(state);
-  const bool is_hull_possible = options.hull && stitching.fluid != "inside";
+  const std::size_t n_open = close_up(state, options, context.part("close", 0.1, 0.4));
   bool is_leaking = false;
-  if (n_open == 0 && is_hull_possible && needs_hull(state, context)) {
+  if (n_open == 0 && is_cutting(stitching, options) && needs_hull(state, context)) {
     is_leaking = !cut_to_hull(state, options, context.part("hull", 0.4, 0.9));
   }
   make_consistent(state);
@@ -244,6 +281,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     proving.fluid = stitching.fluid;
     proving.allow_open = state.report.half.has_value();
     StitchResult proved = stitch_surface({soup_of(state, soups)}, proving, context.part("prove", 0.9, 0.95));
+    if (state.report.half) require_rim_in_plane(proved.mesh, *state.report.half, context);
     result.mesh = std::move(proved.mesh);
     state.report.stitch = std::move(proved.report);
   } catch (const Error& error) {
@@ -263,6 +301,9 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   }
   measure_changes(state, input.points, input.facets, context);
   state.report.messages = tell(state.report);
+  state.report.messages.push_back("what is left moved by at most " + short_number(state.report.moved) + " m, the new surface is at most " +
+                                  short_number(state.report.from_result) + " m from the given one, the given one at most " +
+                                  short_number(state.report.from_input) + " m from the new one (what was removed)");
   for (const std::string& message : state.report.messages) context.info("repair: " + message);
   if (state.report.moved > options.largest_move * state.length) {
     ErrorInfo info;
@@ -276,6 +317,50 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   result.report = std::move(state.report);
   context.progress(1.0);
   return result;
+}
+
+RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context) {
+  check_options(options);
+  RepairForecast forecast;
+  try {
+    stitch_surface(soups, strictly(stitching), context.part("stitch", 0.0, 0.3));
+    return forecast;
+  } catch (const Error& error) {
+    if (!is_reparable(error.code())) throw;
+    forecast.is_needed = true;
+    forecast.problem = error.info().problem;
+    for (const ErrorPlace& place : error.info().places) forecast.places.push_back(place.position);
+  }
+  Input input;
+  RepairState state = first_state(soups, stitching, input, context);
+  if (state.facets.empty()) throw_bad_argument("repairing " + sources_of(soups), "no facet has an area");
+  forecast.length = state.length;
+  forecast.n_facets = static_cast<std::int64_t>(state.facets.size());
+  for (std::size_t t = 0; t < state.facets.size(); ++t) {
+    const auto [a, b, c] = state.corners(t);
+    forecast.area += triangle_area(a, b, c);
+  }
+  forecast.n_open = static_cast<std::int64_t>(close_up(state, options, context.part("close", 0.3, 0.8)));
+  forecast.n_changes = static_cast<std::int64_t>(state.report.changes.size());
+  forecast.n_seams = state.report.count(RepairKind::zipped);
+  forecast.n_sheets = state.report.count(RepairKind::removed_sheet);
+  forecast.n_holes = state.report.count(RepairKind::filled);
+  for (const RepairChange& change : state.report.changes)
+    if (change.kind == RepairKind::filled) forecast.n_fillings += change.n_facets;
+  forecast.half = state.report.half;
+  for (const std::vector<std::uint32_t>& loop : find_loops(state)) {
+    Box box;
+    for (const std::uint32_t v : loop) box.add(state.points[v]);
+    if (const double width = norm(box.max - box.min); forecast.n_open > 0 && width > forecast.widest_open) {
+      forecast.widest_open = width;
+      forecast.widest_place = box.center();
+    }
+  }
+  const EdgeTable edges = state.edges();
+  forecast.n_crowded = std::ranges::count_if(edges.edges(), [](const Edge& edge) { return edge.count > 2; });
+  forecast.n_crossings = find_crossings(state.points, state.facets, context.part("crossings", 0.8, 1.0)).total;
+  forecast.is_enough = forecast.n_open == 0 && (is_cutting(stitching, options) || (forecast.n_crossings == 0 && forecast.n_crowded == 0));
+  return forecast;
 }
 
 }  // namespace sterna::surfmesh

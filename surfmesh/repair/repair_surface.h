@@ -103,6 +103,32 @@ struct RepairResult {
 /// \throws Error as stitch_surface for what is left, with places and the next thing to try; mesh_invalid when the surface would move by more than allowed
 RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context);
 
+/// What repair finds to do, by its own steps up to the filling of holes: nothing is cut, no hull is taken, nothing proved.
+struct RepairForecast {
+  bool is_needed = false;        ///< false: stitch_surface accepts the surface, and the rest is empty
+  std::string problem;           ///< what stitch_surface said, with its counts
+  std::vector<Vec3> places;      ///< m; where, the first of them
+  std::int64_t n_facets = 0;     ///< with an area, as read
+  double area = 0.0;             ///< m^2, of these
+  double length = 0.0;           ///< m, body length
+  std::int64_t n_changes = 0;    ///< places in all; 0 of half a model with its rim in the plane
+  std::int64_t n_seams = 0;      ///< places zipped
+  std::int64_t n_sheets = 0;     ///< places removed
+  std::int64_t n_holes = 0;      ///< filled
+  std::int64_t n_fillings = 0;   ///< facets that fill them
+  std::int64_t n_open = 0;       ///< openings that repair does not close: above its limits, or as large as what is there
+  double widest_open = 0.0;      ///< m; diagonal of the box of the widest of them
+  Vec3 widest_place;             ///< m; its middle
+  std::int64_t n_crossings = 0;  ///< pairs of facets that cross or touch, then
+  std::int64_t n_crowded = 0;    ///< edges of more than two facets, then
+  std::optional<HalfRim> half;
+  bool is_enough = true;  ///< nothing stays open, and what crosses may be cut
+};
+
+/// Quick: mostly a small share of the time of repair_surface, which may still fail where the hull leaks or rounding leaves crossings.
+/// \throws Error as repair_surface for what no repair is for (file_malformed, empty_surface, bad_argument); cancelled
+RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context);
+
 }  // namespace sterna::surfmesh
 
 namespace sterna {

@@ -14,6 +14,8 @@
 namespace sterna::surfmesh {
 namespace {
 
+/// What is tried first (docs/dirty_surfaces.md).
+const std::string k_repair_hint = "`sterna repair`, or --auto (auto = true of read_surface), mends it; `sterna inspect` says how";
 /// Boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
 constexpr std::size_t k_max_matching = 5000;
 /// Boundary edges match when their ends are nearer than this part of the shortest boundary edge: then a tolerance that closes the gap collapses none of them.
@@ -161,7 +163,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
     for (const std::uint32_t h : edges.at(edge)) add_facet(surface, h / 3, info.geometry);
   }
   add_pinched(surface, defects, info);
-  info.hint = "remove internal walls and fins in the program that made the file, or join touching bodies there with a boolean union";
+  info.hint = k_repair_hint + ". Or remove internal walls and fins in the program that made the file, or join touching bodies there with a boolean union";
   throw Error(std::move(info));
 }
 
@@ -186,9 +188,9 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
     const bool is_all = match.n_matched == n;
     info.hint = "weld_tolerance = " + short_number(1.01 * match.largest_gap) + " (m): " + (is_all ? "all" : std::to_string(match.n_matched)) +
                 " of these edges have a partner within " + short_number(match.largest_gap) + " m (shortest of them: " + short_number(shortest) + " m)" +
-                (is_all ? "" : "; fill the other holes in the program that made the file");
+                (is_all ? "" : "; " + k_repair_hint + " with the other holes, too");
   } else {
-    info.hint = "fill the holes in the program that made the file, or add the file with the missing part";
+    info.hint = k_repair_hint + ". Or fill the holes in the program that made the file, or add the file with the missing part";
   }
   throw Error(std::move(info));
 }
@@ -199,7 +201,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
                  in_addition(other_defects(defects, orientation, false, false, true));
   info.n_places = static_cast<std::int64_t>(defects.pinched.size());
   add_pinched(surface, defects, info);
-  info.hint = "move the parts of the surface that touch in a point apart";
+  info.hint = k_repair_hint + ". Or move the parts of the surface that touch in a point apart";
   throw Error(std::move(info));
 }
 
@@ -214,7 +216,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
     add_edge(surface, edge, info.geometry);
     for (const std::uint32_t h : edges.at(edge)) add_facet(surface, h / 3, info.geometry);
   }
-  info.hint = "look for facets that join the two sides of a thin part";
+  info.hint = k_repair_hint + ". Or look for facets that join the two sides of a thin part";
   throw Error(std::move(info));
 }
 
@@ -266,8 +268,8 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     if (info.places.size() < k_max_places) info.places.push_back({center(surface, t), facet_name(surface, t) + " has no area"});
     if (!is_shown[t]) add_facet(surface, t, info.geometry);
   }
-  info.hint = n_between > 0 ? "unite the bodies with `sterna union` (union{...} in a script), or move them apart"
-                            : "repair these facets in the program that made the file";
+  info.hint = n_between > 0 ? "unite the bodies with `sterna union` (union{...} in a script), or move them apart; " + k_repair_hint
+                            : k_repair_hint + ". Or mend these facets in the program that made the file";
   throw Error(std::move(info));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
@@ -59,6 +60,25 @@ std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<char>& flag,
     std::sort(groups.back().begin(), groups.back().end());
   }
   return groups;
+}
+
+void draw_closures(const TriMesh& mesh, const WrapInput& input, const std::vector<char>& is_closure, const std::vector<char>& is_leak, WrapDrawing& drawing) {
+  const std::size_t axis = input.half_axis == "x" ? 0 : input.half_axis == "y" ? 1 : 2;
+  std::map<VertexId, std::uint32_t> number;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    if (!is_closure[t.index()] && !is_leak[t.index()]) continue;
+    const auto c = corners(mesh, t);
+    const Vec3 middle = (c[0] + c[1] + c[2]) / 3.0;
+    if (!input.half_axis.empty() && (middle[axis] > input.half_at) != input.is_half_above) continue;
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = mesh.triangles[t][k];
+      const auto [found, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(drawing.points.size()));
+      if (is_new) drawing.points.push_back(mesh.points[v]);
+      triangle[k] = found->second;
+    }
+    drawing.triangles.push_back(triangle);
+  }
 }
 
 }  // namespace
@@ -142,6 +162,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
     leak.position = n_rim > 0 ? rim / static_cast<double>(n_rim) : corners(mesh, TriangleId(group.front()))[0];
     report.leaks.push_back(leak);
   }
+  draw_closures(mesh, surface.input(), is_closure, is_leak, report.drawing);
   std::stable_sort(report.leaks.begin(), report.leaks.end(), [](const WrapLeak& a, const WrapLeak& b) { return a.area > b.area; });
 
   // The input, seen from the wrap.

@@ -40,14 +40,13 @@ constexpr std::array k_half_shifts{0.0, 0.2, 0.5, 1.0, 2.0};
 constexpr std::size_t k_seed_cells = 24;  ///< along each axis, of the grid on which a place within a tunnel is looked for
 constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;  ///< shares of the progress
 
-std::int64_t expected_triangles(const WrapInput& input, double edge) { return std::llround(k_triangles_per_area * input.area / (edge * edge)); }
+std::int64_t expected_triangles(double area, double edge) { return std::llround(k_triangles_per_area * area / (edge * edge)); }
 
-WrapSizes choose_sizes(const WrapInput& input, const WrapOptions& options) {
+WrapSizes choose_sizes(double area, double length, const WrapOptions& options) {
   WrapSizes sizes;
-  const double length = input.length;
   sizes.edge = !is_automatic(options.edge)
                    ? options.edge
-                   : std::clamp(std::sqrt(k_triangles_per_area * input.area / k_automatic_triangles), k_finest_edge * length, k_coarsest_edge * length);
+                   : std::clamp(std::sqrt(k_triangles_per_area * area / k_automatic_triangles), k_finest_edge * length, k_coarsest_edge * length);
   sizes.gap = is_automatic(options.gap) ? std::max(k_gap_of_edge * sizes.edge, k_automatic_gap * length) : options.gap;
   sizes.tolerance = is_automatic(options.tolerance) ? 0.1 * sizes.edge : options.tolerance;
   sizes.offset = is_automatic(options.offset) ? 0.05 * sizes.edge : options.offset;
@@ -59,11 +58,15 @@ void check_sizes(const WrapInput& input, const WrapSizes& sizes, const WrapOptio
   if (sizes.edge > 0.5 * input.length)
     throw_bad_argument("wrapping", "edge = " + short_number(sizes.edge) + " m is more than half the body length of " + length);
   if (sizes.gap > input.length) throw_bad_argument("wrapping", "gap = " + short_number(sizes.gap) + " m is more than the body length of " + length);
+  if (!is_automatic(options.gap) && sizes.gap < sizes.edge)
+    throw_bad_argument(
+        "wrapping", "gap = " + short_number(sizes.gap) + " m is below the edge of " + short_number(sizes.edge) + " m, whose ball closes all that is narrower",
+        {}, "edge = " + short_number(sizes.gap) + " or less, or a larger gap");
   if (!(sizes.offset > 0.0) || sizes.offset > sizes.edge)
     throw_bad_argument("wrapping",
                        "offset = " + short_number(sizes.offset) + " m must be above 0 and not above the edge of " + short_number(sizes.edge) + " m");
   if (!(sizes.tolerance > 0.0)) throw_bad_argument("wrapping", "tolerance must be above 0");
-  const std::int64_t expected = expected_triangles(input, sizes.edge);
+  const std::int64_t expected = expected_triangles(input.area, sizes.edge);
   if (expected <= options.max_triangles) return;
   const double least = std::sqrt(k_triangles_per_area * input.area / options.max_triangles);
   throw_bad_argument("wrapping",
@@ -206,11 +209,18 @@ TriMesh finished_mesh(const FittedWrap& fitted, const TriMesh& input) {
 
 }  // namespace
 
+WrapEstimate estimate_wrap(double area, double length, const WrapOptions& options) {
+  const WrapSizes sizes = choose_sizes(area, length, options);
+  double widest = sizes.gap;
+  while (is_automatic(options.gap) && widest <= k_widest_gap * length) widest *= 2.0;
+  return {.edge = sizes.edge, .widest_gap = widest, .n_triangles = expected_triangles(area, sizes.edge)};
+}
+
 WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context) {
   WrapResult result;
   WrapReport& report = result.report;
   WrapInput input = read_wrap_input(soups, options, report, context);
-  WrapSizes sizes = choose_sizes(input, options);
+  WrapSizes sizes = choose_sizes(input.area, input.length, options);
   check_sizes(input, sizes, options);
   const bool is_inside = sizes.is_fluid_inside = options.fluid == "inside";
   if (options.half == "automatic" && !is_inside) mirror_half(input, sizes.gap, report, context);
@@ -219,7 +229,7 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
   report.gap = sizes.gap;
   report.tolerance = sizes.tolerance;
   report.offset = sizes.offset;
-  report.expected_triangles = expected_triangles(input, sizes.edge);
+  report.expected_triangles = expected_triangles(input.area, sizes.edge);
   report.n_feature_edges = static_cast<std::int64_t>(input.lines.size());
   context.info("wrap: edge " + short_number(sizes.edge) + " m, gap " + short_number(sizes.gap) + " m, tolerance " + short_number(sizes.tolerance) +
                " m; about " + std::to_string(report.expected_triangles) + " triangles expected");
@@ -231,7 +241,7 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
     soup.alpha = alpha;
     soup.offset = offset;
     soup.max_points = 2 * static_cast<std::int64_t>(options.max_triangles);
-    soup.expected_points = expected_triangles(input, alpha) / 2;
+    soup.expected_points = expected_triangles(input.area, alpha) / 2;
     wrap = alpha_wrap(soup, part);
     if (sizes.is_fluid_inside)
       for (auto& t : wrap.triangles) std::swap(t[1], t[2]);

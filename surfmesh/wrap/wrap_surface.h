@@ -41,6 +41,12 @@ struct WrapLeak {
   double area = 0.0;  ///< m^2 of the wrap inside
 };
 
+/// Triangles of the wrap that close something, and those that leak, for drawing; of a half model those of the given half.
+struct WrapDrawing {
+  std::vector<Vec3> points;  ///< m
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
 /// What the wrap is worth: triangles by their smallest angle.
 struct WrapQuality {
   double min_angle = 0.0;          ///< rad
@@ -69,6 +75,7 @@ struct WrapReport {
   std::string half_axis;                                        ///< "x", "y", "z" of a half model; empty: none
   double half_at = 0.0;                                         ///< m
   double half_moved = 0.0;                                      ///< m, the input's rim was off the plane by so much
+  WrapDrawing drawing;
   WrapQuality quality;
   std::vector<std::string> messages;  ///< one sentence for each, as logged
 };
@@ -90,6 +97,15 @@ struct WrapResult {
 /// \throws Error(file_malformed) (index out of range, coordinate not finite); empty_surface; bad_argument for an edge that gives more than max_triangles, with
 /// the figure, or a gap below the edge; self_intersection or open_surface when the proof fails
 WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context);
+
+/// What a wrap will be like, before the work.
+struct WrapEstimate {
+  double edge = 0.0;             ///< m
+  double widest_gap = 0.0;       ///< m; wider openings leak. An automatic gap grows up to this
+  std::int64_t n_triangles = 0;  ///< within a factor of 3; features and curvature add some
+};
+/// Of facets with so much area (m^2) and a body of that length (m).
+WrapEstimate estimate_wrap(double area, double length, const WrapOptions& options);
 
 }  // namespace sterna::surfmesh
 

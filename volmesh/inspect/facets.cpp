@@ -31,7 +31,8 @@ void survey_needles(const Survey& survey) {
                  number_text(finding.limit, k_text_digits) + " deg, the smallest " + number_text(finding.value, k_text_digits) +
                  " deg: cells there are bad, and the layer gets low";
   finding.advice =
-      "mesh the surface anew there (surface_mesh of the CAD model), or move the short edges' ends together: weld_tolerance a little above their length";
+      "give the surface new triangles (`sterna remesh`, or surface_mesh of the CAD model), or move the short edges' ends together: weld_tolerance a little "
+      "above their length";
   survey.add(std::move(finding), needles, [&](const Suspect<TriangleId>& s) {
     return FindingPlace{survey.middle(s.id), survey.patch_of(s.id), -s.badness / k_degree, "triangle " + std::to_string(s.id.value())};
   });

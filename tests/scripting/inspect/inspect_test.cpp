@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "io/file/surface_file.h"
@@ -28,7 +29,7 @@ class InspectFiles : public ScriptFixture {
     io::write_surface_file(mesh, folder_ / name, RunContext({.threads = 1}));
     return (folder_ / name).string();
   }
-  volmesh::InspectReport inspect(const std::string& path, const surfmesh::StitchOptions& options = {}) const {
+  Inspection inspect(const std::string& path, const surfmesh::StitchOptions& options = {}) const {
     const std::vector<InputPath> files = {{path, path}};
     return inspect_files(files, options, {}, RunContext({.threads = 2}));
   }
@@ -88,6 +89,131 @@ TEST_F(InspectFiles, MillimetresReadAsMetresAreDoubted) {
   const volmesh::InspectReport right = inspect(path, {.unit = 1e-3});
   EXPECT_FALSE(right.find(FindingKind::unit));
   EXPECT_NEAR(right.length, 4.0, 0.1);
+}
+
+// ---- What has to be done first --------------------------------------------------------------------------------------------------------------
+
+class Preparing : public InspectFiles {
+ protected:
+  static TriMesh without(const TriMesh& mesh, const std::set<std::uint32_t>& facets) {
+    TriMesh rest;
+    rest.points = mesh.points;
+    rest.patches = mesh.patches;
+    for (const TriangleId t : mesh.triangles.ids()) {
+      if (facets.contains(t.value())) continue;
+      rest.triangles.push_back(mesh.triangles[t]);
+      rest.triangle_patch.push_back(mesh.triangle_patch[t]);
+    }
+    return rest;
+  }
+  /// What --auto did: "nothing", or the first word of its change.
+  static std::string done_by_auto(const std::string& path) {
+    const std::vector<InputPath> files = {{path, path}};
+    const SurfaceValue wall = auto_surface(files, {}, {}, RunContext({.threads = 2}));
+    return wall.changes.empty() ? "nothing" : wall.changes.back().substr(0, wall.changes.back().find(':'));
+  }
+  static std::string foreseen(const Preparation& preparation) {
+    return preparation.needed == Strength::repair && preparation.is_changed ? "repaired" : preparation.needed == Strength::wrap ? "wrapped" : "nothing";
+  }
+};
+
+TEST_F(Preparing, SoundSurfacesNeedNothing) {
+  const Preparation p = inspect(write(test::sphere(8), "sphere.stl")).preparation;
+  EXPECT_EQ(p.needed, Strength::none);
+  EXPECT_TRUE(p.command.empty());
+  EXPECT_EQ(p.seconds, 0.0);
+  EXPECT_FALSE(p.is_remesh_advised);
+}
+
+TEST_F(Preparing, HolesAndCrossingsAreRepaired) {
+  const std::string open = write(without(test::cube(4), {9, 40}), "open it.stl");
+  const Preparation hole = inspect(open).preparation;
+  EXPECT_EQ(hole.needed, Strength::repair);
+  EXPECT_EQ(hole.forecast.n_holes, 2);
+  EXPECT_EQ(hole.forecast.n_fillings, 2);
+  EXPECT_THAT(hole.reason, HasSubstr("open along 6 edges around 2 holes"));
+  EXPECT_EQ(hole.command, "sterna repair '" + open + "' -o 'open it_repaired.stl'");
+  EXPECT_TRUE(hole.place.has_value());
+  EXPECT_GT(hole.seconds, 0.0);
+  EXPECT_THAT(hole.basis, HasSubstr("190 facets"));
+  EXPECT_EQ(done_by_auto(open), "repaired");
+
+  TriMesh two = test::cube(4), other = test::cube(4);
+  for (Point& p : other.points) p += Vec3{0.5, 0.55, 0.45};
+  append(two, other);
+  const Preparation crossing = inspect(write(two, "two.stl")).preparation;
+  EXPECT_EQ(crossing.needed, Strength::repair);
+  EXPECT_GT(crossing.forecast.n_crossings, 0);
+  EXPECT_GT(crossing.seconds, 0.0);
+}
+
+TEST_F(Preparing, WhatIsMostlyMissingIsWrapped) {
+  // A sphere of which the smaller part is left: no hole, but a bowl.
+  const TriMesh whole = test::sphere(8);
+  std::set<std::uint32_t> above;
+  for (const TriangleId t : whole.triangles.ids()) {
+    const auto c = corners(whole, t);
+    if ((c[0] + c[1] + c[2]).z + 0.3 * (c[0] + c[1] + c[2]).x > -2.4) above.insert(t.value());
+  }
+  const std::string path = write(without(whole, above), "bowl.stl");
+  const Preparation p = inspect(path).preparation;
+  EXPECT_EQ(p.needed, Strength::wrap);
+  EXPECT_GT(p.forecast.n_open, 0);
+  EXPECT_GT(p.forecast.widest_open, 0.3);
+  EXPECT_THAT(p.command, HasSubstr("sterna wrap "));
+  EXPECT_THAT(p.reason, HasSubstr("repair leaves 1 opening"));
+}
+
+TEST_F(Preparing, NeedlesAskForRemesh) {
+  TriMesh mesh = test::cube(4);
+  for (Point& p : mesh.points) p.x *= 40.0;
+  const std::string path = write(mesh, "rod.stl");
+  const Preparation p = inspect(path).preparation;
+  EXPECT_EQ(p.needed, Strength::remesh);
+  EXPECT_GT(p.needle_share, 0.5);
+  EXPECT_THAT(p.reason, HasSubstr("below 5 deg"));
+  EXPECT_THAT(p.command, HasSubstr("sterna remesh "));
+  const test::ProcessResult json = sterna({path, "--json"});
+  const Json told = Json::parse(json.output)["preparation"];
+  EXPECT_EQ(told["needed"], "remesh");
+  EXPECT_EQ(told["remesh"], true);
+  EXPECT_DOUBLE_EQ(told["needle_share"].get<double>(), p.needle_share);
+  EXPECT_THAT(sterna({path}).output, HasSubstr("first remesh"));
+  EXPECT_THAT(run("local p = inspect('" + path + "').preparation print(p.needed, p.remesh, p.seconds > 0, p.command:sub(1, 13))"),
+              HasSubstr("remesh\ttrue\ttrue\tsterna remesh"));
+}
+
+TEST_F(Preparing, ModelsAreMeshedFirst) {
+  run("box{ {0, 0, 0}, {1, 1, 1}, name = 'a' }:write(" + out("box.step") + ")");
+  const test::ProcessResult result = sterna({"box.step", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json json = Json::parse(result.output);
+  EXPECT_TRUE(json["closed"]);
+  EXPECT_EQ(json["preparation"]["needed"], "none");
+  EXPECT_EQ(json["preparation"]["model"], true);
+  EXPECT_THAT(run("print(inspect(" + out("box.step") + ").preparation.needed)"), HasSubstr("none"));
+}
+
+TEST_F(Preparing, TheSameForAnyThreads) {
+  const std::string path = write(without(test::sphere(12), {9, 40, 41, 700}), "open.stl");
+  std::set<std::string> texts;
+  for (const char* threads : {"1", "2", "7"}) texts.insert(sterna({path, "--json", "--threads", threads}).output);
+  EXPECT_EQ(texts.size(), 1u);
+}
+
+TEST_F(Preparing, ForeseesWhatAutoDoes) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::filesystem::path nasty = test::shared_data() / "surfaces" / "nasty";
+  // One of each kind: holes, seams, crossings, half models, sheets, bodies that stand in each other; and sound ones.
+  for (const char* name :
+       {"cgal_data_elephant-with-holes.off", "asb_talon_talon.stl", "uuv_propeller_1.stl", "pyhyp_dpw.fmt", "pyhyp_m6_small.fmt", "nasty_admesh_nearby-bad.stl",
+        "nasty_arrangements_two_spheres.stl", "pdas_wgs_ex4.wgs", "netgen_parts_part1.stl", "nasty_trimesh_busted.STL"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(foreseen(inspect((nasty / name).string()).preparation), done_by_auto((nasty / name).string()));
+  }
+  // Shells whose openings are as large as they are; that repair refuses them is a test of its own.
+  for (const char* name : {"nasty_meshlab_non_manif_hole.ply", "cgal_data_b9_mesh.off", "cgal_data_degtri_sliding.off"})
+    EXPECT_EQ(inspect((nasty / name).string()).preparation.needed, Strength::wrap) << name;
 }
 
 // ---- Scripts --------------------------------------------------------------------------------------------------------------------------------

@@ -66,6 +66,49 @@ TEST(RepairSurface, WhatIsAcceptedComesBackWithTheSameBytes) {
   EXPECT_EQ(result.report.from_result, 0.0);
 }
 
+TEST(RepairSurface, HalfModelsWithOtherOpeningsAreRefused) {
+  TriMesh half = half_of(sphere(12), {.axis = "y", .keep = "+"}, quiet());
+  std::vector<std::size_t> top;
+  for (const TriangleId t : half.triangles.ids()) {
+    const auto c = corners(half, t);
+    if (distance((c[0] + c[1] + c[2]) / 3.0, {0.3, 0.9, 0.2}) < 0.2) top.push_back(t.index());
+  }
+  const SurfaceSoup soup = without(soup_of(half), top);
+  RepairOptions options;
+  options.hole = options.flat_hole = 0.05;
+  expect_error(ErrorCode::open_surface, "outside of its plane y", [&] { surfmesh::repair_surface({soup}, {}, options, quiet()); });
+  EXPECT_FALSE(surfmesh::foresee_repair({soup}, {}, options, quiet()).is_enough);
+}
+
+TEST(ForeseeRepair, CountsWhatRepairDoes) {
+  const std::vector<SurfaceSoup> soups{without(cube_soup(), {0, 1, 2, 9}), shifted(cube_soup(), {0.4, 0.3, 0.35})};
+  const surfmesh::RepairForecast forecast = surfmesh::foresee_repair(soups, {}, {}, quiet());
+  const RepairResult result = repaired(soups);
+  EXPECT_TRUE(forecast.is_needed);
+  EXPECT_TRUE(forecast.is_enough);
+  EXPECT_EQ(forecast.n_holes, result.report.count(RepairKind::filled));
+  EXPECT_GT(forecast.n_crossings, 0);
+  EXPECT_EQ(forecast.n_facets, 92);
+  EXPECT_NEAR(forecast.area, 12.0 - 4.0 / 8.0, 1e-12);
+  EXPECT_DOUBLE_EQ(forecast.length, result.report.length);
+  EXPECT_FALSE(forecast.problem.empty());
+  EXPECT_FALSE(forecast.places.empty());
+}
+
+TEST(ForeseeRepair, NothingIsForeseenOfWhatIsAccepted) {
+  const surfmesh::RepairForecast forecast = surfmesh::foresee_repair({cube_soup()}, {}, {}, quiet());
+  EXPECT_FALSE(forecast.is_needed);
+  EXPECT_TRUE(forecast.is_enough);
+}
+
+TEST(ForeseeRepair, CrossingsWithoutHullAreTooMuch) {
+  const std::vector<SurfaceSoup> soups{cube_soup(), shifted(cube_soup(), {0.4, 0.3, 0.35})};
+  RepairOptions options;
+  options.hull = false;
+  EXPECT_FALSE(surfmesh::foresee_repair(soups, {}, options, quiet()).is_enough);
+  EXPECT_TRUE(surfmesh::foresee_repair(soups, {}, {}, quiet()).is_enough);
+}
+
 TEST(RepairSurface, FlatHolesAreFilledFlat) {
   const RepairResult result = repaired({without(cube_soup(), {0, 1, 2, 9})});
   EXPECT_NEAR(volume_of(result.mesh), 1.0, 1e-14);
