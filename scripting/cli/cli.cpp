@@ -310,8 +310,8 @@ void add_repair_command(CLI::App& app, RepairCommand& repair, OptionOverrides& s
       "repair", "close seams and holes of surfaces, cut facets that cross, drop sheets and inner walls; as little as possible, each change told");
   command->add_option("parts", repair.inputs, "surface files. `sterna formats` lists what is read")->required();
   command->add_option("-o,--output", repair.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
-  command->add_option("--changes", repair.changes, "VTU with the facets that were changed or taken out");
-  command->add_option("--report", repair.report, "JSON with every change: kind, place, size, facets; and the distances");
+  command->add_option("--changes", repair.changes, "VTU with the facets that were changed or taken out")->type_name("FILE");
+  command->add_option("--report", repair.report, "JSON with every change: kind, place, size, facets; and the distances")->type_name("FILE");
   surfmesh::StitchOptions stitching;
   surfmesh::RepairOptions options;
   add_schema_options(*command, repair_options(stitching, options), repair.options);
@@ -330,6 +330,8 @@ void add_wrap_command(CLI::App& app, WrapCommand& wrap, OptionOverrides& set, Re
   CLI::App* command = app.add_subcommand("wrap", "wrap surfaces, however torn, in one that is closed and near to them, with their sharp edges and patches");
   command->add_option("parts", wrap.inputs, "surface files. `sterna formats` lists what is read")->required();
   command->add_option("-o,--output", wrap.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  command->add_option("--changes", wrap.changes, "VTU with the triangles that close something, and those that leak")->type_name("FILE");
+  command->add_option("--report", wrap.report, "JSON with every closure and leak: kind, place, size; and the distances")->type_name("FILE");
   surfmesh::WrapOptions options;
   add_schema_options(*command, sterna::options_of(options), wrap.options);
   add_set_option(*command, set);

@@ -450,6 +450,11 @@ int execute(const HalfCommand& command, const CommandContext& context) {
 
 namespace {
 
+/// Says before the work why nothing can be written there; empty names are no files.
+void require_writable(const std::filesystem::path& path) {
+  if (!path.empty()) io::AtomicFile probe(path);
+}
+
 void require_other_output(const std::vector<std::string>& inputs, const std::filesystem::path& output, const std::string& attempted) {
   for (const std::string& name : inputs) {
     std::error_code none;  // of files that are not there
@@ -469,6 +474,8 @@ int execute(const RepairCommand& command, const CommandContext& context) {
   surfmesh::RepairOptions options;
   set_options(repair_options(stitching, options), command.options, context);
   require_surface_output(command.output);
+  require_writable(command.changes);
+  require_writable(command.report);
   std::vector<UnionItem> items;
   for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
@@ -492,10 +499,18 @@ int execute(const WrapCommand& command, const CommandContext& context) {
   surfmesh::WrapOptions options;
   set_options(sterna::options_of(options), command.options, context);
   require_surface_output(command.output);
+  require_writable(command.changes);
+  require_writable(command.report);
   std::vector<UnionItem> items;
   for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
-  const SurfaceValue wrapped = wrap_surfaces(items, options, {.cache = cache.get(), .lines = nullptr}, context.run.part("wrap", 0.0, k_mesh_end));
+  std::function<void(const surfmesh::WrapReport&)> look;
+  if (!command.changes.empty() || !command.report.empty())
+    look = [&](const surfmesh::WrapReport& report) {
+      if (!command.changes.empty() && !report.drawing.triangles.empty()) io::write_trouble_vtu(closed_facets(report), command.changes);
+      if (!command.report.empty()) io::write_whole(command.report, wrap_json(report));
+    };
+  const SurfaceValue wrapped = wrap_surfaces(items, options, {.cache = cache.get(), .lines = nullptr}, context.run.part("wrap", 0.0, k_mesh_end), look);
   write_surface(wrapped, command.output, context.run.part("write", k_mesh_end, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(wrapped));

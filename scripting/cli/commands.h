@@ -104,6 +104,8 @@ struct RepairCommand {
 struct WrapCommand {
   std::vector<std::string> inputs;
   std::filesystem::path output;
+  std::filesystem::path changes;  ///< VTU of what was closed; empty: none
+  std::filesystem::path report;   ///< JSON of closures, leaks, distances; empty: none
   OptionOverrides options;
   CacheChoice cache;
 };

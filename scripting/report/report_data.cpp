@@ -402,6 +402,7 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
   head.update(Json::parse(page_no_check_json()));
   head["patches"] = maker.patches_json();
   head["manifest"] = {{"inputs", inputs_json(surface.inputs)}};
+  if (!surface.changes.empty()) head["manifest"]["changes"] = surface.changes;
   head["run"] = options.times ? run_json(context) : Json(nullptr);
   head["cuts"] = Json::array();
   return small_page(options, context, [&](std::size_t n_triangles, std::size_t) {

@@ -1,6 +1,7 @@
 #include "scripting/values/wrap_surfaces.h"
 
-#include "geom/mesh/topology.h"
+#include <nlohmann/json.hpp>
+
 #include "scripting/cache/stage_cache.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
@@ -26,8 +27,10 @@ struct WrappedWall {
   surfmesh::StitchReport report;
 };
 
-WrappedWall wrapped(const std::vector<SurfaceSoup>& soups, const surfmesh::WrapOptions& options, const RunContext& context) {
+WrappedWall wrapped(const std::vector<SurfaceSoup>& soups, const surfmesh::WrapOptions& options, const RunContext& context,
+                    const std::function<void(const surfmesh::WrapReport&)>& look) {
   surfmesh::WrapResult result = surfmesh::wrap_surface(soups, options, context);
+  if (look) look(result.report);
   WrappedWall wall;
   wall.mesh = std::move(result.mesh);
   wall.report.n_triangles_read = result.report.n_facets_read;
@@ -40,7 +43,8 @@ WrappedWall wrapped(const std::vector<SurfaceSoup>& soups, const surfmesh::WrapO
 
 }  // namespace
 
-SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::WrapOptions& options, const Reuse& reuse, const RunContext& context) {
+SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::WrapOptions& options, const Reuse& reuse, const RunContext& context,
+                           const std::function<void(const surfmesh::WrapReport&)>& look) {
   surfmesh::StitchOptions reading;
   reading.unit = options.unit;
   reading.fluid = options.fluid;
@@ -51,8 +55,8 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
   used.fluid = read.wall.options.fluid;
   const StageTimer timer(context, k_wrap_stage);
   WrappedWall made = cached<WrappedWall>(
-      reuse, k_wrap_stage, {}, reuse.cache ? std::optional(wrap_key(read.soups, used)) : std::nullopt, context,
-      [&] { return wrapped(read.soups, used, context.part(k_wrap_stage, k_wrap_read_end, 1.0)); },
+      reuse, k_wrap_stage, {}, reuse.cache && !look ? std::optional(wrap_key(read.soups, used)) : std::nullopt, context,
+      [&] { return wrapped(read.soups, used, context.part(k_wrap_stage, k_wrap_read_end, 1.0), look); },
       [](ByteSink& sink, const WrappedWall& wall) {
         write_value(sink, wall.mesh);
         write_value(sink, wall.report);
@@ -69,6 +73,28 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
   wall.changes.push_back(change_text("wrapped", wall.report.messages));
   context.info(describe(wall) + " (wrapped)");
   return wall;
+}
+
+TroubleGeometry closed_facets(const surfmesh::WrapReport& report) { return {report.drawing.points, report.drawing.triangles, {}, {}}; }
+
+std::string wrap_json(const surfmesh::WrapReport& report) {
+  const auto at = [](const Vec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
+  nlohmann::ordered_json json = {{"schema", "sterna-wrap-1"}, {"messages", report.messages}};
+  json["sizes"] = {{"edge", report.edge}, {"gap", report.gap}, {"tolerance", report.tolerance}, {"offset", report.offset}};
+  json["distance"] = {{"to_input", report.to_input},
+                      {"to_input_closed", report.to_input_closed},
+                      {"from_input", report.from_input},
+                      {"beyond_tolerance", report.n_beyond_tolerance}};
+  json["inside"] = {{"facets", report.n_inside}, {"area", report.inside_area}};
+  if (!report.half_axis.empty()) json["half"] = {{"axis", report.half_axis}, {"at", report.half_at}, {"moved", report.half_moved}};
+  json["n_closures"] = report.n_closures;
+  json["closures"] = nlohmann::ordered_json::array();
+  for (const surfmesh::WrapClosure& c : report.closures)
+    json["closures"].push_back(
+        {{"kind", c.is_opening ? "opening" : "groove"}, {"at", at(c.position)}, {"size", c.size}, {"area", c.area}, {"distance", c.distance}});
+  json["leaks"] = nlohmann::ordered_json::array();
+  for (const surfmesh::WrapLeak& leak : report.leaks) json["leaks"].push_back({{"at", at(leak.position)}, {"area", leak.area}});
+  return json.dump(2) + "\n";
 }
 
 }  // namespace sterna::scripting

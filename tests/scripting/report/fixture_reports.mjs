@@ -174,7 +174,7 @@ export function make_report({ with_cuts = true, kind = "volume", n = 24 } = {}) 
       { patch: k_nasty, area: 4.2, full: 1, reduced: 0, compressed: 0, collapsed: 0, lost: [] },
     ],
     run: { stages: [{ name: "volume_mesh", seconds: 8, depth: 0 }, { name: "volume_mesh/envelope", seconds: 5, depth: 1 }, { name: "check", seconds: 2, depth: 0 }], seconds: 10.5, peak_memory: 1.2e9, threads: 2 },
-    manifest: { schema: "sterna-manifest-1", program: "sterna 0.1.0", seed: 1, inputs: [{ file: k_nasty, xxh3_128: "89a4d16121722085ac3105f20d9d02eb" }], options: { envelope: { layers: 30, first_height: 1e-5 }, farfield: { farfield_sides: "" } }, improvement: { remaining: Array.from({ length: 80 }, (_, k) => ({ at: [k, 0, 0], what: `angle ${k}` })) } },
+    manifest: { schema: "sterna-manifest-1", program: "sterna 0.1.0", seed: 1, inputs: [{ file: k_nasty, xxh3_128: "89a4d16121722085ac3105f20d9d02eb" }], changes: [`repaired: holes filled: 2 places (7 facets), the largest 0.5 m at (0.25, -1e-06, 0); what is left moved by at most 0 m ${k_nasty}`, k_nasty], options: { envelope: { layers: 30, first_height: 1e-5 }, farfield: { farfield_sides: "" } }, improvement: { remaining: Array.from({ length: 80 }, (_, k) => ({ at: [k, 0, 0], what: `angle ${k}` })) } },
     options_set: { envelope: ["layers"] },
   };
   return { report, blob };

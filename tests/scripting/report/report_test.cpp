@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "scripting/report/report_page.h"
 #include "scripting/report/thin_surface.h"
@@ -73,6 +75,23 @@ TEST_F(Report, OfASurfaceAndThinned) {
   EXPECT_TRUE(wall["cuts"].empty());
   EXPECT_LE(thin["surface"]["shown"].get<int>(), 50);
   EXPECT_GT(thin["surface"]["total"].get<int>(), 50);
+}
+
+TEST_F(Report, TellsWhatWasChangedOnTheSurface) {
+  run(std::string("local whole = read_surface '") + STERNA_SOURCE_DIR + "/tests/data/scripts/box.stl'\n" + "whole:write(" + out("whole.off") + ")");
+  std::string text = text_of("whole.off");
+  text.erase(text.find_last_of('\n', text.size() - 2) + 1);  // without its last facet
+  const std::size_t counts = text.find('\n') + 1;
+  std::istringstream numbers(text.substr(counts));
+  std::size_t n_points = 0, n_facets = 0;
+  numbers >> n_points >> n_facets;
+  text.replace(counts, text.find('\n', counts) - counts, std::to_string(n_points) + " " + std::to_string(n_facets - 1) + " 0");
+  std::ofstream(folder_ / "open.off") << text;
+  run("report{ read_surface{ " + out("open.off") + ", auto = true }, " + out("open.html") + " }");
+  const nlohmann::json page = test::page_json(folder_ / "open.html");
+  ASSERT_EQ(page["manifest"]["changes"].size(), 1u);
+  EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("holes filled: 1 place"));
+  EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("what is left moved by at most 0 m"));
 }
 
 TEST_F(Report, RefusesWhatItCannotShow) {

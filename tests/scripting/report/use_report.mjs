@@ -38,6 +38,7 @@ export async function use_report({ page, open, file, report, shot, keep }) {
   await use_pointer(page, report);
   await use_cuts(page, report, shot);
   const n_places = await use_places(page, report, shot);
+  await use_changes(page, report, shot);
   await use_gates(page, report);
   await use_histograms(page, report, shot);
   await use_run(page, report, shot);
@@ -293,6 +294,24 @@ async function use_histograms(page, report, shot) {
   require_equal(blank, 0, "blank histograms");
   await page.hover(".histogram canvas");
   await shot("histograms");
+}
+
+/** Each change is told, each place in it is shown. */
+async function use_changes(page, report, shot) {
+  const changes = report.manifest?.changes ?? [];
+  await tab(page, "summary");
+  require_equal((await page.$$(".changes h3")).length, changes.length, "changes of the surface");
+  if (!changes.length) return;
+  const text = (await page.textContent("#body_summary")).replaceAll(/\s+/g, " ");
+  for (const change of changes) for (const part of change.slice(change.indexOf(": ") + 1).split("; ")) require_that(text.includes(part.trim().replaceAll(/\s+/g, " ")), `the summary does not tell "${part}"`);
+  const places = await page.$$(".change button");
+  if (places.length) {
+    await places[0].click();
+    const state = await settled(page);
+    require_that(state.values.place < 0, "a change is no place of a gate");
+    await require_picture(page, "place of a change", 0);
+    await shot("change");
+  }
 }
 
 async function use_run(page, report, shot) {

@@ -310,6 +310,13 @@ export class ReportApp {
     this.view.fly_to_place(this.report.places[k].at, this.report.length, ranges, is_smooth);
   }
 
+  /** To a place that no gate names. */
+  fly_to_point(at, is_smooth = true) {
+    this.state.set({ camera: "", place: -1 });
+    const ranges = this.set.ranges.filter((_, p) => this.report.patches[p].kind === "wall");
+    this.view.fly_to_place(at, this.report.length, ranges, is_smooth);
+  }
+
   // ---- what is under the pointer
 
   show_info(found, is_kept) {

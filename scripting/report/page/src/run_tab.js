@@ -61,7 +61,7 @@ function tree(name, value) {
   return details;
 }
 
-const k_shown_apart = ["schema", "program", "output", "seed", "inputs", "options", "verdict", "quality", "options_set"];
+const k_shown_apart = ["schema", "program", "output", "seed", "inputs", "options", "verdict", "quality", "options_set", "changes"];
 
 export function run_tab(app) {
   const { run, manifest } = app.report;

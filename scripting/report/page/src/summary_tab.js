@@ -44,6 +44,29 @@ function quality_row(app, gate) {
   );
 }
 
+const k_point = /\((-?[\d.]+(?:e[-+]?\d+)?), (-?[\d.]+(?:e[-+]?\d+)?), (-?[\d.]+(?:e[-+]?\d+)?)\)/;
+
+/** One thing that was done to the surface; where it names a place, a way there. */
+function change_row(app, text) {
+  const found = text.match(k_point);
+  const at = found?.slice(1).map(Number);
+  return h("li.change", null, text, at && app.view ? [" ", button("show", () => app.fly_to_point(at), { title: `Look at ${found[0]}`, kind: ".small" })] : null);
+}
+
+/** What makes the wall another surface than the files: "repaired: holes filled: 3 places ...; cut ..." is a heading and a list. */
+function changes(app) {
+  const list = app.report.manifest?.changes ?? [];
+  if (!list.length) return null;
+  return [
+    h("h2", { id: "changes" }, "Changes of the surface"),
+    list.map((change) => {
+      const colon = change.indexOf(": ");
+      const what = colon < 0 ? [] : change.slice(colon + 2).split("; ");
+      return h("section.changes", null, h("h3", null, colon < 0 ? change : change.slice(0, colon)), what.length ? h("ul", null, what.map((text) => change_row(app, text))) : null);
+    }),
+  ];
+}
+
 export function summary_tab(app) {
   const { report } = app;
   const verdict = report.gates.filter((gate) => !gate.measure), quality = report.gates.filter((gate) => gate.measure);
@@ -52,6 +75,7 @@ export function summary_tab(app) {
   return [
     h("h2", null, "Mesh"),
     h("table.facts", null, h("tbody", null, (report.facts ?? []).map(([name, value]) => h("tr", null, h("th", { scope: "row" }, name), h("td", null, value))))),
+    changes(app),
     verdict.length ? [h("h2", null, "Validity"), h("div.gates", null, verdict.map((gate) => verdict_row(app, gate)))] : null,
     quality.length ? [h("h2", null, "Quality gates ", h("small", null, Object.entries(counts).map(([state, n]) => `${n} ${state}`).join(", "))), h("div.gates", null, quality.map((gate) => quality_row(app, gate)))] : null,
   ];
