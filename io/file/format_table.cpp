@@ -244,6 +244,11 @@ const Format& format_of(const std::filesystem::path& path) {
                    .attempted = attempted,
                    .problem = "it is a folder",
                    .hint = "name a file in it; of folders only OpenFOAM's polyMesh is read"});
+    if (path == "-" || path.string().starts_with("/dev/"))
+      throw Error({.code = ErrorCode::unsupported_format,
+                   .attempted = attempted,
+                   .problem = "formats are told by the extension, and files are read more than once",
+                   .hint = "write what comes through the pipe to a file such as wall.stl first"});
     throw_unknown_extension(attempted, "known extensions: " + known_extensions() + " (each also with .gz)");
   }
   const Format* const first = candidates.front();

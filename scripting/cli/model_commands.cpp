@@ -72,8 +72,10 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
   const Reuse reuse{.cache = cache.get(), .lines = nullptr};
   const RunContext part = context.run.part("surface", 0.0, 0.95);
-  SurfaceValue surface =
-      command.is_auto ? auto_surface(inputs, {.reading = reading, .recipe = recipe}, reuse, part) : mesh_model_files(inputs, reading, recipe, part, reuse);
+  surfmesh::StitchOptions stitching;
+  if (!is_automatic(reading.unit)) stitching.unit = reading.unit;
+  SurfaceValue surface = command.is_auto ? auto_surface(inputs, {.stitching = stitching, .reading = reading, .recipe = recipe}, reuse, part)
+                                         : mesh_model_files(inputs, reading, recipe, part, reuse);
   add_layer_rules(layers, surface);
   for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
