@@ -300,11 +300,11 @@ async function use_histograms(page, report, shot) {
 async function use_changes(page, report, shot) {
   const changes = report.manifest?.changes ?? [];
   await tab(page, "summary");
-  require_equal((await page.$$(".changes h3")).length, changes.length, "changes of the surface");
+  require_equal((await page.$$(".surface_changes h3")).length, changes.length, "changes of the surface");
   if (!changes.length) return;
   const text = (await page.textContent("#body_summary")).replaceAll(/\s+/g, " ");
   for (const change of changes) for (const part of change.slice(change.indexOf(": ") + 1).split("; ")) require_that(text.includes(part.trim().replaceAll(/\s+/g, " ")), `the summary does not tell "${part}"`);
-  const places = await page.$$(".change button");
+  const places = await page.$$(".surface_change button");
   if (places.length) {
     await places[0].click();
     const state = await settled(page);

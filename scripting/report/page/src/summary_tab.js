@@ -50,7 +50,7 @@ const k_point = /\((-?[\d.]+(?:e[-+]?\d+)?), (-?[\d.]+(?:e[-+]?\d+)?), (-?[\d.]+
 function change_row(app, text) {
   const found = text.match(k_point);
   const at = found?.slice(1).map(Number);
-  return h("li.change", null, text, at && app.view ? [" ", button("show", () => app.fly_to_point(at), { title: `Look at ${found[0]}`, kind: ".small" })] : null);
+  return h("li.surface_change", null, text, at ? [" ", button("show", () => app.view && app.fly_to_point(at), { title: `Look at ${found[0]}`, kind: ".small" })] : null);
 }
 
 /** What makes the wall another surface than the files: "repaired: holes filled: 3 places ...; cut ..." is a heading and a list. */
@@ -62,7 +62,7 @@ function changes(app) {
     list.map((change) => {
       const colon = change.indexOf(": ");
       const what = colon < 0 ? [] : change.slice(colon + 2).split("; ");
-      return h("section.changes", null, h("h3", null, colon < 0 ? change : change.slice(0, colon)), what.length ? h("ul", null, what.map((text) => change_row(app, text))) : null);
+      return h("section.surface_changes", null, h("h3", null, colon < 0 ? change : change.slice(0, colon)), what.length ? h("ul", null, what.map((text) => change_row(app, text))) : null);
     }),
   ];
 }
