@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/math/constants.h"
 #include "scripting/values/summary.h"
 
@@ -98,7 +99,9 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
                fmt::format(", the widest {:.4g} m across ({:.3g} of the length): above its limits, or as large as what is there", forecast.widest_open,
                            forecast.widest_open / forecast.length);
     p.place = forecast.widest_place;
-    if (forecast.widest_open > wrap.widest_gap)
+    if (forecast.widest_open >= forecast.length)
+      p.hint = "what is open as wide as it is long is a sheet, and gets about the wrap's offset as its thickness; or is a part of the surface missing?";
+    else if (forecast.widest_open > wrap.widest_gap)
       p.hint = fmt::format("openings wider than {:.3g} m leak, both sides of the skin behind them are wrapped: a gap up to {:.3g} closes this one",
                            wrap.widest_gap, forecast.widest_open);
   } else {
@@ -224,13 +227,14 @@ std::string text_of(const Preparation& p) {
   if (p.needed == Strength::none)
     return "  first nothing       " + std::string(p.is_model ? "the model's own faces are meshed" : "the surface is sound") +
            (p.hint.empty() ? "" : "; " + p.hint) + "\n";
-  std::string text = fmt::format("  first {:<13} {}\n", to_string(p.needed), p.reason);
+  std::string text =
+      fmt::format("  first {:<13} {}{}\n", to_string(p.needed), p.needed == Strength::beyond ? "none of repair, wrap and remesh helps: " : "", p.reason);
   if (p.place) text += "        at " + format_point(*p.place) + "\n";
   if (p.is_triangulated) text += "        the model goes on as triangles; patches keep the names of its faces\n";
   if (!p.command.empty()) text += "        run: " + p.command + "\n";
   if (!p.script.empty()) text += "        or in Lua: " + p.script + "\n";
   if (!p.hint.empty()) text += "        try: " + p.hint + "\n";
-  if (p.seconds > 0.0) text += fmt::format("        takes about {:.2g} s ({})\n", p.seconds, p.basis);
+  if (p.seconds > 0.0) text += fmt::format("        takes about {} s ({})\n", number_text(p.seconds, 2), p.basis);
   if (p.is_remesh_advised && p.needed != Strength::remesh)
     text += fmt::format("        then remesh: {:.3g} % of the triangles have a corner below {:.3g} deg\n", 100.0 * p.needle_share, p.needle_limit / k_degree);
   return text;

@@ -73,6 +73,28 @@ TEST_F(AutoSurfaceTest, RepairWritesWhatItChanged) {
   EXPECT_THAT(run("print(read_surface " + out("mended.stl") + ")"), HasSubstr("closed"));
 }
 
+TEST_F(AutoSurfaceTest, WrapWritesWhatItClosed) {
+  write_open_box();
+  const test::ProcessResult result =
+      sterna({"wrap", "open.off", "-o", "closed.stl", "--edge", "0.1", "--gap", "0.8", "--changes", "closures.vtu", "--report", "wrap.json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(text_of("closures.vtu"), HasSubstr("UnstructuredGrid"));
+  const nlohmann::json report = nlohmann::json::parse(text_of("wrap.json"));
+  ASSERT_EQ(report.at("closures").size(), 1u);
+  EXPECT_EQ(report.at("closures").at(0).at("kind"), "opening");
+  EXPECT_NEAR(report.at("closures").at(0).at("area").get<double>(), 0.5, 0.25);  // half a side of the box, and its rim
+  EXPECT_TRUE(report.at("leaks").empty());
+  // Told before the work.
+  EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--report", "nowhere/wrap.json"}).errors, HasSubstr("create the folder first"));
+  EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--edge", "0.1", "--gap", "0.01"}).errors, HasSubstr("is below the edge"));
+}
+
+TEST_F(AutoSurfaceTest, UnitsOfTriangulationsAreHeeded) {
+  const test::ProcessResult result = sterna({"surface", "box.stl", "--auto", "--unit", "mm", "-o", "small.stl"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(run("print(read_surface(" + out("small.stl") + ").length)"), HasSubstr("0.001"));
+}
+
 TEST_F(AutoSurfaceTest, ReadSurfaceTakesTheSame) {
   write_open_box();
   const std::string open = out("open.off");
