@@ -142,12 +142,12 @@ void write_commands(Preparation& p, std::span<const std::string> inputs, double 
   const std::string unit = in_metres == 1.0 ? "" : fmt::format("{:g}", in_metres);
   const std::string stem = stem_of(inputs.front());
   if (p.is_model) {
-    p.command = "sterna surface" + words + " --auto -o " + quoted(stem + "_wall.stl");
+    p.command = "sterna surface" + words + " --auto -o " + quoted(stem + "_wall.obj");
     p.script = "read_surface{ " + names + ", auto = true }";
     return;
   }
   p.command = "sterna " + verb + words + (unit.empty() ? "" : " --unit " + unit) + " -o " +
-              quoted(stem + "_" + verb + (p.needed == Strength::wrap ? "ped" : "ed") + ".stl");
+              quoted(stem + "_" + verb + (p.needed == Strength::wrap ? "ped" : "ed") + ".obj");
   p.script = "read_surface{ " + names + (unit.empty() ? "" : ", unit = " + unit) + ", " + verb + " = true }";
 }
 

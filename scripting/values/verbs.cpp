@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 
@@ -151,8 +152,29 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
   write_manifest(mesh, path, context);
 }
 
+namespace {
+
+/// Vertices that single precision puts onto others: neighbours closer than rounding.
+std::int64_t count_merged_by_rounding(const TriMesh& mesh) {
+  using Rounded = std::array<float, 3>;
+  std::vector<std::pair<Rounded, Point>> points;
+  for (const Point& p : mesh.points) points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, p});
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::int64_t n = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) n += points[i].first == points[i - 1].first && !(points[i].second == points[i - 1].second);
+  return n;
+}
+
+}  // namespace
+
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context) {
   io::write_surface_file(surface.mesh, path, context);
+  if (const std::string extension = path.extension().string(); (extension == ".stl" || extension == ".STL") && surface.mesh.patches.size() <= 1)  // binary
+    if (const std::int64_t n = count_merged_by_rounding(surface.mesh); n > 0)
+      context.warn(
+          fmt::format("{}: STL is single precision, which puts {} of {} vertices onto others: read again, the surface may be open or touch itself there. "
+                      ".obj, .ply and .off keep all digits",
+                      path.string(), count_text(n), count_text(static_cast<std::int64_t>(surface.mesh.n_vertices()))));
   if (surface.mesh_report) write_surface_manifest(surface, path);
 }
 

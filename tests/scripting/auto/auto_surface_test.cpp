@@ -89,6 +89,16 @@ TEST_F(AutoSurfaceTest, WrapWritesWhatItClosed) {
   EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--edge", "0.1", "--gap", "0.01"}).errors, HasSubstr("is below the edge"));
 }
 
+TEST_F(AutoSurfaceTest, SinglePrecisionThatMergesVerticesIsTold) {
+  // A box far away, one of its corners cut off by less than single precision tells apart.
+  std::ofstream(folder_ / "far.off") << "OFF\n6 8 0\n1000 0 0\n1001 0 0\n1000.5 1 0\n1000.5 0.5 1\n1000.5 0.50000001 1\n1000.5 0.5 -1\n"
+                                        "3 0 1 3\n3 1 4 3\n3 1 2 4\n3 2 0 4\n3 0 3 4\n3 1 0 5\n3 2 1 5\n3 0 2 5\n";
+  const test::ProcessResult stl = sterna({"repair", "far.off", "-o", "far.stl"}), obj = sterna({"repair", "far.off", "-o", "far.obj"});
+  ASSERT_EQ(stl.status, 0) << stl.errors;
+  EXPECT_THAT(stl.output + stl.errors, HasSubstr("STL is single precision, which puts 1 of 6 vertices onto others"));
+  EXPECT_THAT(obj.output + obj.errors, Not(HasSubstr("single precision")));
+}
+
 TEST_F(AutoSurfaceTest, UnitsOfTriangulationsAreHeeded) {
   const test::ProcessResult result = sterna({"surface", "box.stl", "--auto", "--unit", "mm", "-o", "small.stl"});
   ASSERT_EQ(result.status, 0) << result.errors;

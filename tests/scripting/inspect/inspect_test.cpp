@@ -132,7 +132,7 @@ TEST_F(Preparing, HolesAndCrossingsAreRepaired) {
   EXPECT_EQ(hole.forecast.n_holes, 2);
   EXPECT_EQ(hole.forecast.n_fillings, 2);
   EXPECT_THAT(hole.reason, HasSubstr("open along 6 edges around 2 holes"));
-  EXPECT_EQ(hole.command, "sterna repair '" + open + "' -o 'open it_repaired.stl'");
+  EXPECT_EQ(hole.command, "sterna repair '" + open + "' -o 'open it_repaired.obj'");
   EXPECT_TRUE(hole.place.has_value());
   EXPECT_GT(hole.seconds, 0.0);
   EXPECT_THAT(hole.basis, HasSubstr("190 facets"));
