@@ -15,10 +15,9 @@ constexpr double k_tiny = 1e-150;
 constexpr double k_inner_reach = 0.2, k_boundary_reach = 0.4;
 /// A sphere's radius that is as good as none, for flat tets (OpenFOAM's GREAT).
 constexpr double k_great = 1e15;
-constexpr double k_bound_reserve = 0.99;  ///< for rounding
+constexpr double k_least_power = 1e-250;  ///< powers of volumes below this have lost digits
 /// Columns per chunk; each holds some 30 cells.
 constexpr std::size_t k_cell_column_chunk = 64;
-constexpr std::size_t k_first_columns = 16;
 constexpr std::uint8_t k_top = 7;
 
 struct Corners {
@@ -72,7 +71,7 @@ double worst_from_corner(std::span<const Point> corners, std::size_t base, const
 
 /// checkMesh's decomposition of a face for tracking: all tets around its centre, and those of the best of its cuts into triangles, must be the right way round
 /// on both sides. Of a triangle the second are as good as the first. `other`: null at the boundary.
-double face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
+double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
   double worst = worst_around_centre(face, corners, cell, -1.0);
   if (other != nullptr) worst = std::min(worst, worst_around_centre(face, corners, *other, 1.0));
   if (corners.size() == 3) return worst;
@@ -85,37 +84,55 @@ double face_tet_quality(const FaceShape& face, std::span<const Point> corners, c
   return std::min(worst, best);
 }
 
-/// At most face_tet_quality(), at a third of its price; negative where a tet is the wrong way round. With V six volumes of a tet and l the longest edge at its
-/// first corner its quality is 1.5 sqrt(3) V^4 / N^3, N (tet_quality's `to_centre`) at most 3 l^4.
-double face_tet_bound(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
-  double longest = 0.0;
-  const auto reach_from = [&](const Point& p) {
-    longest = std::max({longest, norm2(face.centre - p), norm2(cell - p), other != nullptr ? norm2(*other - p) : 0.0});
-    for (const Point& q : corners) longest = std::max(longest, norm2(q - p));
-  };
-  for (const Point& p : corners) reach_from(p);
-  const auto least = [&](const Point& p, const Point& q, const Point& r) {
-    const Vec3 normal = cross(q - p, r - p);
-    const double own = -dot(normal, cell - p);
-    return other != nullptr ? std::min(own, dot(normal, *other - p)) : own;
-  };
-  double volume = k_great;
-  for (std::size_t k = 0; k < corners.size(); ++k) volume = std::min(volume, least(corners[k], corners[(k + 1) % corners.size()], face.centre));
-  if (corners.size() == 4) {
-    const auto cut = [&](std::size_t base) {
-      const auto corner = [&](std::size_t k) { return corners[(base + k) % 4]; };
-      return std::min(least(corner(0), corner(1), corner(2)), least(corner(0), corner(2), corner(3)));
-    };
-    volume = std::min(volume, std::max(cut(0), cut(1)));
+/// Of tets at one cell's centre: V^8 / N^6 with V six volumes and N tet_quality's `to_centre`; negative where one is the wrong way round.
+struct TetPowers {
+  double around = k_great;        ///< the least with the face's centre
+  double cuts[2] = {-1.0, -1.0};  ///< the least of each of a quadrilateral's cuts
+};
+
+/// Crosses of neighbours among the corners serve all tets; `sign` as in worst_around_centre with its sense turned.
+TetPowers tet_powers(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
+  std::array<Vec3, 4> a, side, to_centre;  // corners from the cell's centre; crosses with the next corner, with the face's centre
+  std::array<double, 4> a2;
+  const std::size_t n = corners.size();
+  const Vec3 c = face.centre - cell;
+  const double c2 = norm2(c);
+  for (std::size_t k = 0; k < n; ++k) {
+    a[k] = corners[k] - cell;
+    a2[k] = norm2(a[k]);
+    to_centre[k] = cross(c, a[k]);
   }
-  if (!(volume > 0.0)) return -1.0;
-  const double share = volume / (longest * std::sqrt(longest)), squared = share * share;
-  return k_bound_reserve * 1.5 * std::numbers::sqrt3 / 27.0 * squared * squared;
+  const auto power = [](double volume, const Vec3& normal) {
+    if (!(volume > 0.0)) return -1.0;
+    const double share = 1.0 / norm2(normal), squared = volume * volume, first = squared * squared * share;
+    return first * first * share;
+  };
+  TetPowers powers;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = k + 1 < n ? k + 1 : 0;
+    side[k] = cross(a[k], a[next]);
+    powers.around = std::min(powers.around, power(sign * dot(side[k], c), c2 * side[k] + a2[next] * to_centre[k] - a2[k] * to_centre[next]));
+  }
+  if (n != 4) return powers;
+  for (std::size_t base = 0; base < 2; ++base) {
+    const std::size_t next = base + 1, across = base + 2, last = (base + 3) % 4;
+    const Vec3 diagonal = cross(a[base], a[across]);
+    powers.cuts[base] = std::min(power(sign * dot(side[base], a[across]), a2[across] * side[base] - a2[next] * diagonal + a2[base] * side[next]),
+                                 power(sign * dot(side[across], a[base]), a2[base] * side[across] + a2[across] * side[last] + a2[last] * diagonal));
+  }
+  return powers;
 }
 
-void add_face_tets(CellCentredScan& scan, std::uint64_t id, const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
-  if (scan.face_tets.would_not_be_noted(face_tet_bound(face, corners, cell, other))) scan.face_tets.add_unnoted();
-  else scan.face_tets.add(face_tet_quality(face, corners, cell, other), id);
+/// exact_face_tet_quality() at a third of its price where all tets are the right way round: a tet's quality is 1.5 sqrt(3) V^4 / N^3.
+double face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
+  TetPowers powers = tet_powers(face, corners, cell, 1.0);
+  if (other != nullptr) {
+    const TetPowers more = tet_powers(face, corners, *other, -1.0);
+    powers.around = std::min(powers.around, more.around);
+    for (std::size_t base = 0; base < 2; ++base) powers.cuts[base] = std::min(powers.cuts[base], more.cuts[base]);
+  }
+  const double least = corners.size() == 4 ? std::min(powers.around, std::max(powers.cuts[0], powers.cuts[1])) : powers.around;
+  return least > k_least_power ? 1.5 * std::numbers::sqrt3 * std::sqrt(least) : exact_face_tet_quality(face, corners, cell, other);
 }
 
 void add_inner(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& a, const Place& b) {
@@ -128,7 +145,7 @@ void add_inner(CellCentredScan& scan, std::uint64_t id, std::span<const Point> c
   scan.face_weight.add(std::min(to_a, to_b) / (to_a + to_b + k_tiny), id);
   scan.volume_ratio.add(std::min(a.volume, b.volume) / (std::max(a.volume, b.volume) + k_tiny), id);
   if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
-  add_face_tets(scan, id, face, corners, a.centre, &b.centre);
+  scan.face_tets.add(face_tet_quality(face, corners, a.centre, &b.centre), id);
 }
 
 void add_boundary(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
@@ -136,7 +153,7 @@ void add_boundary(CellCentredScan& scan, std::uint64_t id, std::span<const Point
   const Vec3 normal = face.area / (norm(face.area) + k_tiny);
   scan.skewness.add(skewness_of(face, corners, cell.centre, dot(normal, face.centre - cell.centre) * normal, k_boundary_reach), id);
   if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
-  add_face_tets(scan, id, face, corners, cell.centre, nullptr);
+  scan.face_tets.add(face_tet_quality(face, corners, cell.centre, nullptr), id);
 }
 
 /// Which faces of cells are on the boundary; faces of periodic sides are not, flow goes through them.
@@ -270,10 +287,7 @@ class Scanner {
         }
       }
     };
-    const std::size_t n_first = layers.n_columns() / k_first_columns;  // what they note need not be beaten by the others
-    gather(scan, n_first, add_column, k_cell_column_chunk);
-    gather(
-        scan, layers.n_columns() - n_first, [&](std::size_t i, CellCentredScan& part) { add_column(n_first + i, part); }, k_cell_column_chunk);
+    gather(scan, layers.n_columns(), add_column, k_cell_column_chunk);
   }
 
   /// All others.
@@ -292,7 +306,6 @@ class Scanner {
   template <class Add>
   void gather(CellCentredScan& scan, std::size_t n, const Add& add, std::size_t chunk = k_default_chunk) const {
     CellCentredScan empty(limits_);
-    empty.face_tets.expect(scan.face_tets);
     scan = parallel_reduce(
         context_, n, std::move(scan),
         [&](std::size_t begin, std::size_t end) {

@@ -154,22 +154,6 @@ class GateScan {
     if (classes_->n > 0) histogram_[static_cast<std::size_t>(classes_->of(value))] += weight;
     if (badness >= entry_) remember({badness, id});
   }
-  /// Whether add() of a value at least as good as this would change no more than the number of items; then add_unnoted() does the same. For measures whose
-  /// exact value is dear and has a cheap bound.
-  bool would_not_be_noted(double bound) const {
-    const double badness = sign_ * bound;
-    return classes_->n == 0 && badness < std::max(entry_, expected_entry_) && badness <= std::max(worst_within_, expected_within_) && badness <= usual_ &&
-           badness <= hard_;
-  }
-  /// This scan will be merged into another one, which has noted such items already.
-  void expect(const GateScan& other) {
-    expected_entry_ = other.entry_;
-    expected_within_ = other.worst_within_;
-  }
-  void add_unnoted() {
-    total_ += 1.0;
-    within_ += 1.0;
-  }
   void merge(const GateScan& other);
   bool empty() const { return worst_.empty(); }
   /// Worst first; equal ones by ascending id.
@@ -225,7 +209,6 @@ class GateScan {
   double sign_;
   double hard_, target_, usual_;  ///< as badness; infinity where there is none
   double entry_ = -std::numeric_limits<double>::infinity();
-  double expected_entry_ = -std::numeric_limits<double>::infinity(), expected_within_ = -std::numeric_limits<double>::infinity();  ///< expect()
   double total_ = 0.0, within_ = 0.0;
   double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of what keeps the hard limit
   std::vector<Beyond> beyond_;                                      ///< all beyond the hard limit
