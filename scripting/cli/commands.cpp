@@ -259,7 +259,7 @@ void add_preparation(const MeshCommand& command, AutoSurface& asked, OptionTable
 /// The wall of triangulations.
 SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& inputs, const AutoSurface& asked, const Reuse& reuse,
                      const CommandContext& context) {
-  if (command.is_auto) return auto_surface(inputs, asked, reuse, context.run.part("surface", 0.0, k_surface_end));
+  if (command.is_auto) return auto_triangles(inputs, asked, reuse, context.run.part("surface", 0.0, k_surface_end));
   const std::vector<UnionItem> items(inputs.begin(), inputs.end());
   if (command.is_repaired) return repair_surfaces(items, asked.stitching, asked.repair, reuse, context.run.part("surface", 0.0, k_surface_end));
   if (command.is_wrapped) {
@@ -272,20 +272,25 @@ SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& i
   return read_wall(inputs, asked.stitching, context.run.part("surface", 0.0, k_read_end));
 }
 
-/// The volume mesh; with --auto once more on new triangles, where those given allow no envelope or no tetrahedra.
+/// The volume mesh. With --auto new triangles are tried, too, where the given ones allow no envelope or no tetrahedra; first where repair or wrap left needles.
 MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
                const CommandContext& context) {
   const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
+  if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
+  RemeshRecipe recipe;
+  recipe.options.refinement = options.family.refinement;
+  const std::size_t n_changes = wall.changes.size();
+  const SurfaceValue first = is_made_anew(wall) ? without_needles(wall, recipe, part, reuse) : wall;
+  const bool is_new = first.changes.size() > n_changes;
   try {
-    return make_volume_mesh(wall, options, command.stages, part, reuse);
+    return make_volume_mesh(first, options, command.stages, part, reuse);
   } catch (const Error& error) {
     constexpr std::array k_triangles_at_fault = {ErrorCode::envelope_failed, ErrorCode::tetra_engine_failed, ErrorCode::tetra_result_invalid,
                                                  ErrorCode::mesh_invalid, ErrorCode::self_intersection};
-    if (!command.is_auto || command.is_remeshed || std::ranges::find(k_triangles_at_fault, error.code()) == k_triangles_at_fault.end()) throw;
-    context.run.info("auto: " + error.info().attempted + ": " + error.info().problem + "; remesh is tried");
-    RemeshRecipe recipe;
-    recipe.options.refinement = options.family.refinement;
-    return make_volume_mesh(remeshed(wall, recipe, {}, part, reuse), options, command.stages, part, reuse);
+    if (std::ranges::find(k_triangles_at_fault, error.code()) == k_triangles_at_fault.end()) throw;
+    context.run.info("auto: " + error.info().attempted + ": " + error.info().problem +
+                     (is_new ? "; the triangles before remesh are tried" : "; remesh is tried"));
+    return make_volume_mesh(is_new ? wall : remeshed(wall, recipe, {}, part, reuse), options, command.stages, part, reuse);
   }
 }
 
@@ -311,7 +316,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   volume_options.discs = discs_of(command);
   volume_options.periodic = periodic_of(command);
   const RunContext surface_part = context.run.part("surface", 0.0, k_surface_end);
-  SurfaceValue wall = command.is_auto ? auto_surface(inputs, asked, reuse, surface_part) : mesh_model_files(inputs, reading, recipe, surface_part, reuse);
+  SurfaceValue wall = command.is_auto ? auto_triangles(inputs, asked, reuse, surface_part) : mesh_model_files(inputs, reading, recipe, surface_part, reuse);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);

@@ -15,6 +15,9 @@
 namespace sterna::scripting {
 namespace {
 
+/// without_needles() makes no more triangles than the larger of these: steps and slivers that look like curvature would ask for millions.
+constexpr std::size_t k_many_triangles = 200'000, k_many_times = 20;
+
 std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size) {
   if (size) return std::nullopt;
   surfmesh::RemeshOptions options = recipe.options;
@@ -44,6 +47,24 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
                                      count_text(result.report.n_triangles), std::max(result.report.to_input.max, result.report.from_input.max)));
   context.info(text);
   return made;
+}
+
+SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse) {
+  const surfmesh::NeedleCount before = surfmesh::count_needles(wall.mesh);
+  if (!surfmesh::is_remesh_advised(before, wall.mesh.n_triangles())) return wall;
+  RemeshRecipe bounded = recipe;
+  bounded.options.max_triangles = static_cast<int>(
+      std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), std::max(k_many_triangles, k_many_times * wall.mesh.n_triangles())));
+  try {
+    SurfaceValue made = remeshed(wall, bounded, {}, context, reuse);
+    const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
+    if (after.n < before.n) return made;
+    context.info(fmt::format("auto: remesh leaves {} needles of {}: the triangles stay as they are", count_text(after.n), count_text(before.n)));
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    context.info("auto: " + error.info().attempted + ": " + error.info().problem + "; the triangles stay as they are");
+  }
+  return wall;
 }
 
 }  // namespace sterna::scripting

@@ -24,4 +24,8 @@ struct RemeshRecipe {
 SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context,
                       const Reuse& reuse = {});
 
+/// The wall with new triangles where the given ones would make gates fail (is_remesh_advised) and the new ones are fewer needles, else the wall as it is: the
+/// log says which. Used on walls that were repaired or wrapped: what is sound keeps its triangles.
+SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
+
 }  // namespace sterna::scripting

@@ -10,6 +10,7 @@
 #include "scripting/cache/stage_cache.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
+#include "scripting/values/remeshed_surface.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_items.h"
@@ -25,6 +26,7 @@ constexpr double k_repair_read_end = 0.1;  ///< of repair_surfaces's progress
 constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
 constexpr double k_repair_end = 0.6;
+constexpr double k_remesh_begin = 0.7;
 
 /// What a cache keeps of a repair.
 struct RepairedWall {
@@ -116,7 +118,7 @@ bool is_about_surface(const Error& error) {
   }
 }
 
-SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
+SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
   ErrorInfo first;
   std::optional<SurfaceValue> open;  // a model's, perhaps half of it
   surfmesh::StitchOptions stitching = options.stitching;
@@ -160,5 +162,13 @@ SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& o
     throw Error(std::move(first));
   }
 }
+
+SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
+  const SurfaceValue made = auto_triangles(files, options, reuse, context.part("triangles", 0.0, k_remesh_begin));
+  if (!is_made_anew(made)) return made;
+  return without_needles(made, {.options = options.remesh, .patches = {}, .sources = {}}, context.part("remesh", k_remesh_begin, 1.0), reuse);
+}
+
+bool is_made_anew(const SurfaceValue& wall) { return wall.repair_options.has_value() || wall.wrap_options.has_value(); }
 
 }  // namespace sterna::scripting

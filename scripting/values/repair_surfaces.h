@@ -9,6 +9,7 @@
 #include "geom/cad/read_cad.h"
 #include "scripting/cache/reuse.h"
 #include "scripting/values/verbs.h"
+#include "surfmesh/remesh/remesh_surface.h"
 #include "surfmesh/repair/repair_surface.h"
 #include "surfmesh/wrap/wrap_surface.h"
 
@@ -34,12 +35,19 @@ struct AutoSurface {
   surfmesh::WrapOptions wrap = {};  ///< its unit, fluid and split_angle are those of `stitching`
   ReadCadOptions reading = {};      ///< of models
   SurfaceRecipe recipe = {};        ///< of models
+  surfmesh::RemeshOptions remesh = {};
 };
 
 /// A surface that can be meshed, with as little done to it as its files allow. What can be meshed as it is comes back with the bytes of read_wall or
 /// mesh_model_files. Models whose faces cross or fold, or that are open, are triangulated as they are first (crossings = "ignore") and go on as triangulations.
 /// \throws Error of the first step with what repair and wrap said of it; at once what is not about the surface (a missing file, an option)
+SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
+
+/// auto_triangles, and new triangles where what was repaired or wrapped is left with needles (without_needles).
 SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
+
+/// Whether repair or wrap made the wall's triangles.
+bool is_made_anew(const SurfaceValue& wall);
 
 /// Whether an error is about the surface itself, so that repair or wrap may help.
 bool is_about_surface(const Error& error);

@@ -41,6 +41,24 @@ void measure_angles(const TriMesh& mesh, RemeshReport& report) {
   report.angle_quantile_1 = *at_1;
 }
 
+NeedleCount count_needles(const TriMesh& mesh) {
+  NeedleCount needles;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto [a, b, c] = corners(mesh, t);
+    const double least = std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)});
+    if (least < k_needle_angle) ++needles.n;
+    if (t.index() == 0 || least < needles.least_angle) {
+      needles.least_angle = least;
+      needles.place = (a + b + c) / 3.0;
+    }
+  }
+  return needles;
+}
+
+bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles) {
+  return needles.n > 0 && (needles.least_angle < k_worst_needle_angle || static_cast<double>(needles.n) > k_needle_share * static_cast<double>(n_triangles));
+}
+
 SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, const RunContext& context) {
   const TriangleTree tree(to, context);
   struct Part {

@@ -32,6 +32,8 @@ constexpr double k_least_in_strips = 0.2;
 constexpr int k_fine_rounds = 4;
 constexpr int k_most_rounds = 8;
 constexpr double k_finer = 0.5;
+/// Pairs for each triangle: with more, rounds would only add triangles.
+constexpr std::int64_t k_most_crossings = 1;
 
 /// What the rounds before have found.
 struct Trouble {
@@ -146,6 +148,15 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
       throw Error({.code = ErrorCode::internal,
                    .attempted = std::string(k_attempted),
                    .problem = std::to_string(pairs.total) + " pairs of triangles cross after " + std::to_string(round) + " rounds"});
+    if (pairs.total > k_most_crossings * static_cast<std::int64_t>(result.mesh.n_triangles())) {
+      ErrorInfo info{.code = ErrorCode::self_intersection,
+                     .attempted = std::string(k_attempted),
+                     .problem = std::to_string(pairs.total) + " pairs of " + std::to_string(result.mesh.n_triangles()) +
+                                " new triangles cross: sheets of the given surface are much nearer to each other than its edges are long",
+                     .hint = "smooth = false, a smaller max_edge, or wrap{} instead"};
+      for (const auto& [i, j] : pairs.pairs) info.add_place(corners(result.mesh, TriangleId(i))[0], "crosses triangle " + std::to_string(j));
+      throw Error(std::move(info));
+    }
     if (trouble.flat.empty()) {
       trouble.flat.assign(wall.n_triangles(), 0);
       trouble.kept.assign(wall.n_triangles(), 0);

@@ -75,12 +75,27 @@ struct RemeshResult {
 /// \post manifold, closed where the input was; no two triangles cross (exact); every patch that had triangles has some; the same bytes for any threads
 /// \param patches rules for patches by name, the last that matches counts; of them max_edge, min_edge, curvature_angle and chord_error
 /// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that asks for bands; Error(non_manifold_surface);
-/// Error(self_intersection) where the input crosses itself; Error(overflow) beyond max_triangles, before the work; Error(cancelled)
+/// Error(self_intersection) where the input crosses itself or most of what was made does; Error(overflow) beyond max_triangles, before the work;
+/// Error(cancelled)
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RunContext& context);
 
 /// Several lines for people.
 std::string to_text(const RemeshReport& report);
+
+/// How thin the triangles of a surface are.
+struct NeedleCount {
+  std::int64_t n = 0;        ///< triangles with an angle below k_needle_angle
+  double least_angle = 0.0;  ///< rad; of a surface without triangles 0
+  Point place{};             ///< middle of the triangle that has it
+};
+NeedleCount count_needles(const TriMesh& mesh);
+/// Whether layers and tetrahedra on them miss gates: an angle below k_worst_needle_angle, or more than k_needle_share of the triangles are needles.
+bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles);
+
+/// Sliver tetrahedra and prisms as thin as that miss gates for dihedral angles wherever they are, rad.
+inline constexpr double k_worst_needle_angle = 1.0 * std::numbers::pi / 180.0;
+inline constexpr double k_needle_share = 0.005;
 
 }  // namespace sterna::surfmesh
 

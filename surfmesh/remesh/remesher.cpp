@@ -31,6 +31,8 @@ constexpr double k_flip_below = 0.88;
 constexpr double k_regular_floor = 0.45;
 /// A face folded is worse than any other.
 constexpr double k_folded = -1.0;
+/// Of the body's length: rims whose coordinates differ by less end in one plane.
+constexpr double k_rim_flat = 1e-5;
 /// Rounds of halving: 2^24 times.
 constexpr int k_split_rounds = 24;
 /// Of an edge's length: halves outside of this mean that its middle is held at a line or has gone elsewhere.
@@ -47,7 +49,12 @@ Remesher::Remesher(const Reference& reference, const RemeshSizes& sizes, const R
   for (std::size_t l = 0; l < locked_.size(); ++l) {
     const HalfedgeId h = r_.lines[l].halfedges.front(), o = r_.topology.twin(h);
     locked_[l] = r_.is_kept[triangle_of(h)] != 0 || (o.is_valid() && r_.is_kept[triangle_of(o)] != 0) ? 1 : 0;
+    if (!o.is_valid()) {
+      is_rim_.resize(locked_.size(), 0);
+      is_rim_[l] = 1;
+    }
   }
+  if (!is_rim_.empty()) flat_ = k_rim_flat * body_length(*r_.mesh);
   for (WorkVertex& v : mesh_.vertices)
     if (v.kind == VertexKind::face && v.out != k_none) v.normal = r_.normal(v.foot);
   refresh_sizes();
@@ -113,11 +120,31 @@ Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& tow
   return best.is_valid() ? r_.normals[best] : r_.triangle_normals[hint];
 }
 
-/// Mean ratio; k_folded for a triangle that lies against the reference.
+bool Remesher::is_at_rim(std::uint32_t number) const {
+  const WorkVertex& v = mesh_.vertices[number];
+  if (v.kind == VertexKind::line) return is_rim_[static_cast<std::size_t>(v.line)] != 0;
+  if (v.kind != VertexKind::corner) return false;
+  const auto out = r_.topology.outgoing(v.corner);
+  return std::any_of(out.begin(), out.end(), [&](HalfedgeId h) { return !r_.topology.twin(h).is_valid() || !r_.topology.twin(previous(h)).is_valid(); });
+}
+
+/// A half model's triangle in its plane would be a wall there, with another half behind it.
+bool Remesher::lies_in_rim(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const {
+  if (is_rim_.empty()) return false;
+  bool is_flat = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
+    is_flat = is_flat || high - low <= flat_;
+  }
+  return is_flat && is_at_rim(v[0]) && is_at_rim(v[1]) && is_at_rim(v[2]);
+}
+
+/// Mean ratio; k_folded for a triangle that lies against the reference, or in the plane of a rim.
 double Remesher::quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const {
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
   const Point middle = (p[0] + p[1] + p[2]) / 3.0;
+  if (lies_in_rim(v, p)) return k_folded;
   for (const std::uint32_t k : v)
     if (!(dot(n, normal_at(k, hint, middle)) > k_fold_cosine * area)) return k_folded;
   return 0.5 * k_mean_ratio * area / (norm2(p[1] - p[0]) + norm2(p[2] - p[1]) + norm2(p[0] - p[2]));

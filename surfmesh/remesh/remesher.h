@@ -63,6 +63,8 @@ class Remesher {
     mesh_.for_out(v, [&](std::uint32_t h) { update(h / 3); });
   }
   double quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const;
+  bool is_at_rim(std::uint32_t v) const;
+  bool lies_in_rim(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const;
   double fan_quality(std::uint32_t v) const;
   double fan_quality_now(std::uint32_t v, double floor) const;
   std::uint32_t valence(std::uint32_t v) const;
@@ -89,6 +91,8 @@ class Remesher {
   WorkMesh mesh_;
   std::vector<double> quality_;       ///< of each triangle, k_folded for one against the reference
   std::vector<std::uint8_t> locked_;  ///< lines of kept triangles
+  std::vector<std::uint8_t> is_rim_;  ///< lines that end the surface; empty where none does
+  double flat_ = 0.0;                 ///< m
 };
 
 }  // namespace sterna::surfmesh
