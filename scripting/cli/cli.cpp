@@ -169,9 +169,11 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->add_flag(
       "--half", mesh.is_half,
       "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
-  command->add_flag("--auto", mesh.is_auto,
-                    "take the files as they are where they can be meshed, else repair them, else wrap them; faces of models that cross are united or meshed as "
-                    "triangles first. What was done comes first in summary and manifest");
+  command->add_flag(
+      "--auto", mesh.is_auto,
+      "take the files as they are where they can be meshed, else repair them, else wrap them; remesh triangulations full of needles; faces of models that "
+      "cross are united or meshed as "
+      "triangles first. What was done comes first in summary and manifest");
   command->add_flag("--repair", mesh.is_repaired,
                     "repair the files first: `sterna repair --help`; its options with --set repair.gap=1e-3 --set repair.hole=0.5");
   command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first: `sterna wrap --help`; its options with --set wrap.edge=5mm --set wrap.gap=20mm");

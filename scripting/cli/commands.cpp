@@ -272,7 +272,7 @@ SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& i
   return read_wall(inputs, asked.stitching, context.run.part("surface", 0.0, k_read_end));
 }
 
-/// The volume mesh. With --auto new triangles are tried, too, where the given ones allow no envelope or no tetrahedra; first where repair or wrap left needles.
+/// The volume mesh. With --auto new triangles are tried, too, where the given ones allow no envelope or no tetrahedra; first where they are needles.
 MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
                const CommandContext& context) {
   const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
@@ -280,7 +280,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;
   const std::size_t n_changes = wall.changes.size();
-  const SurfaceValue first = is_made_anew(wall) ? without_needles(wall, recipe, part, reuse) : wall;
+  const SurfaceValue first = without_needles(wall, recipe, part, reuse);
   const bool is_new = first.changes.size() > n_changes;
   try {
     return make_volume_mesh(first, options, command.stages, part, reuse);

@@ -48,7 +48,7 @@ struct MeshCommand {
   bool is_half = false;               ///< the half of the surface
   bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
-  bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped
+  bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped; remeshed where they are needles
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   bool is_remeshed = false;           ///< the surface gets new triangles first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed

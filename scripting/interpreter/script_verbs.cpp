@@ -327,7 +327,7 @@ std::string surface_help() {
   return options_help(sterna::options_of(options)) +
          "repair = true or { gap = 1e-3, ... }, wrap = true or { edge = 0.01, ... }: as those verbs do it; auto = true: as it is where that can be meshed, "
          "else repaired, "
-         "else wrapped (models, too)\n"
+         "else wrapped, then remeshed where it is full of needles (models, too)\n"
          "remesh = true or { max_edge = 0.1, ... }: new triangles, as the verb remesh makes them\n";
 }
 std::string union_help() {

@@ -41,8 +41,8 @@ std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext&
 
 /// Without inputs, which are the models', and without the model.
 void write_parts(ByteSink& sink, const SurfaceValue& surface) {
-  const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts,
-               model_wall_key,
+  const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
+               model_wall, parts, model_wall_key,
                changes] = surface;  // all of them: a new one does not compile
   write_value(sink, mesh);
   write_value(sink, report);
@@ -53,7 +53,8 @@ void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   write_value(sink, parts);
   write_value(sink, changes);
   write_value(sink, model_wall->places());
-  static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options);  // surface_mesh has none
+  static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options),
+      static_cast<void>(remesh_options);                         // surface_mesh has none
   static_cast<void>(inputs), static_cast<void>(model_wall_key);  // known to whoever reads this
 }
 

@@ -110,6 +110,9 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     surfmesh::WrapOptions wrap = mesh.origin->wrap_options.value_or(surfmesh::WrapOptions{});
     if (mesh.origin->wrap_options)
       for (Option& option : sterna::options_of(wrap)) options.push_back(std::move(option));
+    surfmesh::RemeshOptions remesh = mesh.origin->remesh_options.value_or(surfmesh::RemeshOptions{});
+    if (mesh.origin->remesh_options)
+      for (Option& option : sterna::options_of(remesh)) options.push_back(std::move(option));
     SurfaceRecipe recipe = mesh.origin->recipe.value_or(SurfaceRecipe{});
     if (mesh.origin->recipe)
       for (Option& option : sterna::options_of(recipe.options)) options.push_back(std::move(option));

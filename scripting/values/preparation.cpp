@@ -11,6 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "geom/math/constants.h"
+#include "scripting/values/remeshed_surface.h"
 #include "scripting/values/summary.h"
 
 namespace sterna::scripting {
@@ -182,7 +183,7 @@ Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const Ins
   const bool has_needles = p.needle_share >= k_many_needles;
   if (p.forecast.is_needed) {
     choose_repair_or_wrap(p, options);
-    p.is_remesh_advised = p.needed == Strength::repair && has_needles;
+    p.is_remesh_advised = has_needles;
   } else if (has_needles) {
     advise_remesh(p, report);
   }

@@ -43,9 +43,6 @@ struct Preparation {
   double needle_limit = 0.0;  ///< rad
 };
 
-/// From this share of needles on remesh is advised: below it at most ten tetrahedra failed on any surface of docs/needles.md, above it tens to hundreds.
-inline constexpr double k_many_needles = 0.02;
-
 /// What --auto would do to these soups (in units of options.stitching.unit), by the same steps as far as they are quick (surfmesh::foresee_repair). `report` is
 /// the inspection of the same surface: what it calls an error decides whether anything is torn, its triangles how many needles there are. `inputs` are the
 /// names of the files, for the command line. \throws Error(cancelled)

@@ -11,6 +11,7 @@
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/value_keys.h"
+#include "volmesh/case/needle_options.h"
 
 namespace sterna::scripting {
 namespace {
@@ -37,6 +38,7 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
   });
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
+  made.remesh_options = recipe.options;
   made.mesh_report.reset();  // of the triangles before
   made.model_wall.reset();
   made.model_wall_key.reset();
@@ -49,9 +51,16 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
   return made;
 }
 
+bool is_remesh_advised(const SurfaceValue& wall) {
+  if (wall.repair_options || wall.wrap_options) return surfmesh::is_remesh_advised(surfmesh::count_needles(wall.mesh), wall.mesh.n_triangles());
+  if (wall.mesh_report) return false;
+  const auto n = static_cast<double>(surfmesh::count_needles(wall.mesh, volmesh::NeedleOptions{}.split_needles).n);
+  return n > 0.0 && n >= k_many_needles * static_cast<double>(wall.mesh.n_triangles());
+}
+
 SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse) {
+  if (!is_remesh_advised(wall)) return wall;
   const surfmesh::NeedleCount before = surfmesh::count_needles(wall.mesh);
-  if (!surfmesh::is_remesh_advised(before, wall.mesh.n_triangles())) return wall;
   RemeshRecipe bounded = recipe;
   bounded.options.max_triangles = static_cast<int>(
       std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), std::max(k_many_triangles, k_many_times * wall.mesh.n_triangles())));

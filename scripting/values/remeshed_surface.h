@@ -24,8 +24,15 @@ struct RemeshRecipe {
 SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context,
                       const Reuse& reuse = {});
 
-/// The wall with new triangles where the given ones would make gates fail (is_remesh_advised) and the new ones are fewer needles, else the wall as it is: the
-/// log says which. Used on walls that were repaired or wrapped: what is sound keeps its triangles.
+/// From this share of needles on (corners below volume_mesh's split_needles) new triangles are advised for a sound triangulation: below it at most ten
+/// tetrahedra failed on any surface of docs/needles.md, above it tens to hundreds.
+inline constexpr double k_many_needles = 0.02;
+
+/// Whether gates would fail on the wall's triangles: of what was repaired or wrapped by surfmesh::is_remesh_advised, of sound triangulations by
+/// k_many_needles. Of the triangles of models' faces never.
+bool is_remesh_advised(const SurfaceValue& wall);
+
+/// The wall with new triangles where they are advised and the new ones are fewer needles, else the wall as it is: the log says which.
 SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
 
 }  // namespace sterna::scripting

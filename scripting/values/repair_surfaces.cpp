@@ -165,10 +165,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
 
 SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
   const SurfaceValue made = auto_triangles(files, options, reuse, context.part("triangles", 0.0, k_remesh_begin));
-  if (!is_made_anew(made)) return made;
   return without_needles(made, {.options = options.remesh, .patches = {}, .sources = {}}, context.part("remesh", k_remesh_begin, 1.0), reuse);
 }
-
-bool is_made_anew(const SurfaceValue& wall) { return wall.repair_options.has_value() || wall.wrap_options.has_value(); }
 
 }  // namespace sterna::scripting

@@ -43,11 +43,8 @@ struct AutoSurface {
 /// \throws Error of the first step with what repair and wrap said of it; at once what is not about the surface (a missing file, an option)
 SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
 
-/// auto_triangles, and new triangles where what was repaired or wrapped is left with needles (without_needles).
+/// auto_triangles, and new triangles where those would make gates fail (without_needles).
 SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
-
-/// Whether repair or wrap made the wall's triangles.
-bool is_made_anew(const SurfaceValue& wall);
 
 /// Whether an error is about the surface itself, so that repair or wrap may help.
 bool is_about_surface(const Error& error);

@@ -282,6 +282,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .union_options = wall.union_options,
                             .repair_options = wall.repair_options,
                             .wrap_options = wall.wrap_options,
+                            .remesh_options = wall.remesh_options,
                             .recipe = wall.recipe,
                             .smooth_angle = wall.smooth_angle,
                             .options = options,

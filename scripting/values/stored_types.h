@@ -35,6 +35,8 @@ inline constexpr std::size_t k_members<surfmesh::RepairOptions> = 11;
 template <>
 inline constexpr std::size_t k_members<surfmesh::WrapOptions> = 10;
 template <>
+inline constexpr std::size_t k_members<surfmesh::RemeshOptions> = 12;
+template <>
 inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 22;
 template <>
 inline constexpr std::size_t k_members<surfmesh::PatchSurfaceOptions> = 14;

@@ -29,8 +29,8 @@ ContentKey key_of(const SurfaceRecipe& recipe) {
 std::optional<ContentKey> key_of(const SurfaceValue& surface) {
   if (surface.model_wall && !surface.model_wall_key) return std::nullopt;
   KeyMaker maker("surface");
-  const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts,
-               model_wall_key,
+  const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
+               model_wall, parts, model_wall_key,
                changes] = surface;  // all members: a new one does not compile
   maker.add(mesh)
       .add(report)
@@ -39,6 +39,7 @@ std::optional<ContentKey> key_of(const SurfaceValue& surface) {
       .add(union_options)
       .add(repair_options)
       .add(wrap_options)
+      .add(remesh_options)
       .add(recipe)
       .add(mesh_report)
       .add(smooth_angle)

@@ -17,6 +17,7 @@
 #include "scripting/lua/input_path.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "surfmesh/remesh/remesh_surface.h"
 #include "surfmesh/repair/repair_surface.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "surfmesh/wrap/wrap_surface.h"
@@ -49,6 +50,7 @@ struct SurfaceValue {
   std::optional<UnionOptions> union_options = {};               ///< of a surface that union made
   std::optional<surfmesh::RepairOptions> repair_options = {};   ///< of a surface that repair looked at
   std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< of a surface that wrap made
+  std::optional<surfmesh::RemeshOptions> remesh_options = {};   ///< of a surface whose triangles remesh made
   std::optional<SurfaceRecipe> recipe = {};                     ///< of a surface that surface_mesh made
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
   std::optional<double> smooth_angle = {};  ///< rad, the same or as the manifest beside the file says: the largest turn where the surface is smooth
@@ -66,6 +68,7 @@ struct MeshOrigin {
   std::optional<UnionOptions> union_options;
   std::optional<surfmesh::RepairOptions> repair_options;
   std::optional<surfmesh::WrapOptions> wrap_options;
+  std::optional<surfmesh::RemeshOptions> remesh_options;
   std::optional<SurfaceRecipe> recipe;
   std::optional<double> smooth_angle;  ///< of the wall
   volmesh::MeshCase options;

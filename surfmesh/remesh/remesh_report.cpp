@@ -41,12 +41,12 @@ void measure_angles(const TriMesh& mesh, RemeshReport& report) {
   report.angle_quantile_1 = *at_1;
 }
 
-NeedleCount count_needles(const TriMesh& mesh) {
+NeedleCount count_needles(const TriMesh& mesh, double limit) {
   NeedleCount needles;
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto [a, b, c] = corners(mesh, t);
     const double least = std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)});
-    if (least < k_needle_angle) ++needles.n;
+    if (least < limit) ++needles.n;
     if (t.index() == 0 || least < needles.least_angle) {
       needles.least_angle = least;
       needles.place = (a + b + c) / 3.0;

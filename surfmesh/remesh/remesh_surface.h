@@ -85,12 +85,14 @@ std::string to_text(const RemeshReport& report);
 
 /// How thin the triangles of a surface are.
 struct NeedleCount {
-  std::int64_t n = 0;        ///< triangles with an angle below k_needle_angle
+  std::int64_t n = 0;        ///< triangles with an angle below the limit
   double least_angle = 0.0;  ///< rad; of a surface without triangles 0
   Point place{};             ///< middle of the triangle that has it
 };
-NeedleCount count_needles(const TriMesh& mesh);
-/// Whether layers and tetrahedra on them miss gates: an angle below k_worst_needle_angle, or more than k_needle_share of the triangles are needles.
+/// \param limit rad
+NeedleCount count_needles(const TriMesh& mesh, double limit = k_needle_angle);
+/// Whether layers and tetrahedra on a repaired or wrapped surface miss gates: an angle below k_worst_needle_angle, or more than k_needle_share of the
+/// triangles have one below k_needle_angle.
 bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles);
 
 /// Sliver tetrahedra and prisms as thin as that miss gates for dihedral angles wherever they are, rad.

@@ -1,7 +1,10 @@
 // --auto, repair and the union of CAD parts that stand in each other, as users call them.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <tuple>
 
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/process.h"
@@ -88,6 +91,74 @@ TEST_F(AutoSurfaceTest, WrapWritesWhatItClosed) {
   EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--report", "nowhere/wrap.json"}).errors, HasSubstr("create the folder first"));
   EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--edge", "0.1", "--gap", "0.01"}).errors, HasSubstr("is below the edge"));
 }
+
+TEST_F(AutoSurfaceTest, NeedlesGetNewTriangles) {
+  // A box whose faces are fans about corners, with many vertices along two edges.
+  std::ofstream file(folder_ / "fans.off");
+  constexpr int k_fan = 60;
+  file << "OFF\n" << 2 * (k_fan + 1) + 4 << " " << 4 * k_fan + 8 << " 0\n";
+  for (const int z : {0, 1})
+    for (int i = 0; i <= k_fan; ++i) file << static_cast<double>(i) / k_fan << " 0 " << z << "\n";
+  const int low = 0, high = k_fan + 1, back = 2 * (k_fan + 1);
+  file << "0 1 0\n1 1 0\n0 1 1\n1 1 1\n";
+  for (int i = 0; i < k_fan; ++i) {
+    file << "3 " << low + i << " " << low + i + 1 << " " << high + i << "\n3 " << low + i + 1 << " " << high + i + 1 << " " << high + i << "\n";
+    file << "3 " << low + i + 1 << " " << low + i << " " << back << "\n3 " << high + i << " " << high + i + 1 << " " << back + 2 << "\n";
+  }
+  const auto quad = [&](int a, int b, int c, int d) { file << "3 " << a << " " << b << " " << c << "\n3 " << a << " " << c << " " << d << "\n"; };
+  file << "3 " << low + k_fan << " " << back << " " << back + 1 << "\n3 " << high + k_fan << " " << back + 3 << " " << back + 2 << "\n";
+  quad(back, back + 2, back + 3, back + 1);
+  quad(low, high, back + 2, back);
+  quad(low + k_fan, back + 1, back + 3, high + k_fan);
+  file.close();
+  const test::ProcessResult result = sterna(mesh("fans.off", "fans.su2", {"--auto"}));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output + result.errors, HasSubstr("changed     remeshed: 248 ->"));
+  const nlohmann::json manifest = nlohmann::json::parse(text_of("fans.su2.json"));
+  EXPECT_TRUE(manifest.at("options").contains("remesh")) << manifest.at("options");
+  EXPECT_THAT(sterna({"surface", "box.stl", "--auto", "-o", "same.off"}).output, Not(HasSubstr("remeshed")));
+}
+
+/// Half an ellipsoid open along an axis, its rim off the plane by up to `off`.
+class AutoHalfTest : public AutoSurfaceTest, public testing::WithParamInterface<std::tuple<std::size_t, double>> {};
+
+TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
+  const auto [axis, off] = GetParam();
+  constexpr int k_along = 24, k_around = 12;
+  std::ofstream file(folder_ / "half.off");
+  file << "OFF\n" << 2 + (k_along - 1) * (k_around + 1) << " " << 2 * (k_along - 1) * k_around << " 0\n";
+  file.precision(15);
+  int n = 0;
+  const auto write = [&](double x, double y, double z, bool is_rim) {
+    if (is_rim) y = off * std::sin(7.0 * ++n);
+    const Point p = axis == 0 ? Point{y, x, z} : axis == 1 ? Point{x, y, z} : Point{x, z, y};
+    file << p.x << " " << p.y << " " << p.z << "\n";
+  };
+  write(-0.5, 0.0, 0.0, true);
+  for (int i = 1; i < k_along; ++i)
+    for (int j = 0; j <= k_around; ++j) {
+      const double u = std::numbers::pi * i / k_along, v = std::numbers::pi * j / k_around;
+      write(-0.5 * std::cos(u), 0.15 * std::sin(u) * std::sin(v), 0.12 * std::sin(u) * std::cos(v), j == 0 || j == k_around);
+    }
+  write(0.5, 0.0, 0.0, true);
+  const auto at = [](int i, int j) { return i == 0 ? 0 : i == k_along ? 1 + (k_along - 1) * (k_around + 1) : 1 + (i - 1) * (k_around + 1) + j; };
+  const auto facet = [&](int a, int b, int c) {
+    if (a != b && b != c && c != a) file << "3 " << a << " " << (axis == 1 ? b : c) << " " << (axis == 1 ? c : b) << "\n";
+  };
+  for (int i = 0; i < k_along; ++i)
+    for (int j = 0; j < k_around; ++j) {
+      facet(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      facet(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  file.close();
+  const test::ProcessResult result = sterna(mesh("half.off", "half.su2", {"--auto"}));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output + result.errors, HasSubstr("half model"));
+  EXPECT_THAT(result.output + result.errors, HasSubstr("VALID"));
+  EXPECT_THAT(text_of("half.su2"), HasSubstr("MARKER_TAG= symmetry"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Axes, AutoHalfTest, testing::Combine(testing::Values(0u, 1u, 2u), testing::Values(0.0, 1e-6, 1e-4, 1e-3)));
 
 TEST_F(AutoSurfaceTest, SinglePrecisionThatMergesVerticesIsTold) {
   // A box far away, one of its corners cut off by less than single precision tells apart.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "geom/base/error.h"
@@ -233,6 +234,38 @@ TEST(RemeshSurface, HalfKeepsItsRim) {
     if (topology.is_boundary(HalfedgeId(h))) {
       EXPECT_NEAR(result.mesh.points[topology.from(HalfedgeId(h))].y, 0.0, 1e-14);
     }
+}
+
+TEST(RemeshSurface, NoTriangleLiesInTheRimsPlane) {
+  // Half of a spindle: two corners at pointed ends, where rims meet at a small angle.
+  TriMesh half;
+  half.patches.push_back({.name = "wall"});
+  constexpr int k_along = 10, k_around = 6;
+  std::vector<VertexId> ids;
+  for (int i = 0; i <= k_along; ++i)
+    for (int j = 0; j <= k_around; ++j) {
+      const double x = static_cast<double>(i) / k_along, r = 0.4 * x * (1.0 - x), v = std::numbers::pi * j / k_around;
+      const bool is_end = i == 0 || i == k_along;
+      if (is_end && j > 0) ids.push_back(ids.back());
+      else ids.push_back(half.points.push_back({x, j == 0 || j == k_around || is_end ? 0.0 : r * std::sin(v), r * std::cos(v)}));
+    }
+  const auto at = [&](int i, int j) { return ids[static_cast<std::size_t>(i * (k_around + 1) + j)]; };
+  const auto add = [&](VertexId a, VertexId b, VertexId c) {
+    if (a == b || b == c || c == a) return;
+    half.triangles.push_back({a, b, c});
+    half.triangle_patch.push_back(PatchId(0));
+  };
+  for (int i = 0; i < k_along; ++i)
+    for (int j = 0; j < k_around; ++j) {
+      add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  for (const double edge : {0.02, 0.1, 0.3}) {
+    const RemeshResult result = remeshed(half, {.max_edge = edge});
+    expect_sound(half, result.mesh);
+    for (const TriangleVertices& v : result.mesh.triangles)
+      EXPECT_FALSE(std::ranges::all_of(v, [&](VertexId k) { return std::abs(result.mesh.points[k].y) < 1e-6; })) << edge << " " << result.mesh.points[v[0]].x;
+  }
 }
 
 TEST(RemeshSurface, SameBytesForAnyThreads) {
