@@ -16,8 +16,8 @@
 namespace sterna::scripting {
 namespace {
 
-/// without_needles() makes no more triangles than the larger of these: steps and slivers that look like curvature would ask for millions.
-constexpr std::size_t k_many_triangles = 200'000, k_many_times = 20;
+/// without_needles() makes at most so many times the triangles, within these bounds: steps and slivers that look like curvature would ask for millions.
+constexpr std::size_t k_many_times = 5, k_few_triangles = 50'000, k_many_triangles = 200'000;
 
 std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size) {
   if (size) return std::nullopt;
@@ -62,8 +62,9 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   if (!is_remesh_advised(wall)) return wall;
   const surfmesh::NeedleCount before = surfmesh::count_needles(wall.mesh);
   RemeshRecipe bounded = recipe;
-  bounded.options.max_triangles = static_cast<int>(
-      std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), std::max(k_many_triangles, k_many_times * wall.mesh.n_triangles())));
+  const std::size_t n = wall.mesh.n_triangles();
+  const std::size_t most = std::clamp(k_many_times * n, k_few_triangles, std::max(k_many_triangles, n));
+  bounded.options.max_triangles = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), most));
   try {
     SurfaceValue made = remeshed(wall, bounded, {}, context, reuse);
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/parallel.h"
 #include "geom/mesh/find_crossings.h"
@@ -31,6 +32,8 @@ constexpr double k_least_in_strips = 0.2;
 /// Rounds in which crossings are met with flatter and finer triangles; afterwards given ones are kept.
 constexpr int k_fine_rounds = 4;
 constexpr int k_most_rounds = 8;
+/// Finer triangles must leave at most this part of the crossings, or they are no cure: sheets lie nearer to each other than any edge.
+constexpr double k_fewer = 0.5;
 constexpr double k_finer = 0.5;
 /// Pairs for each triangle: with more, rounds would only add triangles.
 constexpr std::int64_t k_most_crossings = 1;
@@ -117,6 +120,8 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
   Trouble trouble;
   RemeshResult result;
   RemeshReport& report = result.report;
+  bool is_fine = true;
+  std::int64_t n_crossing = std::numeric_limits<std::int64_t>::max();
   for (int round = 1;; ++round) {
     const Reference reference(wall, reference_options, trouble.kept, trouble.flat, context);
     RemeshSizes sizes(reference, options, patches, asked, context);
@@ -163,9 +168,14 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
     }
     // What is kept can force others to cross; all of the input is clear of itself.
     if (round + 1 == k_most_rounds) trouble.kept.assign(wall.n_triangles(), 1);
+    if (is_fine && (round > k_fine_rounds || static_cast<double>(pairs.total) > k_fewer * static_cast<double>(n_crossing))) {
+      is_fine = false;
+      trouble.sizes.clear();
+    }
+    n_crossing = pairs.total;
     const auto found = remesher.reference_triangles_of(pairs.pairs, round);
     for (const TriangleId t : found) {
-      if (round <= k_fine_rounds) {
+      if (is_fine) {
         trouble.flat[t] = 1;
         const auto [a, b, c] = corners(wall, t);
         trouble.sizes.emplace_back(t, k_finer * sizes((a + b + c) / 3.0, t));
@@ -175,7 +185,7 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
     }
     context.info("remesh: " + std::to_string(pairs.total) + " pairs of triangles cross, the first at " +
                  format_point(corners(result.mesh, TriangleId(pairs.pairs.front()[0]))[0]) + "; their places are done again, " +
-                 (round <= k_fine_rounds ? "finer" : "with the given triangles"));
+                 (is_fine ? "finer" : "with the given triangles"));
   }
   report.n_triangles_before = static_cast<std::int64_t>(wall.n_triangles());
   report.n_kept = std::count(trouble.kept.begin(), trouble.kept.end(), 1);
