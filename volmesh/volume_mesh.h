@@ -23,7 +23,7 @@ struct VolumeMeshResult {
   EnvelopeCertificate certificate;
   CheckReport check;
   ImproveReport improvement;
-  std::string tetra_engine;                 ///< "tetgen", "tetgen in two passes" or "hxt"
+  std::string tetra_engine;                 ///< "tetgen", "tetgen in two passes", "hxt" or "sterna"
   std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
   std::int64_t n_split_triangles = 0;       ///< of wall and outer boundary, by which the mesh has more than were given
   NeedleReport needles;                     ///< what was done about them before

@@ -33,10 +33,12 @@ struct Schema<volmesh::TetraOptions> {
   static constexpr std::string_view stage = "tetrahedra";
   static constexpr volmesh::MeshSteps steps = volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
-      Field<O>{.name = "engine",
-               .member = &O::engine,
-               .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in",
-               .choices = "automatic tetgen hxt"},
+      Field<O>{
+          .name = "engine",
+          .member = &O::engine,
+          .help =
+              "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in; sterna: our own refinement, of the boundary as hxt recovers it",
+          .choices = "automatic tetgen hxt sterna"},
       Field<O>{.name = "radius_edge",
                .member = &O::radius_edge,
                .min = 1.01,

@@ -13,6 +13,7 @@
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/boundary_splits.h"
 #include "volmesh/tetra/engine_process.h"
+#include "volmesh/tetra/own_engine.h"
 #include "volmesh/tetra/size_supply.h"
 #include "volmesh/tetra/verify.h"
 #include "volmesh/tetra/wire.h"
@@ -57,6 +58,7 @@ class Request {
     const std::span<const Vec3> hole_points = input.boundary.hole_points;
     const SplitMode splits = input.splits;
     wire::RequestHeader header;
+    header.is_recovery_only = input.is_recovery_only ? 1 : 0;
     n_points_ = header.n_points = sent.points.size();
     header.n_holes = hole_points.size();
     header.n_triangles = sent.facets.size();
@@ -269,10 +271,11 @@ EngineOutcome failed(EngineFailure failure) { return {std::nullopt, std::move(fa
 
 }  // namespace
 
-std::string_view to_string(EngineKind kind) { return kind == EngineKind::tetgen ? "tetgen" : "hxt"; }
-std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetgen ? "TetGen" : "HXT"; }
+std::string_view to_string(EngineKind kind) { return kind == EngineKind::tetgen ? "tetgen" : kind == EngineKind::hxt ? "hxt" : "sterna"; }
+std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetgen ? "TetGen" : kind == EngineKind::hxt ? "HXT" : "our own engine"; }
 
 EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context) {
+  if (kind == EngineKind::sterna) return run_own_engine(input, options, context);
   try {
     const std::string helper = find_helper("sterna-tet-" + std::string(to_string(kind)), options.helper_folder);
     std::optional<StageTimer> transfer(std::in_place, context, "tetrahedra/transfer");
@@ -296,6 +299,7 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
     if (std::optional<EngineFailure> reason = judge_count(kind, header, request, options)) return failed(std::move(*reason));
     TetraResult result = read_result(kind, header, reply, data, input, request, context);
     transfer.reset();
+    if (input.is_recovery_only) return {std::move(result), {}};
     const StageTimer timer(context, "tetrahedra/verify");
     verify(input.boundary, result, context);
     return {std::move(result), {}};

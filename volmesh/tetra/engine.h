@@ -12,10 +12,10 @@
 
 namespace sterna::volmesh {
 
-enum class EngineKind { tetgen, hxt };
-/// "tetgen" or "hxt", as in TetraOptions::engine.
+enum class EngineKind { tetgen, hxt, sterna };
+/// "tetgen", "hxt" or "sterna", as in TetraOptions::engine.
 std::string_view to_string(EngineKind kind);
-/// "TetGen" or "HXT", for messages.
+/// "TetGen", "HXT" or "our own engine", for messages.
 std::string_view display_name(EngineKind kind);
 
 enum class FailureKind {
@@ -50,6 +50,7 @@ struct EngineInput {
   SizeSupply* sizes = nullptr;
   SplitMode splits = SplitMode::none;
   const JoinedBoundary* joined = nullptr;  ///< of a boundary with sheets: the engine gets this one
+  bool is_recovery_only = false;           ///< TetGen and HXT put no points into the volume but those that the boundary needs; no proof then
 };
 
 /// \pre check_boundary() passed; splits with TetGen only, and without sheets.

@@ -38,15 +38,19 @@ std::string text_of(const LadderRung& rung) {
 std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, const TetraOptions& options) {
   std::vector<LadderRung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
-  else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, tetgen, hxt");
+  else if (options.engine == "sterna") rungs.insert(rungs.begin(), {EngineKind::sterna});
+  else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, sterna, tetgen, hxt");
   if (options.two_pass) {
-    if (options.engine == "hxt") throw_bad("two_pass", "true\" with engine \"hxt", "only TetGen has two passes: leave the engine automatic, or choose tetgen");
+    if (options.engine == "hxt" || options.engine == "sterna")
+      throw_bad("two_pass", "true\" with engine \"" + options.engine, "only TetGen has two passes: leave the engine automatic, or choose tetgen");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
   if (boundary.has_sheets && options.boundary_splits == "always")
     throw_bad("boundary_splits", "always", "triangles beside sheets without thickness (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
-    if (options.engine == "hxt") throw_bad("boundary_splits", "always", "HXT keeps the boundary: leave the engine automatic, or choose tetgen");
+    if (options.engine == "hxt" || options.engine == "sterna")
+      throw_bad("boundary_splits", "always",
+                (options.engine == "hxt" ? "HXT" : "our own engine") + std::string(" keeps the boundary: leave the engine automatic, or choose tetgen"));
     if (!boundary.may_split) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }

@@ -64,6 +64,9 @@ constexpr int k_tetrahedron = 4;
 /// constant size). It is told this much of the wanted length.
 constexpr double k_size_factor = 1.0 / 1.44;
 
+/// Of edges where nothing is to be refined; coordinates are at most 2.
+constexpr double k_no_size = 1e6;
+
 void set_options(const wire::RequestHeader& header) {
   gmsh::option::setNumber("General.Terminal", 1);
   gmsh::option::setNumber("General.Verbosity", 2);  // warnings and errors
@@ -124,6 +127,11 @@ void set_boundary(const helper::Request& request) {
 
 /// The size field alone says how long edges are: HXT would take the minimum with what it extends from the boundary.
 void set_size_field(const helper::Request& request, helper::LateSizes& sizes) {
+  if (request.header->is_recovery_only) {
+    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+    gmsh::model::mesh::setSizeCallback([](int, int, double, double, double) { return k_no_size; });
+    return;
+  }
   if (!request.header->has_size_field) return;
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
   gmsh::model::mesh::setSizeCallback([&sizes](int, int, double x, double y, double z) { return k_size_factor * sizes(x, y, z); });

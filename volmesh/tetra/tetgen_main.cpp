@@ -114,6 +114,7 @@ std::string switches(const char* format, double radius_edge) {
   return text;
 }
 constexpr const char* k_keep_boundary = "pq%.9gYMFQT1e-16";
+constexpr const char* k_recover_only = "pYMFQT1e-16";
 constexpr const char* k_split_for_quality = "pq%.9gMQT1e-16";
 constexpr const char* k_split_to_recover = "pMQT1e-16";
 
@@ -147,7 +148,7 @@ struct SplitSurface {
 void tetrahedralize_surface(const Request& request, const Surface& surface, std::string text, tetgenio& out) {
   Facets facets(surface);
   BorrowedInput in(request, surface, facets);
-  if (request.header->has_size_field) in.io.tetunsuitable = is_too_large;
+  if (request.header->has_size_field && !request.header->is_recovery_only) in.io.tetunsuitable = is_too_large;
   tetrahedralize(text.data(), &in.io, &out);
 }
 
@@ -158,7 +159,9 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
   tetgenio out;
   std::optional<SplitSurface> split;
   switch (request.header->splits) {
-    case wire::Splits::none: tetrahedralize_surface(request, whole, switches(k_keep_boundary, radius_edge), out); break;
+    case wire::Splits::none:
+      tetrahedralize_surface(request, whole, request.header->is_recovery_only ? k_recover_only : switches(k_keep_boundary, radius_edge), out);
+      break;
     case wire::Splits::quality:
       tetrahedralize_surface(request, whole, switches(k_split_for_quality, radius_edge), out);
       split.emplace(out, whole.n_points, false);

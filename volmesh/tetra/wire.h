@@ -17,7 +17,7 @@ inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
 inline constexpr int k_size_fd = 5;                                   ///< the size field, once it is there
 inline constexpr int k_size_ready_fd = 6;                             ///< pipe: then its length in bytes comes here, a uint64
-inline constexpr std::uint64_t k_request_magic = 0x3751455254455453;  ///< "STETREQ7" in memory; the last digit is the version
+inline constexpr std::uint64_t k_request_magic = 0x3851455254455453;  ///< "STETREQ8" in memory; the last digit is the version
 inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
 
 /// What may become of the boundary's triangles; TetGen only.
@@ -39,6 +39,7 @@ struct RequestHeader {
   double radius_edge = 0.0;          ///< largest circumradius over shortest edge; TetGen only
   double improve_below = 0.0;        ///< the engine improves tetrahedra of a lower quality (1 = regular); 0: none; HXT only
   Splits splits = Splits::none;
+  std::uint64_t is_recovery_only = 0;  ///< 1: the boundary is recovered; no points are put into the volume but those that this needs
   std::uint64_t n_sheet_surfaces = 0;  ///< of the surfaces, the last
   double processor_seconds = 0.0;      ///< the engine ends with Outcome::out_of_time after so much time of the processor; 0: never
   double seconds_per_leaf = 0.0;       ///< and more by this for each leaf of the size field, once that is there
@@ -64,6 +65,6 @@ struct ReplyHeader {
   double peak_bytes = 0.0;        ///< largest resident size of the helper so far
 };
 
-static_assert(sizeof(RequestHeader) == 112 && sizeof(ReplyHeader) == 56);
+static_assert(sizeof(RequestHeader) == 120 && sizeof(ReplyHeader) == 56);
 
 }  // namespace sterna::volmesh::wire

@@ -6,6 +6,7 @@
 #include "tests/support/shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/tetra/sheets.h"
+#include "volmesh/tetra/size_field.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -44,7 +45,7 @@ void add_sheet(Domain& domain, const Vec3& corner, const Vec3& u, const Vec3& v,
 }
 
 class FillSheetsWith : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Engine, FillSheetsWith, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Engine, FillSheetsWith, testing::Values("tetgen", "hxt", "sterna"), [](const auto& test) { return test.param; });
 
 TEST_P(FillSheetsWith, FillsBothSidesOfAFreeSheet) {
   for (const unsigned n : {2u, 3u, 8u}) {
@@ -53,7 +54,8 @@ TEST_P(FillSheetsWith, FillsBothSidesOfAFreeSheet) {
     add_sheet(domain, {1.4, -0.3, -0.4}, {0.1, 1.5, 0.0}, {0.2, 0.0, 1.6}, n);
     TetraBoundary boundary = domain.boundary();
     boundary.has_sheets = true;
-    const TetraResult result = fill(boundary, nullptr, {.engine = GetParam(), .try_other_engine = false}, RunContext{});
+    const SizeField sizes = build_size_field(domain.boundary(), {}, {}, RunContext{});
+    const TetraResult result = fill(boundary, GetParam() == "sterna" ? &sizes : nullptr, {.engine = GetParam(), .try_other_engine = false}, RunContext{});
     EXPECT_EQ(result.engine, GetParam());
     test::expect_tiling(domain, result);
   }

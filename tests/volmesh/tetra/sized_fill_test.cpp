@@ -1,4 +1,4 @@
-// Both engines follow the same size field.
+// All engines follow the same size field.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ class SizedFill : public testing::TestWithParam<std::string> {
   }
   Domain domain = domain_around(test::sphere(8), 10.0);
 };
-INSTANTIATE_TEST_SUITE_P(Engine, SizedFill, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Engine, SizedFill, testing::Values("tetgen", "hxt", "sterna"), [](const auto& test) { return test.param; });
 
 /// Edge lengths over the wanted ones at their midpoints: geometric mean over the edges whose midpoints lie in a ball.
 double mean_edge_ratio(const Domain& domain, const TetraResult& result, const SizeField& sizes, const Vec3& center, double radius) {
@@ -81,9 +81,11 @@ TEST(SizedFillBoth, EnginesMakeAboutAsManyTetrahedra) {
   const auto count = [&](const char* engine) {
     return static_cast<double>(fill(domain.boundary(), &sizes, {.engine = engine}, RunContext{}).tetrahedra.size());
   };
-  const double ratio = count("tetgen") / count("hxt");
-  EXPECT_GT(ratio, 1.0 / 1.3);
-  EXPECT_LT(ratio, 1.3);
+  for (const char* other : {"tetgen", "sterna"}) {
+    const double ratio = count(other) / count("hxt");
+    EXPECT_GT(ratio, 1.0 / 1.3) << other;
+    EXPECT_LT(ratio, 1.3) << other;
+  }
 }
 
 TEST_P(SizedFill, ASupplyInTheMakingGivesTheSameMesh) {

@@ -1,0 +1,55 @@
+// Many points into a mesh of tetrahedra at once, in blocks of the curve that work beside each other: same mesh for any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/tets/curve.h"
+#include "geom/tets/insert.h"
+#include "geom/tets/tet_mesh.h"
+
+namespace sterna::tets {
+
+/// A point that is to be inserted.
+struct Seed {
+  Vec3 position;
+  std::uint32_t start = 0;  ///< a tetrahedron near to it
+  Room room;
+};
+
+/// Inserts into one mesh, time after time. While it lives nobody else adds or removes tetrahedra. 43 bytes for each tetrahedron with the mesh's own.
+class BulkInserter {
+ public:
+  explicit BulkInserter(TetMesh& mesh, const RunContext& context);
+
+  /// Seeds are taken along the curve. A pass in blocks, a fixed number whatever the threads; what another block bars waits for a pass with other blocks, the
+  /// rest is inserted one by one. \return what became of each; never foreign
+  /// \post mesh.points has one more for each seed, in no order; those that were not inserted are used by no tetrahedron
+  std::vector<Insertion> insert(std::span<const Seed> seeds, const RunContext& context);
+
+  /// A mark of each place for the caller's use, 0 for each new tetrahedron. Places without tetrahedron may have any.
+  std::vector<std::uint8_t>& state() { return state_; }
+  const std::vector<std::uint8_t>& state() const { return state_; }
+  std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could take; for reports
+
+ private:
+  struct Ordered {
+    std::uint64_t key;
+    std::uint32_t seed;
+  };
+  std::vector<std::uint32_t> run_pass(std::span<const Seed> seeds, std::span<const Ordered> order, std::size_t n_blocks, bool is_shifted,
+                                      std::uint32_t first_point, std::vector<Insertion>& results, const RunContext& context);
+  void make_room(std::size_t n_places);
+  void set_owners(std::vector<std::uint64_t> splitters, const RunContext& context);
+
+  TetMesh& mesh_;
+  Curve curve_;
+  std::vector<std::uint8_t> mark_, state_, owner_;
+  std::vector<std::uint64_t> key_;
+  std::vector<std::uint32_t> free_;
+  std::int64_t n_serial_ = 0;
+};
+
+}  // namespace sterna::tets

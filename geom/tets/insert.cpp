@@ -1,0 +1,233 @@
+// Why the filled cavity is a mesh again: every face of the cavity sees the point strictly from inside (exact), so a ray from the point leaves the cavity once
+// and never comes back: the cavity is star-shaped around the point, whatever the mesh was before.
+
+#include "geom/tets/insert.h"
+
+#include <algorithm>
+
+#include "geom/tets/signs.h"
+
+namespace sterna::tets {
+namespace {
+
+constexpr int k_most_steps = 2000;  ///< of a walk; meshes that are not Delaunay can lead it in circles
+constexpr std::uint8_t k_inside = 1, k_outside = 2;
+
+/// Whether a point stands over a triangle and less than `height` above it.
+bool is_low(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, double height) {
+  const Vec3 normal = cross(b - a, c - a);
+  if (dot(p - a, normal) >= height * norm(normal)) return false;
+  return dot(cross(normal, b - a), p - a) >= 0.0 && dot(cross(normal, c - b), p - b) >= 0.0 && dot(cross(normal, a - c), p - c) >= 0.0;
+}
+
+}  // namespace
+
+int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point) {
+  const std::vector<Vec3>& p = mesh.points;
+  if (const int side = sphere_side(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]], p[point]); side != 0) return side;
+  // A corner that is lifted takes the sphere up with it on its own side of the opposite face: below it the point comes in.
+  std::array<std::uint32_t, 5> order = {tet[0], tet[1], tet[2], tet[3], point};
+  std::ranges::sort(order, std::greater());
+  for (const std::uint32_t highest : order) {
+    if (highest == point) return -1;
+    Corners moved = tet;
+    *std::ranges::find(moved, highest) = point;
+    if (const int side = orientation(p[moved[0]], p[moved[1]], p[moved[2]], p[moved[3]]); side != 0) return side;
+  }
+  return -1;  // the point is at a corner's place
+}
+
+Insertion Inserter::insert(std::uint32_t point, std::uint64_t key, std::uint32_t start, const Room& room) {
+  if (start >= mesh_.nodes.size() || is_foreign(start) || !mesh_.is_alive(start)) start = last_;
+  if (!target_.owner && !mesh_.is_alive(start))
+    for (start = 0; !mesh_.is_alive(start);) ++start;
+  if (is_foreign(start) || !mesh_.is_alive(start)) return Insertion::foreign;
+  Insertion why = Insertion::done;
+  const Vec3 p = mesh_.points[point];
+  const std::uint32_t base = locate(p, start, why);
+  if (why != Insertion::done) return why;
+  const double near2 = room.to_points * room.to_points;
+  for (const std::uint32_t v : mesh_.nodes[base])
+    if (norm2(mesh_.points[v] - p) < near2) return too_near(v);
+  why = gather(point, base, room);
+  if (why == Insertion::done) why = shrink(p, base, room);
+  if (why == Insertion::done && faces_.size() > cavity_.size() + free_.size() + (end_ - next_)) why = Insertion::foreign;
+  if (why == Insertion::done) fill(point, key);
+  unmark();
+  return why;
+}
+
+/// Walks from tetrahedron to tetrahedron through a face that the point is behind.
+std::uint32_t Inserter::locate(const Vec3& p, std::uint32_t start, Insertion& why) {
+  std::uint32_t t = start, from = k_none;
+  for (int step = 0; step < k_most_steps; ++step) {
+    const Corners& v = mesh_.nodes[t];
+    const Corners& n = mesh_.neighbours[t];
+    std::uint32_t next = t;
+    bool is_barred = false;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t i = (k + static_cast<std::uint32_t>(step)) % 4;  // another first face each time: no short circles
+      if (n[i] != k_none && n[i] / 4 == from) continue;
+      if (orientation(mesh_.points[v[k_face[i][0]]], mesh_.points[v[k_face[i][1]]], mesh_.points[v[k_face[i][2]]], p) >= 0) continue;
+      if (n[i] == k_none) {
+        is_barred = true;
+        continue;
+      }
+      next = n[i] / 4;
+      break;
+    }
+    if (next == t) {
+      if (is_barred) why = Insertion::outside;
+      return t;
+    }
+    if (is_foreign(next)) {
+      why = Insertion::foreign;
+      return t;
+    }
+    from = t;
+    t = next;
+  }
+  why = Insertion::no_cavity;
+  return t;
+}
+
+/// The tetrahedra whose spheres hold the point, connected through faces that are not the boundary's.
+Insertion Inserter::gather(std::uint32_t point, std::uint32_t base, const Room& room) {
+  const Vec3 p = mesh_.points[point];
+  const double near2 = room.to_points * room.to_points;
+  cavity_.assign(1, base);
+  touched_.assign(1, base);
+  target_.mark[base] = k_inside;
+  for (std::size_t i = 0; i < cavity_.size(); ++i) {
+    for (const std::uint32_t n : mesh_.neighbours[cavity_[i]]) {
+      if (n == k_none) continue;
+      const std::uint32_t other = n / 4;
+      if (is_foreign(other)) return Insertion::foreign;
+      if (target_.mark[other] != 0) continue;
+      touched_.push_back(other);
+      if (perturbed_sphere_side(mesh_, mesh_.nodes[other], point) < 0) {
+        target_.mark[other] = k_outside;
+        continue;
+      }
+      target_.mark[other] = k_inside;
+      cavity_.push_back(other);
+      if (const std::uint32_t v = mesh_.nodes[other][n % 4]; norm2(mesh_.points[v] - p) < near2) return too_near(v);
+      if (cavity_.size() > k_largest_cavity) return Insertion::no_cavity;
+    }
+  }
+  return Insertion::done;
+}
+
+void Inserter::collect_faces() {
+  faces_.clear();
+  for (const std::uint32_t t : cavity_) {
+    const Corners &v = mesh_.nodes[t], &n = mesh_.neighbours[t];
+    for (std::size_t i = 0; i < 4; ++i)
+      if (n[i] == k_none || target_.mark[n[i] / 4] != k_inside) faces_.push_back({{v[k_face[i][0]], v[k_face[i][1]], v[k_face[i][2]]}, n[i], t});
+  }
+}
+
+/// Keeps what is still connected with the base.
+void Inserter::reach(std::uint32_t base) {
+  constexpr std::uint8_t k_reached = 3;
+  std::vector<std::uint32_t> reached = {base};
+  target_.mark[base] = k_reached;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const std::uint32_t n : mesh_.neighbours[reached[i]]) {
+      if (n == k_none || target_.mark[n / 4] != k_inside) continue;
+      target_.mark[n / 4] = k_reached;
+      reached.push_back(n / 4);
+    }
+  }
+  for (const std::uint32_t t : cavity_)
+    if (target_.mark[t] == k_inside) target_.mark[t] = k_outside;
+  for (const std::uint32_t t : reached) target_.mark[t] = k_inside;
+  cavity_ = std::move(reached);
+}
+
+/// Gives tetrahedra back until every face sees the point.
+Insertion Inserter::shrink(const Vec3& p, std::uint32_t base, const Room& room) {
+  for (;;) {
+    bool has_changed = false;
+    collect_faces();
+    for (const CavityFace& face : faces_) {
+      const Vec3 &a = mesh_.points[face.nodes[0]], &b = mesh_.points[face.nodes[1]], &c = mesh_.points[face.nodes[2]];
+      if (orientation(a, b, c, p) > 0) {
+        if (face.outer == k_none && is_low(a, b, c, p, room.to_boundary)) return Insertion::encroaches;
+        continue;
+      }
+      if (face.tet == base) return Insertion::no_cavity;
+      if (target_.mark[face.tet] != k_inside) continue;
+      target_.mark[face.tet] = k_outside;
+      has_changed = true;
+    }
+    if (!has_changed) return Insertion::done;
+    reach(base);
+  }
+}
+
+void Inserter::link(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
+  const std::uint64_t edge = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+  const std::size_t last = edges_.size() - 1;
+  for (std::size_t i = (edge * 0x9e3779b97f4a7c15ull >> 32) & last;; i = (i + 1) & last) {
+    EdgeEntry& entry = edges_[i];
+    if (entry.epoch != epoch_) {
+      entry = {edge, epoch_, face};
+      return;
+    }
+    if (entry.edge != edge) continue;
+    mesh_.neighbours[face / 4][face % 4] = entry.face;
+    mesh_.neighbours[entry.face / 4][entry.face % 4] = face;
+    return;
+  }
+}
+
+/// One tetrahedron on each face of the cavity.
+void Inserter::fill(std::uint32_t point, std::uint64_t key) {
+  if (2 * faces_.size() > edges_.size() / 2) edges_.assign(8 * faces_.size() | 1023, {});  // made a power of two below
+  if ((edges_.size() & (edges_.size() - 1)) != 0) {
+    std::size_t size = 1024;
+    while (size < edges_.size()) size *= 2;
+    edges_.assign(size, {});
+    epoch_ = 0;
+  }
+  if (++epoch_ == 0) {
+    std::ranges::fill(edges_, EdgeEntry{});
+    epoch_ = 1;
+  }
+  for (const std::uint32_t t : cavity_) {
+    mesh_.nodes[t][0] = k_none;
+    target_.mark[t] = 0;
+  }
+  std::size_t n_reused = 0;
+  for (const CavityFace& face : faces_) {
+    std::uint32_t t = 0;
+    if (n_reused < cavity_.size()) t = cavity_[n_reused++];
+    else if (!free_.empty()) {
+      t = free_.back();
+      free_.pop_back();
+    } else t = next_++;
+    mesh_.nodes[t] = {face.nodes[0], face.nodes[1], face.nodes[2], point};
+    mesh_.neighbours[t] = {k_none, k_none, k_none, face.outer};
+    target_.mark[t] = 0;
+    target_.state[t] = 0;
+    target_.key[t] = key;
+    if (face.outer != k_none) mesh_.neighbours[face.outer / 4][face.outer % 4] = 4 * t + 3;
+    link(face.nodes[1], face.nodes[2], 4 * t);
+    link(face.nodes[0], face.nodes[2], 4 * t + 1);
+    link(face.nodes[0], face.nodes[1], 4 * t + 2);
+    last_ = t;
+  }
+  for (; n_reused < cavity_.size(); ++n_reused) free_.push_back(cavity_[n_reused]);
+}
+
+void Inserter::unmark() {
+  for (const std::uint32_t t : touched_) target_.mark[t] = 0;
+}
+
+std::vector<std::uint32_t> Inserter::take_free() {
+  for (; next_ < end_; ++next_) free_.push_back(next_);
+  return std::move(free_);
+}
+
+}  // namespace sterna::tets

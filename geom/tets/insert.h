@@ -1,0 +1,99 @@
+// One point into a mesh of tetrahedra: the Delaunay cavity around it, within what the boundary lets it see, is filled anew from the point (Bowyer 1981, Watson
+// 1981).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/tets/tet_mesh.h"
+
+namespace sterna::tets {
+
+/// Whether a point lies inside the sphere around a positive tetrahedron. Of points on one sphere the one with the highest number counts as lifted furthest off
+/// the paraboloid, then the next, so every set of points has one Delaunay triangulation (Devillers and Teillaud 2003). Never 0.
+int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point);
+
+/// Tetrahedra; beyond strips of needles each point would see all others.
+inline constexpr std::size_t k_largest_cavity = 4000;
+
+enum class Insertion : std::uint8_t {
+  done,
+  outside,     ///< the way to the point is barred by the boundary
+  too_near,    ///< a point of the mesh is nearer than was allowed
+  beaten,      ///< the same, and that point has come by the same call of BulkInserter
+  encroaches,  ///< the point is too low above a triangle of the boundary
+  no_cavity,   ///< no tetrahedra around it can be replaced by positive ones
+  foreign,     ///< another block's tetrahedra are in the way, or there is no room: to be tried later
+};
+
+/// What insertions of a whole pass work on. Each place of a tetrahedron belongs to one block, which alone reads and writes it while blocks work at the same
+/// time.
+struct InsertTarget {
+  TetMesh& mesh;
+  std::vector<std::uint8_t>& mark;                   ///< of each place: 0 between insertions
+  std::vector<std::uint8_t>& state;                  ///< of each place: set to 0 for each new tetrahedron
+  std::vector<std::uint64_t>& key;                   ///< of each place: set to that of the point for each new tetrahedron
+  std::uint32_t first_new_point = k_none;  ///< of the pass's points
+  const std::vector<std::uint8_t>* owner = nullptr;  ///< block of each place that was there when the pass began; null: all is one block
+};
+
+/// What a point may come near to.
+struct Room {
+  double to_points = 0.0;    ///< m; to any point of the mesh
+  double to_boundary = 0.0;  ///< m; above a boundary triangle that it stands over
+};
+
+/// Inserts points for one block. Keeps its memory.
+class Inserter {
+ public:
+  /// `free` and [`first_new`, `end_new`): places where this block may put new tetrahedra.
+  Inserter(const InsertTarget& target, std::uint8_t block, std::vector<std::uint32_t> free, std::uint32_t first_new, std::uint32_t end_new)
+      : target_(target), mesh_(target.mesh), block_(block), free_(std::move(free)), next_(first_new), end_(end_new) {}
+
+  /// \p point: its place is in mesh.points already; \p start: a tetrahedron near to it, alive or not.
+  /// \post with another answer than done the mesh is as before
+  Insertion insert(std::uint32_t point, std::uint64_t key, std::uint32_t start, const Room& room);
+
+  /// Places that were not used, ascending behind those that were given back.
+  std::vector<std::uint32_t> take_free();
+  /// One of the tetrahedra that were made last.
+  std::uint32_t last() const { return last_; }
+
+ private:
+  struct CavityFace {
+    std::array<std::uint32_t, 3> nodes;  ///< the cavity is on the side to which their normal points
+    std::uint32_t outer;                 ///< face of the tetrahedron behind it, or k_none
+    std::uint32_t tet;                   ///< of the cavity
+  };
+  struct EdgeEntry {
+    std::uint64_t edge = 0;
+    std::uint32_t epoch = 0;
+    std::uint32_t face = 0;
+  };
+
+  bool is_foreign(std::uint32_t t) const { return target_.owner && t < target_.owner->size() && (*target_.owner)[t] != block_; }
+  Insertion too_near(std::uint32_t v) const { return v < target_.first_new_point ? Insertion::too_near : Insertion::beaten; }
+  std::uint32_t locate(const Vec3& p, std::uint32_t start, Insertion& why);
+  Insertion gather(std::uint32_t point, std::uint32_t base, const Room& room);
+  Insertion shrink(const Vec3& p, std::uint32_t base, const Room& room);
+  void collect_faces();
+  void reach(std::uint32_t base);
+  void fill(std::uint32_t point, std::uint64_t key);
+  void link(std::uint32_t a, std::uint32_t b, std::uint32_t face);
+  void unmark();
+
+  InsertTarget target_;
+  TetMesh& mesh_;
+  std::uint8_t block_;
+  std::vector<std::uint32_t> free_;
+  std::uint32_t next_, end_;
+  std::uint32_t last_ = 0;
+  std::vector<std::uint32_t> cavity_, touched_;
+  std::vector<CavityFace> faces_;
+  std::vector<EdgeEntry> edges_ = std::vector<EdgeEntry>(512);
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace sterna::tets

@@ -1,0 +1,206 @@
+#include "geom/tets/refine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "geom/base/parallel.h"
+#include "geom/tets/bulk_insert.h"
+
+namespace sterna::tets {
+namespace {
+
+// Lengths below are in units of the wanted edge length times this: so the geometric mean of the edges is the wanted length (measured in a field of constant
+// size).
+constexpr double k_length_factor = 1.066;
+/// Edge that a point in front of a face is to have.
+constexpr double k_front_edge = 1.0;
+/// A larger circumradius is refined. A regular tetrahedron has 0.61.
+constexpr double k_radius_limit = 0.76;
+/// No two points of the volume are nearer to each other.
+constexpr double k_least_distance = 0.7;
+/// A point in front of a face is at least so high above it.
+constexpr double k_least_height = 0.6;
+/// Above a face of the boundary no point is lower than this.
+constexpr double k_boundary_height = 0.4;
+/// A circumcentre that is at most so much further off than the front's point is taken instead: no second point would fit behind.
+constexpr double k_merge = 1.3;
+constexpr int k_most_rounds = 1000;
+constexpr std::size_t k_scan_chunk = 1 << 13;
+
+// States of tetrahedra; from k_waiting on the number of points that it has proposed in vain.
+constexpr std::uint8_t k_unseen = 0, k_right = 1, k_given_up = 2, k_waiting = 3;
+constexpr int k_most_proposals = 3;
+
+struct Sphere {
+  Vec3 center;
+  double radius = std::numeric_limits<double>::infinity();
+};
+
+Sphere circumsphere(const std::array<Vec3, 4>& p) {
+  const Vec3 u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0];
+  const Vec3 vw = cross(v, w);
+  const double volume = 2.0 * dot(u, vw);
+  if (!(volume > 0.0)) return {};
+  const Vec3 offset = (norm2(u) * vw + norm2(v) * cross(w, u) + norm2(w) * cross(u, v)) / volume;
+  return {p[0] + offset, norm(offset)};
+}
+
+/// A face as its tetrahedron sees it.
+struct Base {
+  Vec3 normal;  ///< unit, into the tetrahedron
+  Vec3 center;  ///< of the circle through its corners
+  Vec3 middle;  ///< centroid
+  double radius = std::numeric_limits<double>::infinity();
+};
+
+Base base_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a, n = cross(u, v);
+  const double n2 = norm2(n);
+  Base base{.normal = normalized(n), .middle = (a + b + c) / 3.0};
+  if (!(n2 > 0.0)) return base;
+  const Vec3 offset = cross(norm2(u) * v - norm2(v) * u, n) / (2.0 * n2);
+  base.center = a + offset;
+  base.radius = norm(offset);
+  return base;
+}
+
+class Refiner {
+ public:
+  Refiner(TetMesh& mesh, const SizeFunction& sizes, const RunContext& context) : mesh_(mesh), sizes_(sizes), context_(context), inserter_(mesh, context) {}
+
+  RefineReport run() {
+    bool needs_front = true;
+    for (; report_.rounds < k_most_rounds; ++report_.rounds) {
+      context_.check_stop();
+      judge();
+      const std::int64_t n_inserted = round(needs_front);
+      if (n_inserted < 0) {  // nobody had a point to propose
+        if (!needs_front) break;
+        needs_front = false;
+        continue;
+      }
+      needs_front = true;
+    }
+    report_.n_left = std::ranges::count(inserter_.state(), k_given_up);
+    report_.n_serial = inserter_.n_serial();
+    report_.bytes = static_cast<double>(mesh_.nodes.capacity()) * 43.0 + static_cast<double>(mesh_.points.capacity()) * 24.0;
+    return report_;
+  }
+
+ private:
+  std::array<Vec3, 4> corners(std::size_t t) const {
+    const Corners& v = mesh_.nodes[t];
+    return {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]};
+  }
+  double length_at(const Vec3& p) const { return k_length_factor * sizes_(p); }
+  void judge();
+  std::int64_t round(bool needs_front);
+  std::optional<Seed> propose(std::uint32_t t, bool needs_front) const;
+  std::optional<Vec3> in_front(std::uint32_t t, std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const;
+
+  TetMesh& mesh_;
+  const SizeFunction& sizes_;
+  const RunContext& context_;
+  BulkInserter inserter_;
+  RefineReport report_;
+};
+
+/// Which of the new tetrahedra are too large.
+void Refiner::judge() {
+  std::vector<std::uint8_t>& state = inserter_.state();
+  parallel_for(
+      context_, mesh_.nodes.size(),
+      [&](std::size_t t) {
+        if (state[t] != k_unseen || !mesh_.is_alive(static_cast<std::uint32_t>(t))) return;
+        const std::array<Vec3, 4> p = corners(t);
+        state[t] = circumsphere(p).radius <= k_radius_limit * length_at(0.25 * (p[0] + p[1] + p[2] + p[3])) ? k_right : k_waiting;
+      },
+      k_scan_chunk);
+}
+
+/// The point in front of a face, between its circle's centre and that of the sphere.
+std::optional<Vec3> Refiner::in_front(std::uint32_t, std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
+  const Base base = base_of(p[k_face[face][0]], p[k_face[face][1]], p[k_face[face][2]]);
+  const double guess = length_at(base.middle);
+  const double edge = k_front_edge * length_at(base.middle + 0.8 * guess * base.normal);
+  if (base.radius > 0.95 * edge) return base.middle + k_least_height * edge * base.normal;  // larger than wanted here
+  const double height = std::max(std::sqrt(edge * edge - base.radius * base.radius), k_least_height * edge);
+  const double to_center = dot(sphere.center - base.center, base.normal);
+  if (to_center <= k_merge * height) return std::nullopt;
+  return base.center + height * base.normal;
+}
+
+std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
+  const std::vector<std::uint8_t>& state = inserter_.state();
+  const int n_proposed = state[t] - k_waiting;
+  const std::array<Vec3, 4> p = corners(t);
+  std::size_t best = 4;
+  double best_area = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint32_t n = mesh_.neighbours[t][i];
+    if (n != k_none && state[n / 4] >= k_waiting) continue;
+    const double area = norm2(cross(p[k_face[i][1]] - p[k_face[i][0]], p[k_face[i][2]] - p[k_face[i][0]]));
+    if (best < 4 && area >= best_area) continue;
+    best = i;
+    best_area = area;
+  }
+  if (needs_front && best == 4) return std::nullopt;
+  const Sphere sphere = circumsphere(p);
+  Seed seed{.start = t};
+  std::optional<Vec3> place;
+  if (n_proposed == 0 && best < 4) place = in_front(t, best, p, sphere);
+  if (n_proposed >= 2 || !(sphere.radius < std::numeric_limits<double>::infinity())) place = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  seed.position = place ? *place : sphere.center;
+  const double length = length_at(seed.position);
+  seed.room = {k_least_distance * length, k_boundary_height * length};
+  return seed;
+}
+
+/// \return -1: nobody had anything to propose
+std::int64_t Refiner::round(bool needs_front) {
+  std::vector<std::uint8_t>& state = inserter_.state();
+  const std::vector<Seed> seeds = parallel_collect<Seed>(
+      context_, mesh_.nodes.size(),
+      [&](std::size_t begin, std::size_t end, std::vector<Seed>& list) {
+        for (std::size_t t = begin; t < end; ++t) {
+          if (state[t] < k_waiting || !mesh_.is_alive(static_cast<std::uint32_t>(t))) continue;
+          if (const std::optional<Seed> seed = propose(static_cast<std::uint32_t>(t), needs_front)) list.push_back(*seed);
+        }
+      },
+      k_scan_chunk);
+  if (seeds.empty()) return -1;
+  // Whoever has proposed has done so; those that are still there and have gained nothing will know.
+  std::vector<std::uint8_t> before;
+  for (const Seed& seed : seeds) {
+    std::uint8_t& s = state[seed.start];
+    before.push_back(s);
+    s = s + 1 < k_waiting + k_most_proposals ? static_cast<std::uint8_t>(s + 1) : k_given_up;
+  }
+  const std::vector<Insertion> results = inserter_.insert(seeds, context_);
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    if (results[i] == Insertion::beaten && state[seeds[i].start] != k_unseen) state[seeds[i].start] = before[i];
+  const std::int64_t n_inserted = std::ranges::count(results, Insertion::done);
+  report_.n_candidates += static_cast<std::int64_t>(seeds.size());
+  report_.n_inserted += n_inserted;
+  if (context_.threads() > 0) {
+    std::array<std::int64_t, 7> counts{};
+    for (const Insertion r : results) ++counts[static_cast<std::size_t>(r)];
+    context_.debug("refinement round " + std::to_string(report_.rounds) + ": " + std::to_string(seeds.size()) + " candidates, " + std::to_string(n_inserted) +
+                   " inserted, " + std::to_string(counts[1]) + " outside, " + std::to_string(counts[2]) + " too near, " + std::to_string(counts[3]) + " beaten, " + std::to_string(counts[4]) +
+                   " too low, " + std::to_string(counts[5]) + " without cavity, " + std::to_string(inserter_.n_serial()) + " serial so far");
+  }
+  return n_inserted;
+}
+
+}  // namespace
+
+RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context) {
+  const RefineReport report = Refiner(mesh, sizes, context).run();
+  compact(mesh, n_kept_points);
+  return report;
+}
+
+}  // namespace sterna::tets
