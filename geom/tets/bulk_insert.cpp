@@ -1,6 +1,7 @@
 #include "geom/tets/bulk_insert.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "geom/base/error.h"
@@ -10,7 +11,9 @@ namespace sterna::tets {
 namespace {
 
 constexpr std::size_t k_most_blocks = 16;
-constexpr std::size_t k_block_seeds = 1024;  ///< at least, in the mean
+/// Of the passes one after the other; every other one has its limits in the middle of the blocks before. Large blocks at last: where tetrahedra are large.
+constexpr std::array<std::size_t, 4> k_pass_blocks = {16, 16, 4, 4};
+constexpr std::size_t k_block_seeds = 512;  ///< at least, in the mean
 /// New places that a block gets for each seed: a point makes six and a half tetrahedra more in the mean, and not every seed is inserted.
 constexpr std::size_t k_places_per_seed = 3;
 constexpr std::size_t k_more_places = 256;
@@ -131,21 +134,44 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
   return all_later;
 }
 
+std::vector<BulkInserter::Ordered> BulkInserter::ordered(std::span<const Seed> seeds, const RunContext& context) const {
+  std::vector<Ordered> order(seeds.size());
+  parallel_for(context, seeds.size(), [&](std::size_t i) { order[i] = {curve_.key(seeds[i].position), static_cast<std::uint32_t>(i)}; });
+  parallel_sort(context, order, [](const Ordered& a, const Ordered& b) { return a.key != b.key ? a.key < b.key : a.seed < b.seed; });
+  return order;
+}
+
+void BulkInserter::find_starts(std::span<Seed> seeds, const RunContext& context) const {
+  std::vector<Ordered> tets;
+  for (std::uint32_t t = 0; t < mesh_.nodes.size(); ++t)
+    if (mesh_.is_alive(t)) tets.push_back({key_[t], t});
+  parallel_sort(context, tets, [](const Ordered& a, const Ordered& b) { return a.key != b.key ? a.key < b.key : a.seed < b.seed; });
+  parallel_for(context, seeds.size(), [&](std::size_t i) {
+    const auto at = std::ranges::lower_bound(tets, curve_.key(seeds[i].position), {}, &Ordered::key);
+    seeds[i].start = at == tets.end() ? tets.back().seed : at->seed;
+  });
+}
+
+std::vector<std::uint32_t> BulkInserter::order_along_curve(std::span<const Seed> seeds, const RunContext& context) const {
+  std::vector<std::uint32_t> order;
+  order.reserve(seeds.size());
+  for (const Ordered& o : ordered(seeds, context)) order.push_back(o.seed);
+  return order;
+}
+
 std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, const RunContext& context) {
   const std::size_t first_point = mesh_.points.size();
   if (first_point + seeds.size() >= k_none)
     throw Error({.code = ErrorCode::overflow, .attempted = "refining tetrahedra", .problem = std::to_string(first_point + seeds.size()) + " points"});
   if (first_point + seeds.size() > mesh_.points.capacity()) mesh_.points.reserve((first_point + seeds.size()) * 9 / 8);
-  std::vector<Ordered> order(seeds.size());
-  parallel_for(context, seeds.size(), [&](std::size_t i) { order[i] = {curve_.key(seeds[i].position), static_cast<std::uint32_t>(i)}; });
-  parallel_sort(context, order, [](const Ordered& a, const Ordered& b) { return a.key != b.key ? a.key < b.key : a.seed < b.seed; });
+  std::vector<Ordered> order = ordered(seeds, context);
   for (const Seed& seed : seeds) mesh_.points.push_back(seed.position);
 
   std::vector<Insertion> results(seeds.size(), Insertion::foreign);
-  for (int pass = 0; pass < 2 && !order.empty(); ++pass) {
-    const std::size_t n_blocks = std::min(k_most_blocks, order.size() / k_block_seeds);
+  for (std::size_t pass = 0; pass < k_pass_blocks.size(); ++pass) {
+    const std::size_t n_blocks = std::min(k_pass_blocks[pass], order.size() / k_block_seeds);
     if (n_blocks < 2) break;
-    const std::vector<std::uint32_t> later = run_pass(seeds, order, n_blocks, pass == 1, static_cast<std::uint32_t>(first_point), results, context);
+    const std::vector<std::uint32_t> later = run_pass(seeds, order, n_blocks, pass % 2 == 1, static_cast<std::uint32_t>(first_point), results, context);
     for (std::size_t i = 0; i < later.size(); ++i) order[i] = order[later[i]];
     order.resize(later.size());
   }

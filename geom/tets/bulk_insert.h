@@ -29,6 +29,11 @@ class BulkInserter {
   /// \post mesh.points has one more for each seed, in no order; those that were not inserted are used by no tetrahedron
   std::vector<Insertion> insert(std::span<const Seed> seeds, const RunContext& context);
 
+  /// For seeds of which nothing is known: each begins at a tetrahedron that is near to it on the curve.
+  void find_starts(std::span<Seed> seeds, const RunContext& context) const;
+  /// Indices of seeds along the curve.
+  std::vector<std::uint32_t> order_along_curve(std::span<const Seed> seeds, const RunContext& context) const;
+
   /// A mark of each place for the caller's use, 0 for each new tetrahedron. Places without tetrahedron may have any.
   std::vector<std::uint8_t>& state() { return state_; }
   const std::vector<std::uint8_t>& state() const { return state_; }
@@ -37,8 +42,9 @@ class BulkInserter {
  private:
   struct Ordered {
     std::uint64_t key;
-    std::uint32_t seed;
+    std::uint32_t seed;  ///< or tetrahedron
   };
+  std::vector<Ordered> ordered(std::span<const Seed> seeds, const RunContext& context) const;
   std::vector<std::uint32_t> run_pass(std::span<const Seed> seeds, std::span<const Ordered> order, std::size_t n_blocks, bool is_shifted,
                                       std::uint32_t first_point, std::vector<Insertion>& results, const RunContext& context);
   void make_room(std::size_t n_places);

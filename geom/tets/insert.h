@@ -35,7 +35,7 @@ struct InsertTarget {
   std::vector<std::uint8_t>& mark;                   ///< of each place: 0 between insertions
   std::vector<std::uint8_t>& state;                  ///< of each place: set to 0 for each new tetrahedron
   std::vector<std::uint64_t>& key;                   ///< of each place: set to that of the point for each new tetrahedron
-  std::uint32_t first_new_point = k_none;  ///< of the pass's points
+  std::uint32_t first_new_point = k_none;            ///< of the pass's points
   const std::vector<std::uint8_t>* owner = nullptr;  ///< block of each place that was there when the pass began; null: all is one block
 };
 

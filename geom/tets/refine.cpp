@@ -8,15 +8,16 @@
 
 #include "geom/base/parallel.h"
 #include "geom/tets/bulk_insert.h"
+#include "geom/tets/thin.h"
 
 namespace sterna::tets {
 namespace {
 
 // Lengths below are in units of the wanted edge length times this: so the geometric mean of the edges is the wanted length (measured in a field of constant
 // size).
-constexpr double k_length_factor = 1.066;
+constexpr double k_length_factor = 1.09;
 /// Edge that a point in front of a face is to have.
-constexpr double k_front_edge = 1.0;
+constexpr double k_front_edge = 0.85;
 /// A larger circumradius is refined. A regular tetrahedron has 0.61.
 constexpr double k_radius_limit = 0.76;
 /// No two points of the volume are nearer to each other.
@@ -26,7 +27,7 @@ constexpr double k_least_height = 0.6;
 /// Above a face of the boundary no point is lower than this.
 constexpr double k_boundary_height = 0.4;
 /// A circumcentre that is at most so much further off than the front's point is taken instead: no second point would fit behind.
-constexpr double k_merge = 1.3;
+constexpr double k_merge = 1.2;
 constexpr int k_most_rounds = 1000;
 constexpr std::size_t k_scan_chunk = 1 << 13;
 
@@ -162,7 +163,7 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
 /// \return -1: nobody had anything to propose
 std::int64_t Refiner::round(bool needs_front) {
   std::vector<std::uint8_t>& state = inserter_.state();
-  const std::vector<Seed> seeds = parallel_collect<Seed>(
+  const std::vector<Seed> proposed = parallel_collect<Seed>(
       context_, mesh_.nodes.size(),
       [&](std::size_t begin, std::size_t end, std::vector<Seed>& list) {
         for (std::size_t t = begin; t < end; ++t) {
@@ -171,7 +172,9 @@ std::int64_t Refiner::round(bool needs_front) {
         }
       },
       k_scan_chunk);
-  if (seeds.empty()) return -1;
+  if (proposed.empty()) return -1;
+  std::vector<Seed> seeds;
+  for (const std::uint32_t i : thinned(proposed, inserter_.order_along_curve(proposed, context_))) seeds.push_back(proposed[i]);
   // Whoever has proposed has done so; those that are still there and have gained nothing will know.
   std::vector<std::uint8_t> before;
   for (const Seed& seed : seeds) {
@@ -189,8 +192,9 @@ std::int64_t Refiner::round(bool needs_front) {
     std::array<std::int64_t, 7> counts{};
     for (const Insertion r : results) ++counts[static_cast<std::size_t>(r)];
     context_.debug("refinement round " + std::to_string(report_.rounds) + ": " + std::to_string(seeds.size()) + " candidates, " + std::to_string(n_inserted) +
-                   " inserted, " + std::to_string(counts[1]) + " outside, " + std::to_string(counts[2]) + " too near, " + std::to_string(counts[3]) + " beaten, " + std::to_string(counts[4]) +
-                   " too low, " + std::to_string(counts[5]) + " without cavity, " + std::to_string(inserter_.n_serial()) + " serial so far");
+                   " inserted, " + std::to_string(counts[1]) + " outside, " + std::to_string(counts[2]) + " too near, " + std::to_string(counts[3]) +
+                   " beaten, " + std::to_string(counts[4]) + " too low, " + std::to_string(counts[5]) + " without cavity, " +
+                   std::to_string(inserter_.n_serial()) + " serial so far");
   }
   return n_inserted;
 }
