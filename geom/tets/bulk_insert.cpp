@@ -37,7 +37,7 @@ std::uint32_t at_shortest_edge(const TetMesh& mesh, const Corners& v) {
 
 }  // namespace
 
-BulkInserter::BulkInserter(TetMesh& mesh, const RunContext& context) : mesh_(mesh), curve_(mesh.points) {
+BulkInserter::BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners) : mesh_(mesh), n_corners_(n_corners), curve_(mesh.points) {
   const std::size_t n = mesh.nodes.size();
   mark_.assign(n, 0);
   state_.assign(n, 0);
@@ -113,7 +113,7 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
   first_new[n_blocks] = static_cast<std::uint32_t>(n_places);
   make_room(n_places);
 
-  const InsertTarget target{mesh_, mark_, state_, key_, first_point, n_blocks > 1 ? &owner_ : nullptr};
+  const InsertTarget target{mesh_, mark_, state_, key_, n_corners_, first_point, n_blocks > 1 ? &owner_ : nullptr};
   std::vector<std::vector<std::uint32_t>> later(n_blocks);
   parallel_chunks(context, n_blocks, 1, [&](std::size_t block, std::size_t) {
     Inserter inserter(target, static_cast<std::uint8_t>(block), std::move(free[block]), first_new[block], first_new[block + 1]);

@@ -22,7 +22,8 @@ struct Seed {
 /// Inserts into one mesh, time after time. While it lives nobody else adds or removes tetrahedra. 43 bytes for each tetrahedron with the mesh's own.
 class BulkInserter {
  public:
-  explicit BulkInserter(TetMesh& mesh, const RunContext& context);
+  /// \p n_corners: the first points, those of the boundary, for Room::to_corners
+  explicit BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners = 0);
 
   /// Seeds are taken along the curve. A pass in blocks, a fixed number whatever the threads; what another block bars waits for a pass with other blocks, the
   /// rest is inserted one by one. \return what became of each; never foreign
@@ -51,6 +52,7 @@ class BulkInserter {
   void set_owners(std::vector<std::uint64_t> splitters, const RunContext& context);
 
   TetMesh& mesh_;
+  std::uint32_t n_corners_;
   Curve curve_;
   std::vector<std::uint8_t> mark_, state_, owner_;
   std::vector<std::uint64_t> key_;

@@ -46,9 +46,8 @@ Insertion Inserter::insert(std::uint32_t point, std::uint64_t key, std::uint32_t
   const Vec3 p = mesh_.points[point];
   const std::uint32_t base = locate(p, start, why);
   if (why != Insertion::done) return why;
-  const double near2 = room.to_points * room.to_points;
   for (const std::uint32_t v : mesh_.nodes[base])
-    if (norm2(mesh_.points[v] - p) < near2) return too_near(v);
+    if (why = nearness(v, p, room); why != Insertion::done) return why;
   why = gather(point, base, room);
   if (why == Insertion::done) why = shrink(p, base, room);
   if (why == Insertion::done && faces_.size() > cavity_.size() + free_.size() + (end_ - next_)) why = Insertion::foreign;
@@ -94,7 +93,6 @@ std::uint32_t Inserter::locate(const Vec3& p, std::uint32_t start, Insertion& wh
 /// The tetrahedra whose spheres hold the point, connected through faces that are not the boundary's.
 Insertion Inserter::gather(std::uint32_t point, std::uint32_t base, const Room& room) {
   const Vec3 p = mesh_.points[point];
-  const double near2 = room.to_points * room.to_points;
   cavity_.assign(1, base);
   touched_.assign(1, base);
   target_.mark[base] = k_inside;
@@ -111,7 +109,7 @@ Insertion Inserter::gather(std::uint32_t point, std::uint32_t base, const Room& 
       }
       target_.mark[other] = k_inside;
       cavity_.push_back(other);
-      if (const std::uint32_t v = mesh_.nodes[other][n % 4]; norm2(mesh_.points[v] - p) < near2) return too_near(v);
+      if (const Insertion near = nearness(mesh_.nodes[other][n % 4], p, room); near != Insertion::done) return near;
       if (cavity_.size() > k_largest_cavity) return Insertion::no_cavity;
     }
   }

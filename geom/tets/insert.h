@@ -35,13 +35,15 @@ struct InsertTarget {
   std::vector<std::uint8_t>& mark;                   ///< of each place: 0 between insertions
   std::vector<std::uint8_t>& state;                  ///< of each place: set to 0 for each new tetrahedron
   std::vector<std::uint64_t>& key;                   ///< of each place: set to that of the point for each new tetrahedron
+  std::uint32_t n_corners = 0;                       ///< points of the boundary: the first
   std::uint32_t first_new_point = k_none;            ///< of the pass's points
   const std::vector<std::uint8_t>* owner = nullptr;  ///< block of each place that was there when the pass began; null: all is one block
 };
 
 /// What a point may come near to.
 struct Room {
-  double to_points = 0.0;    ///< m; to any point of the mesh
+  double to_points = 0.0;    ///< m; to any point of the mesh but those of the boundary
+  double to_corners = 0.0;   ///< m; to those
   double to_boundary = 0.0;  ///< m; above a boundary triangle that it stands over
 };
 
@@ -74,7 +76,12 @@ class Inserter {
   };
 
   bool is_foreign(std::uint32_t t) const { return target_.owner && t < target_.owner->size() && (*target_.owner)[t] != block_; }
-  Insertion too_near(std::uint32_t v) const { return v < target_.first_new_point ? Insertion::too_near : Insertion::beaten; }
+  /// done where it is not
+  Insertion nearness(std::uint32_t v, const Vec3& p, const Room& room) const {
+    const double least = v < target_.n_corners ? room.to_corners : room.to_points;
+    if (norm2(mesh_.points[v] - p) >= least * least) return Insertion::done;
+    return v < target_.first_new_point ? Insertion::too_near : Insertion::beaten;
+  }
   std::uint32_t locate(const Vec3& p, std::uint32_t start, Insertion& why);
   Insertion gather(std::uint32_t point, std::uint32_t base, const Room& room);
   Insertion shrink(const Vec3& p, std::uint32_t base, const Room& room);

@@ -22,6 +22,8 @@ constexpr double k_front_edge = 0.85;
 constexpr double k_radius_limit = 0.76;
 /// No two points of the volume are nearer to each other.
 constexpr double k_least_distance = 0.7;
+/// And no point of the volume nearer than this to one of the boundary: where triangles are narrow.
+constexpr double k_corner_distance = 0.6;
 /// A point in front of a face is at least so high above it.
 constexpr double k_least_height = 0.6;
 /// Above a face of the boundary no point is lower than this.
@@ -70,7 +72,8 @@ Base base_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Refiner {
  public:
-  Refiner(TetMesh& mesh, const SizeFunction& sizes, const RunContext& context) : mesh_(mesh), sizes_(sizes), context_(context), inserter_(mesh, context) {}
+  Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, const RunContext& context)
+      : mesh_(mesh), sizes_(sizes), context_(context), inserter_(mesh, context, n_corners) {}
 
   RefineReport run() {
     bool needs_front = true;
@@ -156,7 +159,7 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
   if (n_proposed >= 2 || !(sphere.radius < std::numeric_limits<double>::infinity())) place = 0.25 * (p[0] + p[1] + p[2] + p[3]);
   seed.position = place ? *place : sphere.center;
   const double length = length_at(seed.position);
-  seed.room = {k_least_distance * length, k_boundary_height * length};
+  seed.room = {.to_points = k_least_distance * length, .to_corners = k_corner_distance * length, .to_boundary = k_boundary_height * length};
   return seed;
 }
 
@@ -202,7 +205,7 @@ std::int64_t Refiner::round(bool needs_front) {
 }  // namespace
 
 RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context) {
-  const RefineReport report = Refiner(mesh, sizes, context).run();
+  const RefineReport report = Refiner(mesh, n_kept_points, sizes, context).run();
   compact(mesh, n_kept_points);
   return report;
 }

@@ -33,8 +33,8 @@ struct RefineReport {
 /// Inserts points until every tetrahedron's circumradius fits the size at its centroid, as far as the boundary lets it. In rounds: each tetrahedron that is too
 /// large and touches the boundary, or one that is right, proposes a point at the wanted distance from that face on the line of the points that its corners have
 /// as nearest (Rebay 1993), or its circumcentre where that is nearer; where nobody proposes, circumcentres. A point is inserted unless one of the mesh is
-/// nearer than 0.7 of the size. Points nearer to a boundary triangle than would leave room for a good tetrahedron are not. Edges have the wanted length in the
-/// geometric mean. Parallel, same bytes for any number of threads.
+/// nearer than 0.7 of the size, of the boundary 0.6. Points nearer to a boundary triangle than would leave room for a good tetrahedron are not. Edges have the
+/// wanted length in the geometric mean. Parallel, same bytes for any number of threads.
 /// \pre as connect() makes it; the first points, and those of the boundary, stay
 /// \post the same boundary; tetrahedra positive; new points behind the old ones, each used. Points in the volume may be gone.
 /// \throws Error(cancelled); Error(overflow) for more tetrahedra than a mesh can have
