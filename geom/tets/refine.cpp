@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "geom/base/parallel.h"
@@ -103,7 +104,11 @@ class Refiner {
   void judge();
   std::int64_t round(bool needs_front);
   std::optional<Seed> propose(std::uint32_t t, bool needs_front) const;
-  std::optional<Vec3> in_front(std::uint32_t t, std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const;
+  struct Place {
+    Vec3 position;
+    double length = 0.0;  ///< wanted there
+  };
+  std::optional<Place> in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const;
 
   TetMesh& mesh_;
   const SizeFunction& sizes_;
@@ -126,15 +131,18 @@ void Refiner::judge() {
 }
 
 /// The point in front of a face, between its circle's centre and that of the sphere.
-std::optional<Vec3> Refiner::in_front(std::uint32_t, std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
+std::optional<Refiner::Place> Refiner::in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
   const Base base = base_of(p[k_face[face][0]], p[k_face[face][1]], p[k_face[face][2]]);
-  const double guess = length_at(base.middle);
-  const double edge = k_front_edge * length_at(base.middle + 0.8 * guess * base.normal);
-  if (base.radius > 0.95 * edge) return base.middle + k_least_height * edge * base.normal;  // larger than wanted here
+  // About where the point will be: as high above the face as a regular tetrahedron.
+  const double length = length_at(base.middle + std::numbers::sqrt2 * base.radius * base.normal), edge = k_front_edge * length;
+  if (base.radius > 0.95 * edge) {  // larger than wanted here
+    const Vec3 low = base.middle + k_least_height * edge * base.normal;
+    return Place{low, length_at(low)};
+  }
   const double height = std::max(std::sqrt(edge * edge - base.radius * base.radius), k_least_height * edge);
   const double to_center = dot(sphere.center - base.center, base.normal);
   if (to_center <= k_merge * height) return std::nullopt;
-  return base.center + height * base.normal;
+  return Place{base.center + height * base.normal, length};
 }
 
 std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
@@ -154,11 +162,12 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
   if (needs_front && best == 4) return std::nullopt;
   const Sphere sphere = circumsphere(p);
   Seed seed{.start = t};
-  std::optional<Vec3> place;
-  if (n_proposed == 0 && best < 4) place = in_front(t, best, p, sphere);
-  if (n_proposed >= 2 || !(sphere.radius < std::numeric_limits<double>::infinity())) place = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-  seed.position = place ? *place : sphere.center;
-  const double length = length_at(seed.position);
+  std::optional<Place> place;
+  if (n_proposed == 0 && best < 4) place = in_front(best, p, sphere);
+  seed.position = sphere.center;
+  if (n_proposed >= 2 || !(sphere.radius < std::numeric_limits<double>::infinity())) seed.position = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  if (place) seed.position = place->position;
+  const double length = place ? place->length : length_at(seed.position);
   seed.room = {.to_points = k_least_distance * length, .to_corners = k_corner_distance * length, .to_boundary = k_boundary_height * length};
   return seed;
 }
