@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "geom/math/constants.h"
 #include "scripting/cache/content_key.h"
 #include "scripting/cache/stage_cache.h"
 #include "scripting/values/model_surface.h"
@@ -16,6 +17,8 @@
 namespace sterna::scripting {
 namespace {
 
+/// Of the needles before: with more left the lines of the surface force them, and layers there are no better for it.
+constexpr double k_fewer_needles = 0.5;
 /// without_needles() makes at most so many times the triangles, within these bounds: steps and slivers that look like curvature would ask for millions.
 constexpr std::size_t k_many_times = 5, k_few_triangles = 50'000, k_many_triangles = 200'000;
 
@@ -68,8 +71,9 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   try {
     SurfaceValue made = remeshed(wall, bounded, {}, context, reuse);
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
-    if (after.n < before.n) return made;
-    context.info(fmt::format("auto: remesh leaves {} needles of {}: the triangles stay as they are", count_text(after.n), count_text(before.n)));
+    if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle) return made;
+    context.info(fmt::format("auto: remesh leaves {} needles of {}, the least angle {:.3g} deg for {:.3g} deg: the triangles stay as they are",
+                             count_text(after.n), count_text(before.n), after.least_angle / k_degree, before.least_angle / k_degree));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     context.info("auto: " + error.info().attempted + ": " + error.info().problem + "; the triangles stay as they are");

@@ -32,7 +32,8 @@ inline constexpr double k_many_needles = 0.02;
 /// k_many_needles. Of the triangles of models' faces never.
 bool is_remesh_advised(const SurfaceValue& wall);
 
-/// The wall with new triangles where they are advised and the new ones are fewer needles, else the wall as it is: the log says which.
+/// The wall with new triangles where they are advised and the new ones are half as many needles at most, none thinner, else the wall as it is: the log says
+/// which.
 SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
 
 }  // namespace sterna::scripting
