@@ -16,6 +16,7 @@
 #include "scripting/values/surface_items.h"
 #include "scripting/values/value_keys.h"
 #include "scripting/values/wrap_surfaces.h"
+#include "surfmesh/repair/folded_edges.h"
 
 namespace sterna::scripting {
 namespace {
@@ -142,9 +143,15 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     items = {std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse))};
     stitching.unit = 1.0;
   }
+  std::optional<SurfaceValue> folded;  // repaired, but what is left lies on itself
   try {
     SurfaceValue repaired = repair_surfaces(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end));
-    return open && repaired.changes.size() == open->changes.size() ? *open : repaired;
+    if (open && repaired.changes.size() == open->changes.size()) return *open;
+    const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.mesh);
+    if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.mesh.n_triangles())) return repaired;
+    context.info(
+        fmt::format("auto: repair leaves {} pairs of facets folded onto each other, which tetrahedra cannot fill; wrap is tried", count_text(n_folded)));
+    folded = std::move(repaired);
   } catch (const Error& error) {
     if (!is_about_surface(error)) throw;
     first.problem += "; repair: " + error.info().problem;
@@ -158,6 +165,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     return wrap_surfaces(items, wrap, reuse, context.part("wrap", k_repair_end, 1.0));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
+    if (folded) return *folded;
     first.problem += "; wrap: " + error.info().problem;
     throw Error(std::move(first));
   }

@@ -1,0 +1,19 @@
+// Edges whose two facets lie on each other: a surface full of them encloses no volume that tetrahedra could fill.
+#pragma once
+
+#include <cstdint>
+
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::surfmesh {
+
+/// Below this, in rad, engines of tetrahedra take two neighbours for one (HXT's limit is 0.01 degrees).
+inline constexpr double k_folded_angle = 1.7e-4;
+/// From this share of folded edges on a surface is no body any more.
+inline constexpr double k_many_folded = 0.01;
+
+/// Edges with an angle below k_folded_angle between their facets, on either side.
+/// \pre manifold
+std::int64_t count_folded_edges(const TriMesh& mesh);
+
+}  // namespace sterna::surfmesh
