@@ -37,12 +37,22 @@ constexpr double k_fewer = 0.5;
 constexpr double k_finer = 0.5;
 /// Pairs for each triangle: with more, rounds would only add triangles.
 constexpr std::int64_t k_most_crossings = 1;
+/// Triangles made for each one foretold, at most.
+constexpr double k_foretold_share = 1.5;
 
 /// What the rounds before have found.
 struct Trouble {
   Column<TriangleId, std::uint8_t> flat, kept;
   std::vector<std::pair<TriangleId, double>> sizes;
 };
+
+void require_few(double n, double factor, const char* what, const RemeshOptions& options) {
+  if (n <= factor * static_cast<double>(options.max_triangles)) return;
+  throw Error({.code = ErrorCode::overflow,
+               .attempted = std::string(k_attempted),
+               .problem = what + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " + std::to_string(options.max_triangles),
+               .hint = "larger max_edge, min_edge or curvature_angle"});
+}
 
 void narrow_strips(const Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes) {
   for (const Remesher::Strip& strip : remesher.strips()) {
@@ -64,8 +74,11 @@ void run_passes(Remesher& remesher, const RemeshOptions& options, RemeshSizes& s
     remesher.smooth(2);
     if (pass == k_strip_pass) {
       narrow_strips(remesher, options, sizes);
+      require_few(sizes.n_expected(), 1.0, "narrow places make it ", options);
       remesher.refresh_sizes();
     }
+    const auto n = std::ranges::count_if(remesher.mesh().triangles, [](const auto& t) { return t[0] != k_none; });
+    require_few(static_cast<double>(n), k_foretold_share, "lines and narrow places made ", options);
     context.progress(0.8 * (pass + 1) / k_passes);
   }
   for (int i = 0; i < k_last_smoothings; ++i) {
@@ -130,12 +143,7 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
       sizes.lower(t, (a + b + c) / 3.0, size);
     }
     if (!trouble.sizes.empty()) sizes.carry();
-    if (const double n = sizes.n_expected(); n > options.max_triangles)
-      throw Error({.code = ErrorCode::overflow,
-                   .attempted = std::string(k_attempted),
-                   .problem = "sizes and areas foretell " + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " +
-                              std::to_string(options.max_triangles),
-                   .hint = "larger max_edge, min_edge or curvature_angle"});
+    require_few(sizes.n_expected(), 1.0, "sizes and areas foretell ", options);
     Remesher remesher(reference, sizes, context);
     run_passes(remesher, options, sizes, context.part("round", 0.0, 0.8));
     result.mesh = remesher.result();

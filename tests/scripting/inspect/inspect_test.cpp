@@ -110,7 +110,9 @@ class Preparing : public InspectFiles {
   static std::string done_by_auto(const std::string& path) {
     const std::vector<InputPath> files = {{path, path}};
     const SurfaceValue wall = auto_surface(files, {}, {}, RunContext({.threads = 2}));
-    return wall.changes.empty() ? "nothing" : wall.changes.back().substr(0, wall.changes.back().find(':'));
+    for (const std::string& change : wall.changes)  // remesh may follow
+      if (change.starts_with("repaired") || change.starts_with("wrapped")) return change.substr(0, change.find(':'));
+    return "nothing";
   }
   static std::string foreseen(const Preparation& preparation) {
     return preparation.needed == Strength::repair && preparation.is_changed ? "repaired" : preparation.needed == Strength::wrap ? "wrapped" : "nothing";
