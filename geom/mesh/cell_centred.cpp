@@ -1,23 +1,17 @@
 #include "geom/mesh/cell_centred.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
 
+#include "geom/mesh/cell_lanes.h"
+#include "geom/mesh/column_shapes.h"
 #include "geom/mesh/forced_layer.h"
+#include "geom/mesh/layer_scans.h"
 
 namespace sterna::check_parts {
 namespace {
 
-/// Keeps quotients finite where a length, an area or a product of them vanishes (OpenFOAM's ROOTVSMALL).
-constexpr double k_tiny = 1e-150;
-/// Share of the distance between centres (for a boundary face of the distance to its plane) that counts as the face's reach where the face itself is smaller.
-constexpr double k_inner_reach = 0.2, k_boundary_reach = 0.4;
-/// A sphere's radius that is as good as none, for flat tets (OpenFOAM's GREAT).
-constexpr double k_great = 1e15;
-constexpr double k_least_power = 1e-250;  ///< powers of volumes below this have lost digits
-/// Columns per chunk; each holds some 30 cells.
-constexpr std::size_t k_cell_column_chunk = 64;
 constexpr std::uint8_t k_top = 7;
 
 struct Corners {
@@ -27,133 +21,20 @@ struct Corners {
   std::span<const Point> span() const { return {points.data(), n}; }
 };
 
-struct Place {
-  Point centre;
-  double volume = 0.0;
-};
-
-double reach(std::span<const Point> corners, const Point& centre, const Vec3& direction, double least) {
-  double reach = least;
-  for (const Point& p : corners) reach = std::max(reach, std::abs(dot(direction, p - centre)));
-  return reach;
+void add_face(CellCentredScan& scan, std::uint64_t id, const InnerFace& face, bool is_quad) {
+  scan.non_orthogonality.add(face.non_orthogonality, id);
+  scan.skewness.add(face.skewness, id);
+  scan.face_weight.add(face.weight, id);
+  scan.volume_ratio.add(face.volume_ratio, id);
+  if (is_quad) scan.face_flatness.add(face.flatness, id);
+  scan.face_tets.add(face.tets, id);
 }
 
-/// How far the line from a cell's centre along d passes a face's centre, over the reach.
-double skewness_of(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Vec3& d, double share) {
-  const Vec3 to_face = face.centre - cell;
-  const Vec3 miss = to_face - (dot(face.area, to_face) / (dot(face.area, d) + k_tiny)) * d;
-  const double length = norm(miss);
-  return length / reach(corners, face.centre, miss / (length + k_tiny), share * norm(d) + k_tiny);
-}
-
-/// OpenFOAM's quality of a tet: its signed volume over that of the regular one in the same sphere.
-double tet_quality(const Point& p, const Point& q, const Point& r, const Point& s) {
-  const Vec3 a = q - p, b = r - p, c = s - p;
-  const double six_volumes = dot(cross(a, b), c);
-  const Vec3 to_centre = norm2(c) * cross(a, b) + norm2(b) * cross(c, a) + norm2(a) * cross(b, c);
-  const double radius = std::abs(six_volumes) < k_tiny ? k_great : std::min(k_great, norm(to_centre) / (2.0 * std::abs(six_volumes)));
-  return six_volumes / 6.0 / (8.0 / (9.0 * std::numbers::sqrt3) * radius * radius * radius + k_tiny);
-}
-
-/// Worst of the tets on the face's edges and centre with a cell's centre on the side `sign` (1: that of the face's normal).
-double worst_around_centre(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
-  double worst = 1.0;
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    worst = std::min(worst, sign * tet_quality(corners[k], corners[(k + 1) % corners.size()], face.centre, cell));
-  return worst;
-}
-
-/// Worst of the two tets that a quadrilateral cut at corner `base` makes with a cell's centre.
-double worst_from_corner(std::span<const Point> corners, std::size_t base, const Point& cell, double sign) {
-  const auto corner = [&](std::size_t k) { return corners[(base + k) % 4]; };
-  return std::min(sign * tet_quality(corner(0), corner(1), corner(2), cell), sign * tet_quality(corner(0), corner(2), corner(3), cell));
-}
-
-/// checkMesh's decomposition of a face for tracking: all tets around its centre, and those of the best of its cuts into triangles, must be the right way round
-/// on both sides. Of a triangle the second are as good as the first. `other`: null at the boundary.
-double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
-  double worst = worst_around_centre(face, corners, cell, -1.0);
-  if (other != nullptr) worst = std::min(worst, worst_around_centre(face, corners, *other, 1.0));
-  if (corners.size() == 3) return worst;
-  double best = -k_great;
-  for (std::size_t base = 0; base < 2; ++base) {  // from the opposite corner it is the same cut
-    double cut = worst_from_corner(corners, base, cell, -1.0);
-    if (other != nullptr) cut = std::min(cut, worst_from_corner(corners, base, *other, 1.0));
-    best = std::max(best, cut);
-  }
-  return std::min(worst, best);
-}
-
-/// Of tets at one cell's centre: V^8 / N^6 with V six volumes and N tet_quality's `to_centre`; negative where one is the wrong way round.
-struct TetPowers {
-  double around = k_great;        ///< the least with the face's centre
-  double cuts[2] = {-1.0, -1.0};  ///< the least of each of a quadrilateral's cuts
-};
-
-/// Crosses of neighbours among the corners serve all tets; `sign` as in worst_around_centre with its sense turned.
-TetPowers tet_powers(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
-  std::array<Vec3, 4> a, side, to_centre;  // corners from the cell's centre; crosses with the next corner, with the face's centre
-  std::array<double, 4> a2;
-  const std::size_t n = corners.size();
-  const Vec3 c = face.centre - cell;
-  const double c2 = norm2(c);
-  for (std::size_t k = 0; k < n; ++k) {
-    a[k] = corners[k] - cell;
-    a2[k] = norm2(a[k]);
-    to_centre[k] = cross(c, a[k]);
-  }
-  const auto power = [](double volume, const Vec3& normal) {
-    if (!(volume > 0.0)) return -1.0;
-    const double share = 1.0 / norm2(normal), squared = volume * volume, first = squared * squared * share;
-    return first * first * share;
-  };
-  TetPowers powers;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t next = k + 1 < n ? k + 1 : 0;
-    side[k] = cross(a[k], a[next]);
-    powers.around = std::min(powers.around, power(sign * dot(side[k], c), c2 * side[k] + a2[next] * to_centre[k] - a2[k] * to_centre[next]));
-  }
-  if (n != 4) return powers;
-  for (std::size_t base = 0; base < 2; ++base) {
-    const std::size_t next = base + 1, across = base + 2, last = (base + 3) % 4;
-    const Vec3 diagonal = cross(a[base], a[across]);
-    powers.cuts[base] = std::min(power(sign * dot(side[base], a[across]), a2[across] * side[base] - a2[next] * diagonal + a2[base] * side[next]),
-                                 power(sign * dot(side[across], a[base]), a2[base] * side[across] + a2[across] * side[last] + a2[last] * diagonal));
-  }
-  return powers;
-}
-
-/// exact_face_tet_quality() at a third of its price where all tets are the right way round: a tet's quality is 1.5 sqrt(3) V^4 / N^3.
-double face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
-  TetPowers powers = tet_powers(face, corners, cell, 1.0);
-  if (other != nullptr) {
-    const TetPowers more = tet_powers(face, corners, *other, -1.0);
-    powers.around = std::min(powers.around, more.around);
-    for (std::size_t base = 0; base < 2; ++base) powers.cuts[base] = std::min(powers.cuts[base], more.cuts[base]);
-  }
-  const double least = corners.size() == 4 ? std::min(powers.around, std::max(powers.cuts[0], powers.cuts[1])) : powers.around;
-  return least > k_least_power ? 1.5 * std::numbers::sqrt3 * std::sqrt(least) : exact_face_tet_quality(face, corners, cell, other);
-}
-
-void add_inner(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& a, const Place& b) {
-  const FaceShape face = face_shape(corners);
-  const Vec3 d = b.centre - a.centre;
-  const double cosine = dot(d, face.area) / (norm(d) * norm(face.area) + k_tiny);
-  scan.non_orthogonality.add(std::acos(std::clamp(cosine, -1.0, 1.0)), id);
-  scan.skewness.add(skewness_of(face, corners, a.centre, d, k_inner_reach), id);
-  const double to_a = std::abs(dot(face.area, face.centre - a.centre)), to_b = std::abs(dot(face.area, b.centre - face.centre));
-  scan.face_weight.add(std::min(to_a, to_b) / (to_a + to_b + k_tiny), id);
-  scan.volume_ratio.add(std::min(a.volume, b.volume) / (std::max(a.volume, b.volume) + k_tiny), id);
+void add_outer(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
+  const OuterFace face = outer_face(corners, cell);
+  scan.skewness.add(face.skewness, id);
   if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
-  scan.face_tets.add(face_tet_quality(face, corners, a.centre, &b.centre), id);
-}
-
-void add_boundary(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
-  const FaceShape face = face_shape(corners);
-  const Vec3 normal = face.area / (norm(face.area) + k_tiny);
-  scan.skewness.add(skewness_of(face, corners, cell.centre, dot(normal, face.centre - cell.centre) * normal, k_boundary_reach), id);
-  if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
-  scan.face_tets.add(face_tet_quality(face, corners, cell.centre, nullptr), id);
+  scan.face_tets.add(face.tets, id);
 }
 
 /// Which faces of cells are on the boundary; faces of periodic sides are not, flow goes through them.
@@ -172,6 +53,7 @@ class OuterFaces {
     std::sort(faces_.begin(), faces_.end());
   }
 
+  bool has_any(std::uint64_t number) const { return has_any_[number] != 0; }
   /// Bit f: face f of the cell is no boundary face.
   unsigned inner(std::uint64_t number, const Cell& cell) const {
     unsigned bits = ~0u;
@@ -200,24 +82,6 @@ class OuterFaces {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> faces_;  ///< cell and slot, ascending
 };
 
-/// Centres and volumes: of tetrahedra on demand, of all other cells once.
-class Places {
- public:
-  Places(const HybridMesh& mesh, const CellNumbers& cells) : mesh_(mesh), cells_(cells), kept_(cells.first_tetrahedron()) {}
-  void keep(std::uint64_t number, const CellShape& shape) { kept_[number] = {shape.centre, shape.volume}; }
-  Place of(std::uint64_t number) const {
-    if (number < kept_.size()) return kept_[number];
-    const auto& n = mesh_.tetrahedra[number - kept_.size()];
-    const Point &a = mesh_.points[n[0]], &b = mesh_.points[n[1]], &c = mesh_.points[n[2]], &d = mesh_.points[n[3]];
-    return {(a + b + c + d) * 0.25, dot(b - a, cross(c - a, d - a)) / 6.0};
-  }
-
- private:
-  const HybridMesh& mesh_;
-  const CellNumbers& cells_;
-  std::vector<Place> kept_;
-};
-
 /// Corners of a side of a column's cell, normal out of it; fewer than three where both lines are collapsed.
 Corners side_of(const HybridMesh& mesh, std::size_t column, std::size_t corner, int layer) {
   const LayerBlock& layers = mesh.layers;
@@ -242,165 +106,291 @@ Corners corners_of(const HybridMesh& mesh, const Face& face) {
   return corners;
 }
 
-class Scanner {
+template <class Add>
+CellCentredScan gathered(CellCentredScan scan, std::size_t n, const Add& add, const GateTable& limits, const RunContext& context,
+                         std::size_t chunk = k_default_chunk) {
+  return parallel_reduce(
+      context, n, std::move(scan),
+      [&](std::size_t begin, std::size_t end) {
+        CellCentredScan part(limits);
+        add(begin, end, part);
+        return part;
+      },
+      [](CellCentredScan all, const CellCentredScan& more) { return joined(std::move(all), more); }, chunk);
+}
+
+/// Whether all faces of a cell of a column are between cells of columns. \pre no collapsed line
+bool is_amid_columns(const LayerBlock& layers, std::span<const std::uint32_t> neighbours, std::size_t column, int layer) {
+  if (layer == 0 || layer + 1 == layers.layers_of_column(column)) return false;
+  return neighbours[3 * column] != k_no_slot && neighbours[3 * column + 1] != k_no_slot && neighbours[3 * column + 2] != k_no_slot;
+}
+
+/// Cells of columns, and faces between them, one chunk of columns after the other.
+class ColumnCentres {
  public:
-  Scanner(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context)
-      : mesh_(mesh), limits_(limits), context_(context), places_(mesh, cells) {}
+  ColumnCentres(const HybridMesh& mesh, std::span<const std::uint32_t> neighbours)
+      : mesh_(mesh),
+        neighbours_(neighbours),
+        n_layers_(static_cast<std::uint64_t>(mesh.layers.n_layers)),
+        stride_(n_layers_ + lanes::k_width),
+        own_(mesh),
+        beyond_(mesh),
+        places_beyond_(stride_) {}
 
-  /// Cells, each by itself.
-  void scan_cells(const CellNumbers& cells, const OuterFaces& outer, CellCentredScan& scan) {
-    const auto n_layers = static_cast<std::uint64_t>(mesh_.layers.n_layers);
-    const auto add = [&](CellCentredScan& part, std::uint64_t number, const Cell& cell) {
-      const CellShape shape = cell_shape(mesh_, cell, outer.inner(number, cell));
-      if (number < cells.first_tetrahedron()) places_.keep(number, shape);
-      part.cell_aspect_ratio.add(shape.aspect_ratio, number);
-      part.cell_openness.add(shape.openness, number);
-      part.cell_determinant.add(shape.determinant, number);
-    };
-    gather(
-        scan, mesh_.layers.n_columns(),
-        [&](std::size_t c, CellCentredScan& part) {
-          if (mesh_.layers.n_collapsed(c) == 3) return;
-          for (int j = 0, n = mesh_.layers.layers_of_column(c); j < n; ++j) add(part, c * n_layers + static_cast<std::uint64_t>(j), mesh_.layers.cell(c, j));
-        },
-        k_cell_column_chunk);
-    const std::uint64_t first = cells.first_prism(), last = cells.first_tetrahedron() + mesh_.tetrahedra.size();
-    gather(scan, last - first, [&](std::size_t i, CellCentredScan& part) { add(part, first + i, cells.cell(first + i)); });
-  }
-
-  /// Faces between cells of columns.
-  void scan_columns(std::span<const std::uint32_t> neighbours, CellCentredScan& scan) const {
-    const LayerBlock& layers = mesh_.layers;
-    const auto n_layers = static_cast<std::uint64_t>(layers.n_layers);
-    const auto add_column = [&](std::size_t c, CellCentredScan& part) {
-      if (layers.n_collapsed(c) == 3) return;
-      const int n = layers.layers_of_column(c);
-      for (int j = 0; j < n; ++j) {
-        const std::uint64_t number = c * n_layers + static_cast<std::uint64_t>(j);
-        const Place here = places_.of(number);
-        if (j + 1 < n) add_inner(part, 8 * number + k_top, top_of(mesh_, c, j).span(), here, places_.of(number + 1));
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::uint32_t other = neighbours[3 * c + k];
-          if (other == k_no_slot || other < c) continue;
-          const Corners side = side_of(mesh_, c, k, j);
-          if (side.n >= 3) add_inner(part, 8 * number + k, side.span(), here, places_.of(other * n_layers + static_cast<std::uint64_t>(j)));
-        }
-      }
-    };
-    gather(scan, layers.n_columns(), add_column, k_cell_column_chunk);
-  }
-
-  /// All others.
-  void scan_slots(const FaceSlots& slots, const FaceMatch& match, CellCentredScan& scan) const {
-    gather(scan, match.pairs.size(), [&](std::size_t i, CellCentredScan& part) {
-      const auto& [a, b] = match.pairs[i];
-      add_inner(part, CellCentredScan::k_of_slot + a, corners_of(mesh_, slots.face(a)).span(), places_.of(slots.owner(a)), places_.of(slots.owner(b)));
-    });
-    gather(scan, match.outer.size(), [&](std::size_t i, CellCentredScan& part) {
-      const std::uint32_t slot = match.outer[i];
-      add_boundary(part, CellCentredScan::k_of_slot + slot, corners_of(mesh_, slots.face(slot)).span(), places_.of(slots.owner(slot)));
-    });
+  void add(std::size_t begin, std::size_t end, CellCentredScan& scan) {
+    begin_ = begin;
+    end_ = end;
+    places_.resize((end - begin) * stride_);
+    for (std::size_t c = begin; c < end; ++c) {
+      const int n_collapsed = mesh_.layers.n_collapsed(c);
+      if (n_collapsed == 0) add_prisms(c, scan);
+      else if (n_collapsed < 3) add_cells(c, scan);
+    }
+    for (std::size_t c = begin; c < end; ++c) {
+      const int n_collapsed = mesh_.layers.n_collapsed(c);
+      if (n_collapsed == 0) add_faces_of_prisms(c, scan);
+      else if (n_collapsed < 3) add_faces(c, scan);
+    }
   }
 
  private:
-  template <class Add>
-  void gather(CellCentredScan& scan, std::size_t n, const Add& add, std::size_t chunk = k_default_chunk) const {
-    CellCentredScan empty(limits_);
-    scan = parallel_reduce(
-        context_, n, std::move(scan),
-        [&](std::size_t begin, std::size_t end) {
-          CellCentredScan part = empty;
-          for (std::size_t i = begin; i < end; ++i) add(i, part);
-          return part;
-        },
-        [](CellCentredScan all, const CellCentredScan& more) {
-          all.merge(more);
-          return all;
-        },
-        chunk);
+  Place* places_of(std::size_t column) { return places_.data() + (column - begin_) * stride_; }
+
+  /// Of a column after a given one.
+  const Place* places_after(std::size_t column) {
+    if (column < end_) return places_of(column);
+    if (mesh_.layers.n_collapsed(column) == 0) {
+      beyond_.read(column);
+      beyond_.places(places_beyond_.data());
+    } else {
+      for (int j = 0, n = mesh_.layers.layers_of_column(column); j < n; ++j) {
+        const CellShape shape = cell_shape(mesh_, mesh_.layers.cell(column, j));
+        places_beyond_[static_cast<std::size_t>(j)] = {shape.centre, shape.volume};
+      }
+    }
+    return places_beyond_.data();
+  }
+
+  void add_prisms(std::size_t c, CellCentredScan& scan) {
+    own_.read(c);
+    const std::span<const CellShape> cells = own_.cells();
+    Place* const places = places_of(c);
+    for (std::size_t j = 0; j < cells.size(); ++j) {
+      const std::uint64_t number = c * n_layers_ + j;
+      places[j] = {cells[j].centre, cells[j].volume};
+      scan.cell_aspect_ratio.add(cells[j].aspect_ratio, number);
+      scan.cell_openness.add(cells[j].openness, number);
+      if (is_amid_columns(mesh_.layers, neighbours_, c, static_cast<int>(j))) scan.cell_determinant.add(cells[j].determinant, number);
+    }
+  }
+
+  void add_cells(std::size_t c, CellCentredScan& scan) {
+    Place* const places = places_of(c);
+    for (int j = 0, n = mesh_.layers.layers_of_column(c); j < n; ++j) {
+      const std::uint64_t number = c * n_layers_ + static_cast<std::uint64_t>(j);
+      const CellShape shape = cell_shape(mesh_, mesh_.layers.cell(c, j));
+      places[j] = {shape.centre, shape.volume};
+      scan.cell_aspect_ratio.add(shape.aspect_ratio, number);
+      scan.cell_openness.add(shape.openness, number);
+    }
+  }
+
+  void add_faces_of_prisms(std::size_t c, CellCentredScan& scan) {
+    own_.read(c);
+    const std::uint64_t first = 8 * c * n_layers_;
+    const std::span<const InnerFace> tops = own_.tops(places_of(c));
+    for (std::size_t j = 0; j < tops.size(); ++j) add_face(scan, first + 8 * j + k_top, tops[j], false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t other = neighbours_[3 * c + k];
+      if (other == k_no_slot || other < c) continue;
+      const std::span<const InnerFace> sides = own_.side(k, places_of(c), places_after(other));
+      for (std::size_t j = 0; j < sides.size(); ++j) add_face(scan, first + 8 * j + k, sides[j], true);
+    }
+  }
+
+  void add_faces(std::size_t c, CellCentredScan& scan) {
+    const int n = mesh_.layers.layers_of_column(c);
+    const std::uint64_t first = 8 * c * n_layers_;
+    const Place* const places = places_of(c);
+    for (int j = 0; j + 1 < n; ++j)
+      add_face(scan, first + 8 * static_cast<std::uint64_t>(j) + k_top, inner_face(top_of(mesh_, c, j).span(), places[j], places[j + 1]), false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t other = neighbours_[3 * c + k];
+      if (other == k_no_slot || other < c) continue;
+      const Place* const beyond = places_after(other);
+      for (int j = 0; j < n; ++j) {
+        const Corners side = side_of(mesh_, c, k, j);
+        if (side.n >= 3) add_face(scan, first + 8 * static_cast<std::uint64_t>(j) + k, inner_face(side.span(), places[j], beyond[j]), side.n == 4);
+      }
+    }
   }
 
   const HybridMesh& mesh_;
-  const GateTable& limits_;
-  const RunContext& context_;
-  Places places_;
+  std::span<const std::uint32_t> neighbours_;
+  std::uint64_t n_layers_, stride_;
+  std::size_t begin_ = 0, end_ = 0;
+  ColumnShapes own_, beyond_;
+  std::vector<Place> places_, places_beyond_;
 };
 
-double determinant_of(std::span<const FaceShape> faces, unsigned inner) {
-  double mean = 0.0;
-  int n = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if ((inner >> f & 1u) != 0) {
-      mean += norm(faces[f].area);
-      ++n;
-    }
-  if (n == 0) return 0.0;
-  mean /= n;
-  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if ((inner >> f & 1u) == 0) continue;
-    const Vec3 a = faces[f].area / mean;
-    xx += a.x * a.x, xy += a.x * a.y, xz += a.x * a.z, yy += a.y * a.y, yz += a.y * a.z, zz += a.z * a.z;
+/// Explicit tetrahedra and the faces between them, four at a time.
+class TetLanes {
+ public:
+  explicit TetLanes(const HybridMesh& mesh) : mesh_(mesh) {}
+
+  static Place place(const HybridMesh& mesh, std::uint32_t tet) {
+    const auto& n = mesh.tetrahedra[tet];
+    const Point &a = mesh.points[n[0]], &b = mesh.points[n[1]], &c = mesh.points[n[2]], &d = mesh.points[n[3]];
+    return {(a + b + c + d) * 0.25, dot(b - a, cross(c - a, d - a)) / 6.0};
   }
-  constexpr double k_of_cube = 8.0;
-  return std::abs(xx * yy * zz + xy * yz * xz + xz * xy * yz - xx * yz * yz - xy * xy * zz - xz * yy * xz) / k_of_cube;
-}
+
+  /// Tets first, first + 1, ... of which n <= 4 count.
+  void add_cells(std::uint32_t first, std::size_t n, std::uint64_t number, CellCentredScan& scan) {
+    std::array<lanes::Vec3x4, 4> p{};
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = 0; i < 4; ++i) lanes::set_lane(p[i], k, mesh_.points[mesh_.tetrahedra[first + k][i]]);
+    std::array<lanes::FaceShapes, 4> faces;
+    const auto local = cell_faces(CellKind::tetrahedron);
+    for (std::size_t f = 0; f < 4; ++f)
+      faces[f] = lanes::face_shapes(std::array<lanes::Vec3x4, 3>{p[local[f].nodes[0]], p[local[f].nodes[1]], p[local[f].nodes[2]]});
+    const lanes::CellShapes shapes = lanes::cell_shapes(faces);
+    for (std::size_t k = 0; k < n; ++k) {
+      scan.cell_aspect_ratio.add(shapes.aspect_ratio[k], number + k);
+      scan.cell_openness.add(shapes.openness[k], number + k);
+    }
+    determinants_ = shapes.determinant;
+  }
+  /// Of add_cells(), as if no face were on the boundary.
+  double determinant(std::size_t k) const { return determinants_[k]; }
+
+  /// A face between two tets; measured with the next ones.
+  void add_face(std::uint64_t id, const Face& face, std::uint32_t tet, std::uint32_t other, CellCentredScan& scan) {
+    for (std::size_t i = 0; i < 3; ++i) lanes::set_lane(corners_[i], n_, mesh_.points[face.nodes[i]]);
+    const auto set = [&](lanes::Places& places, std::uint32_t of) {
+      const Place one = place(mesh_, of);
+      lanes::set_lane(places.centre, n_, one.centre);
+      places.volume[n_] = one.volume;
+    };
+    set(here_, tet);
+    set(there_, other);
+    ids_[n_++] = id;
+    if (n_ == lanes::k_width) flush(scan);
+  }
+  void flush(CellCentredScan& scan) {
+    const lanes::InnerFaces faces = lanes::inner_faces(corners_, lanes::face_shapes(corners_), here_, there_, n_);
+    for (std::size_t k = 0; k < n_; ++k)
+      check_parts::add_face(scan, ids_[k], {faces.non_orthogonality[k], faces.skewness[k], faces.weight[k], faces.volume_ratio[k], 1.0, faces.tets[k]}, false);
+    n_ = 0;
+  }
+
+ private:
+  const HybridMesh& mesh_;
+  std::size_t n_ = 0;
+  std::array<std::uint64_t, lanes::k_width> ids_{};
+  std::array<lanes::Vec3x4, 3> corners_{};
+  lanes::Places here_{}, there_{};
+  lanes::Packed determinants_{};
+};
+
+/// All that scan_column_centres() has left.
+class OtherCentres {
+ public:
+  OtherCentres(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours)
+      : mesh_(mesh),
+        cells_(cells),
+        slots_(slots),
+        match_(match),
+        neighbours_(neighbours),
+        outer_(mesh, cells, slots, match),
+        kept_(cells.first_tetrahedron() - cells.first_prism()) {}
+
+  /// Determinants of cells at the ends and open sides of columns.
+  void add_columns(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
+    const LayerBlock& layers = mesh_.layers;
+    for (std::size_t c = begin; c < end; ++c) {
+      const int n_collapsed = layers.n_collapsed(c);
+      if (n_collapsed == 3) continue;
+      for (int j = 0, n = layers.layers_of_column(c); j < n; ++j) {
+        if (n_collapsed == 0 && is_amid_columns(layers, neighbours_, c, j)) {
+          j = std::max(j, n - 2);  // so are all up to the last
+          continue;
+        }
+        const std::uint64_t number = c * static_cast<std::uint64_t>(layers.n_layers) + static_cast<std::uint64_t>(j);
+        const Cell cell = layers.cell(c, j);
+        scan.cell_determinant.add(cell_shape(mesh_, cell, outer_.inner(number, cell)).determinant, number);
+      }
+    }
+  }
+
+  /// Explicit cells but tetrahedra.
+  void add_explicit(std::size_t begin, std::size_t end, CellCentredScan& scan) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t number = cells_.first_prism() + i;
+      const Cell cell = cells_.cell(number);
+      const CellShape shape = cell_shape(mesh_, cell, outer_.inner(number, cell));
+      kept_[i] = {shape.centre, shape.volume};
+      scan.cell_aspect_ratio.add(shape.aspect_ratio, number);
+      scan.cell_openness.add(shape.openness, number);
+      scan.cell_determinant.add(shape.determinant, number);
+    }
+  }
+
+  void add_tets(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
+    TetLanes four(mesh_);
+    for (std::size_t i = begin; i < end; i += lanes::k_width) {
+      const std::size_t n = std::min(lanes::k_width, end - i);
+      const std::uint64_t first = cells_.first_tetrahedron() + i;
+      four.add_cells(static_cast<std::uint32_t>(i), n, first, scan);
+      for (std::size_t k = 0; k < n; ++k) {
+        const bool is_inner = !outer_.has_any(first + k);
+        const Cell cell = is_inner ? Cell{} : cells_.cell(first + k);
+        scan.cell_determinant.add(is_inner ? four.determinant(k) : cell_shape(mesh_, cell, outer_.inner(first + k, cell)).determinant, first + k);
+      }
+    }
+  }
+
+  void add_pairs(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
+    TetLanes four(mesh_);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [a, b] = match_.pairs[i];
+      const std::uint64_t id = CellCentredScan::k_of_slot + a;
+      const Face face = slots_.face(a);
+      if (!slots_.is_layer(a) && !slots_.is_layer(b)) {
+        four.add_face(id, face, slots_.tet_of(a), slots_.tet_of(b), scan);
+      } else {
+        add_face(scan, id, inner_face(corners_of(mesh_, face).span(), place(slots_.owner(a)), place(slots_.owner(b))), face.size == 4);
+      }
+    }
+    four.flush(scan);
+  }
+
+  void add_outer_faces(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t slot = match_.outer[i];
+      add_outer(scan, CellCentredScan::k_of_slot + slot, corners_of(mesh_, slots_.face(slot)).span(), place(slots_.owner(slot)));
+    }
+  }
+
+ private:
+  Place place(std::uint64_t number) const {
+    if (number >= cells_.first_tetrahedron()) return TetLanes::place(mesh_, static_cast<std::uint32_t>(number - cells_.first_tetrahedron()));
+    if (number >= cells_.first_prism()) return kept_[number - cells_.first_prism()];
+    const CellShape shape = cell_shape(mesh_, cells_.cell(number));
+    return {shape.centre, shape.volume};
+  }
+
+  const HybridMesh& mesh_;
+  const CellNumbers& cells_;
+  const FaceSlots& slots_;
+  const FaceMatch& match_;
+  std::span<const std::uint32_t> neighbours_;
+  OuterFaces outer_;
+  std::vector<Place> kept_;  ///< of explicit cells but tetrahedra
+};
 
 GateScan scan_of(Measure measure, const GateTable& limits) { return {info_of(measure), limits[measure]}; }
 
 }  // namespace
-
-FaceShape face_shape(std::span<const Point> corners) {
-  if (corners.size() == 3) return {0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]), (corners[0] + corners[1] + corners[2]) / 3.0, 1.0};
-  const Point middle = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
-  Vec3 normal{}, weighted{};
-  double total = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Point &p = corners[k], &next = corners[(k + 1) % 4];
-    const Vec3 twice_area = cross(next - p, middle - p);
-    const double size = norm(twice_area);
-    normal = normal + twice_area;
-    total += size;
-    weighted = weighted + size * (p + next + middle);
-  }
-  if (!(total > 0.0)) return {Vec3{}, middle, 1.0};
-  const Point centre = weighted / (3.0 * total);
-  double about_centre = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) about_centre += norm(cross(corners[(k + 1) % 4] - corners[k], centre - corners[k]));
-  return {0.5 * normal, centre, norm(normal) / (about_centre + k_tiny)};
-}
-
-CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner) {
-  std::array<FaceShape, 6> faces;
-  const auto local = cell_faces(cell.kind);
-  Point guess{};
-  for (std::size_t f = 0; f < local.size(); ++f) {
-    Corners corners;
-    for (std::size_t k = 0; k < local[f].size; ++k) corners.add(mesh.points[cell.nodes[local[f].nodes[k]]]);
-    faces[f] = face_shape(corners.span());
-    guess = guess + faces[f].centre;
-  }
-  guess = guess / static_cast<double>(local.size());
-  CellShape shape;
-  Vec3 weighted{}, sum{}, sizes{};
-  double total = 0.0, area = 0.0;
-  for (std::size_t f = 0; f < local.size(); ++f) {
-    const FaceShape& face = faces[f];
-    const double pyramid = dot(face.area, face.centre - guess);
-    weighted = weighted + pyramid * (0.75 * face.centre + 0.25 * guess);
-    total += pyramid;
-    sum = sum + face.area;
-    sizes = sizes + Vec3{std::abs(face.area.x), std::abs(face.area.y), std::abs(face.area.z)};
-  }
-  shape.centre = std::abs(total) > 0.0 ? weighted / total : guess;
-  shape.volume = total / 3.0;
-  const auto [low, high] = std::minmax({sizes.x, sizes.y, sizes.z});
-  area = sizes.x + sizes.y + sizes.z;
-  shape.aspect_ratio = std::max(high / (low + k_tiny), area / 6.0 / std::cbrt(shape.volume * shape.volume));
-  shape.openness = std::max({std::abs(sum.x) / (sizes.x + k_tiny), std::abs(sum.y) / (sizes.y + k_tiny), std::abs(sum.z) / (sizes.z + k_tiny)});
-  shape.determinant = determinant_of({faces.data(), local.size()}, inner);
-  return shape;
-}
 
 CellCentredScan::CellCentredScan(const GateTable& limits)
     : non_orthogonality(scan_of(Measure::non_orthogonality, limits)),
@@ -425,13 +415,37 @@ void CellCentredScan::merge(const CellCentredScan& other) {
   cell_determinant.merge(other.cell_determinant);
 }
 
-CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
-                                  std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context) {
+CellCentredScan joined(CellCentredScan all, const CellCentredScan& more) {
+  all.merge(more);
+  return all;
+}
+
+CellCentredScan scan_centre_chunk(const HybridMesh& mesh, std::span<const std::uint32_t> neighbours, const GateTable& limits, std::size_t begin,
+                                  std::size_t end) {
   CellCentredScan scan(limits);
-  Scanner scanner(mesh, cells, limits, context);
-  scanner.scan_cells(cells, OuterFaces(mesh, cells, slots, match), scan);
-  scanner.scan_columns(neighbours, scan);
-  scanner.scan_slots(slots, match, scan);
+  ColumnCentres(mesh, neighbours).add(begin, end, scan);
+  return scan;
+}
+
+CellCentredScan scan_column_centres(const HybridMesh& mesh, std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context) {
+  return parallel_reduce(
+      context, mesh.layers.n_columns(), CellCentredScan(limits),
+      [&](std::size_t begin, std::size_t end) { return scan_centre_chunk(mesh, neighbours, limits, begin, end); },
+      [](CellCentredScan all, const CellCentredScan& more) { return joined(std::move(all), more); }, k_centre_chunk);
+}
+
+CellCentredScan scan_cell_centred(CellCentredScan scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
+                                  std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context) {
+  OtherCentres others(mesh, cells, slots, match, neighbours);
+  const auto add = [&](std::size_t n, auto member) {
+    scan = gathered(
+        std::move(scan), n, [&](std::size_t begin, std::size_t end, CellCentredScan& part) { (others.*member)(begin, end, part); }, limits, context);
+  };
+  add(mesh.layers.n_columns(), &OtherCentres::add_columns);
+  add(cells.first_tetrahedron() - cells.first_prism(), &OtherCentres::add_explicit);
+  add(mesh.tetrahedra.size(), &OtherCentres::add_tets);
+  add(match.pairs.size(), &OtherCentres::add_pairs);  // needs the places of explicit cells
+  add(match.outer.size(), &OtherCentres::add_outer_faces);
   return scan;
 }
 

@@ -7,6 +7,7 @@
 
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/cell_shapes.h"
 
 namespace sterna {
 namespace {
@@ -84,3 +85,214 @@ CellQuality cell_quality(CellKind kind, std::span<const Vec3> p) {
 }
 
 }  // namespace sterna
+
+// ---- OpenFOAM's centres and measures (cell_shapes.h) ------------------------------------------------------------------------
+
+namespace sterna::check_parts {
+namespace {
+
+double reach(std::span<const Point> corners, const Point& centre, const Vec3& direction, double least) {
+  double reach = least;
+  for (const Point& p : corners) reach = std::max(reach, std::abs(dot(direction, p - centre)));
+  return reach;
+}
+
+/// How far the line from a cell's centre along d passes a face's centre, over the reach.
+double skewness_of(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Vec3& d, double share) {
+  const Vec3 to_face = face.centre - cell;
+  const Vec3 miss = to_face - (dot(face.area, to_face) / (dot(face.area, d) + k_tiny)) * d;
+  const double length = norm(miss);
+  return length / reach(corners, face.centre, miss / (length + k_tiny), share * norm(d) + k_tiny);
+}
+
+/// OpenFOAM's quality of a tet: its signed volume over that of the regular one in the same sphere.
+double tet_quality(const Point& p, const Point& q, const Point& r, const Point& s) {
+  const Vec3 a = q - p, b = r - p, c = s - p;
+  const double six_volumes = dot(cross(a, b), c);
+  const Vec3 to_centre = norm2(c) * cross(a, b) + norm2(b) * cross(c, a) + norm2(a) * cross(b, c);
+  const double radius = std::abs(six_volumes) < k_tiny ? k_great : std::min(k_great, norm(to_centre) / (2.0 * std::abs(six_volumes)));
+  return six_volumes / 6.0 / (8.0 / (9.0 * std::numbers::sqrt3) * radius * radius * radius + k_tiny);
+}
+
+/// Worst of the tets on the face's edges and centre with a cell's centre on the side `sign` (1: that of the face's normal).
+double worst_around_centre(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
+  double worst = 1.0;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    worst = std::min(worst, sign * tet_quality(corners[k], corners[(k + 1) % corners.size()], face.centre, cell));
+  return worst;
+}
+
+/// Worst of the two tets that a quadrilateral cut at corner `base` makes with a cell's centre.
+double worst_from_corner(std::span<const Point> corners, std::size_t base, const Point& cell, double sign) {
+  const auto corner = [&](std::size_t k) { return corners[(base + k) % 4]; };
+  return std::min(sign * tet_quality(corner(0), corner(1), corner(2), cell), sign * tet_quality(corner(0), corner(2), corner(3), cell));
+}
+
+}  // namespace
+
+double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
+  double worst = worst_around_centre(face, corners, cell, -1.0);
+  if (other != nullptr) worst = std::min(worst, worst_around_centre(face, corners, *other, 1.0));
+  if (corners.size() == 3) return worst;
+  double best = -k_great;
+  for (std::size_t base = 0; base < 2; ++base) {  // from the opposite corner it is the same cut
+    double cut = worst_from_corner(corners, base, cell, -1.0);
+    if (other != nullptr) cut = std::min(cut, worst_from_corner(corners, base, *other, 1.0));
+    best = std::max(best, cut);
+  }
+  return std::min(worst, best);
+}
+
+namespace {
+
+/// Of tets at one cell's centre: V^8 / N^6 with V six volumes and N tet_quality's `to_centre`; negative where one is the wrong way round.
+struct TetPowers {
+  double around = k_great;        ///< the least with the face's centre
+  double cuts[2] = {-1.0, -1.0};  ///< the least of each of a quadrilateral's cuts
+};
+
+/// Crosses of neighbours among the corners serve all tets; `sign` as in worst_around_centre with its sense turned.
+TetPowers tet_powers(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
+  std::array<Vec3, 4> a, side, to_centre;  // corners from the cell's centre; crosses with the next corner, with the face's centre
+  std::array<double, 4> a2;
+  const std::size_t n = corners.size();
+  const Vec3 c = face.centre - cell;
+  const double c2 = norm2(c);
+  for (std::size_t k = 0; k < n; ++k) {
+    a[k] = corners[k] - cell;
+    a2[k] = norm2(a[k]);
+    to_centre[k] = cross(c, a[k]);
+  }
+  const auto power = [](double volume, const Vec3& normal) {
+    if (!(volume > 0.0)) return -1.0;
+    const double share = 1.0 / norm2(normal), squared = volume * volume, first = squared * squared * share;
+    return first * first * share;
+  };
+  TetPowers powers;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = k + 1 < n ? k + 1 : 0;
+    side[k] = cross(a[k], a[next]);
+    powers.around = std::min(powers.around, power(sign * dot(side[k], c), c2 * side[k] + a2[next] * to_centre[k] - a2[k] * to_centre[next]));
+  }
+  if (n != 4) return powers;
+  for (std::size_t base = 0; base < 2; ++base) {
+    const std::size_t next = base + 1, across = base + 2, last = (base + 3) % 4;
+    const Vec3 diagonal = cross(a[base], a[across]);
+    powers.cuts[base] = std::min(power(sign * dot(side[base], a[across]), a2[across] * side[base] - a2[next] * diagonal + a2[base] * side[next]),
+                                 power(sign * dot(side[across], a[base]), a2[base] * side[across] + a2[across] * side[last] + a2[last] * diagonal));
+  }
+  return powers;
+}
+
+/// exact_face_tet_quality() at a third of its price where all tets are the right way round: a tet's quality is 1.5 sqrt(3) V^4 / N^3.
+double face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
+  TetPowers powers = tet_powers(face, corners, cell, 1.0);
+  if (other != nullptr) {
+    const TetPowers more = tet_powers(face, corners, *other, -1.0);
+    powers.around = std::min(powers.around, more.around);
+    for (std::size_t base = 0; base < 2; ++base) powers.cuts[base] = std::min(powers.cuts[base], more.cuts[base]);
+  }
+  const double least = corners.size() == 4 ? std::min(powers.around, std::max(powers.cuts[0], powers.cuts[1])) : powers.around;
+  return least > k_least_power ? 1.5 * std::numbers::sqrt3 * std::sqrt(least) : exact_face_tet_quality(face, corners, cell, other);
+}
+
+}  // namespace
+
+InnerFace inner_face(std::span<const Point> corners, const Place& a, const Place& b) {
+  const FaceShape face = face_shape(corners);
+  const Vec3 d = b.centre - a.centre;
+  const double cosine = dot(d, face.area) / (norm(d) * norm(face.area) + k_tiny);
+  const double to_a = std::abs(dot(face.area, face.centre - a.centre)), to_b = std::abs(dot(face.area, b.centre - face.centre));
+  return {.non_orthogonality = std::acos(std::clamp(cosine, -1.0, 1.0)),
+          .skewness = skewness_of(face, corners, a.centre, d, k_inner_reach),
+          .weight = std::min(to_a, to_b) / (to_a + to_b + k_tiny),
+          .volume_ratio = std::min(a.volume, b.volume) / (std::max(a.volume, b.volume) + k_tiny),
+          .flatness = face.flatness,
+          .tets = face_tet_quality(face, corners, a.centre, &b.centre)};
+}
+
+OuterFace outer_face(std::span<const Point> corners, const Place& cell) {
+  const FaceShape face = face_shape(corners);
+  const Vec3 normal = face.area / (norm(face.area) + k_tiny);
+  return {.skewness = skewness_of(face, corners, cell.centre, dot(normal, face.centre - cell.centre) * normal, k_boundary_reach),
+          .flatness = face.flatness,
+          .tets = face_tet_quality(face, corners, cell.centre, nullptr)};
+}
+
+namespace {
+
+double determinant_of(std::span<const FaceShape> faces, unsigned inner) {
+  double mean = 0.0;
+  int n = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if ((inner >> f & 1u) != 0) {
+      mean += norm(faces[f].area);
+      ++n;
+    }
+  if (n == 0) return 0.0;
+  mean /= n;
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if ((inner >> f & 1u) == 0) continue;
+    const Vec3 a = faces[f].area / mean;
+    xx += a.x * a.x, xy += a.x * a.y, xz += a.x * a.z, yy += a.y * a.y, yz += a.y * a.z, zz += a.z * a.z;
+  }
+  constexpr double k_of_cube = 8.0;
+  return std::abs(xx * yy * zz + xy * yz * xz + xz * xy * yz - xx * yz * yz - xy * xy * zz - xz * yy * xz) / k_of_cube;
+}
+
+}  // namespace
+
+FaceShape face_shape(std::span<const Point> corners) {
+  if (corners.size() == 3) return {0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]), (corners[0] + corners[1] + corners[2]) / 3.0, 1.0};
+  const Point middle = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
+  Vec3 normal{}, weighted{};
+  double total = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point &p = corners[k], &next = corners[(k + 1) % 4];
+    const Vec3 twice_area = cross(next - p, middle - p);
+    const double size = norm(twice_area);
+    normal = normal + twice_area;
+    total += size;
+    weighted = weighted + size * (p + next + middle);
+  }
+  if (!(total > 0.0)) return {Vec3{}, middle, 1.0};
+  const Point centre = weighted / (3.0 * total);
+  double about_centre = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) about_centre += norm(cross(corners[(k + 1) % 4] - corners[k], centre - corners[k]));
+  return {0.5 * normal, centre, norm(normal) / (about_centre + k_tiny)};
+}
+
+CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner) {
+  std::array<FaceShape, 6> faces;
+  const auto local = cell_faces(cell.kind);
+  Point guess{};
+  for (std::size_t f = 0; f < local.size(); ++f) {
+    std::array<Point, 4> corners;
+    for (std::size_t k = 0; k < local[f].size; ++k) corners[k] = mesh.points[cell.nodes[local[f].nodes[k]]];
+    faces[f] = face_shape({corners.data(), local[f].size});
+    guess = guess + faces[f].centre;
+  }
+  guess = guess / static_cast<double>(local.size());
+  CellShape shape;
+  Vec3 weighted{}, sum{}, sizes{};
+  double total = 0.0, area = 0.0;
+  for (std::size_t f = 0; f < local.size(); ++f) {
+    const FaceShape& face = faces[f];
+    const double pyramid = dot(face.area, face.centre - guess);
+    weighted = weighted + pyramid * (0.75 * face.centre + 0.25 * guess);
+    total += pyramid;
+    sum = sum + face.area;
+    sizes = sizes + Vec3{std::abs(face.area.x), std::abs(face.area.y), std::abs(face.area.z)};
+  }
+  shape.centre = std::abs(total) > 0.0 ? weighted / total : guess;
+  shape.volume = total / 3.0;
+  const auto [low, high] = std::minmax({sizes.x, sizes.y, sizes.z});
+  area = sizes.x + sizes.y + sizes.z;
+  shape.aspect_ratio = std::max(high / (low + k_tiny), area / 6.0 / std::cbrt(shape.volume * shape.volume));
+  shape.openness = std::max({std::abs(sum.x) / (sizes.x + k_tiny), std::abs(sum.y) / (sizes.y + k_tiny), std::abs(sum.z) / (sizes.z + k_tiny)});
+  shape.determinant = determinant_of({faces.data(), local.size()}, inner);
+  return shape;
+}
+
+}  // namespace sterna::check_parts

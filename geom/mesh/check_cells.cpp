@@ -2,12 +2,10 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"
 #include "geom/mesh/column_scan.h"
+#include "geom/mesh/layer_scans.h"
 
 namespace sterna::check_parts {
 namespace {
-
-/// Columns per chunk; each holds some 30 cells.
-constexpr std::size_t k_column_chunk = 64;
 
 class CellScanner {
  public:
@@ -101,7 +99,9 @@ class CellScanner {
   CellScan scan_;
 };
 
-CellScan merge(CellScan all, CellScan more) {
+}  // namespace
+
+CellScan joined(CellScan all, CellScan more) {
   all.invalid = concatenate(std::move(all.invalid), std::move(more.invalid));
   all.layer_volume.add(more.layer_volume);
   all.tet_volume.add(more.tet_volume);
@@ -111,8 +111,6 @@ CellScan merge(CellScan all, CellScan more) {
   all.max_dihedral.merge(more.max_dihedral);
   return all;
 }
-
-}  // namespace
 
 CellScan::CellScan(const GateTable& limits)
     : scaled_jacobian(info_of(Measure::scaled_jacobian), limits[Measure::scaled_jacobian]),
@@ -128,16 +126,18 @@ std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& contex
   return volumes;
 }
 
-CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context) {
+CellScan scan_column_chunk(const HybridMesh& mesh, bool with_quality, const GateTable& limits, std::size_t begin, std::size_t end) {
   const auto n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
+  CellScanner scanner(mesh, with_quality, limits);
+  for (std::size_t c = begin; c < end; ++c) scanner.add_column(c * n_layers, c);
+  return scanner.take();
+}
+
+CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context) {
   return parallel_reduce(
       context, mesh.layers.n_columns(), CellScan(limits),
-      [&](std::size_t begin, std::size_t end) {
-        CellScanner scanner(mesh, with_quality, limits);
-        for (std::size_t c = begin; c < end; ++c) scanner.add_column(c * n_layers, c);
-        return scanner.take();
-      },
-      merge, k_column_chunk);
+      [&](std::size_t begin, std::size_t end) { return scan_column_chunk(mesh, with_quality, limits, begin, end); },
+      [](CellScan all, CellScan more) { return joined(std::move(all), std::move(more)); }, k_column_chunk);
 }
 
 CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits,
@@ -151,7 +151,7 @@ CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const Cel
           for (std::size_t c = begin; c < end; ++c) scanner.add_explicit(first_number + c, block[c]);
           return scanner.take();
         },
-        merge);
+        [](CellScan all, CellScan more) { return joined(std::move(all), std::move(more)); });
   };
   add_block(cells.first_prism(), mesh.prisms);
   add_block(cells.first_pyramid(), mesh.pyramids);

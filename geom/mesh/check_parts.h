@@ -276,13 +276,3 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
 std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_t node);
 
 }  // namespace sterna::check_parts
-
-namespace sterna {
-
-struct LayerCheck::Parts {
-  check_parts::CellScan columns;
-  DualScan lines;
-  std::optional<check_parts::CrossingTest> crossings;
-};
-
-}  // namespace sterna

@@ -2,6 +2,9 @@
 // its terms' sizes: weaker, but free, as the lengths are needed anyway; prisms of scaled Jacobian 1e-13 are still decided.
 #include "geom/mesh/column_scan.h"
 
+#include "geom/mesh/cell_lanes.h"
+#include "geom/mesh/column_shapes.h"
+
 namespace sterna {
 namespace {
 
@@ -62,3 +65,76 @@ const std::vector<PrismMeasures>& ColumnScan::measure(std::size_t column) {
 }
 
 }  // namespace sterna
+
+namespace sterna::check_parts {
+namespace {
+
+using namespace lanes;
+
+/// A prism's faces in the order of cell_faces(), of four layers.
+std::array<FaceShapes, 5> prism_faces(const std::array<LineVectors, 3>& lines, std::size_t layer) {
+  std::array<Vec3x4, 3> low, high;
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = lines[k].at(layer);
+    high[k] = lines[k].at(layer + 1);
+  }
+  const auto side = [&](std::size_t u, std::size_t v) { return face_shapes(std::array<Vec3x4, 4>{low[u], low[v], high[v], high[u]}); };
+  return {side(0, 1), side(1, 2), side(2, 0), face_shapes(std::array<Vec3x4, 3>{low[0], low[2], low[1]}), face_shapes(high)};
+}
+
+void store_faces(const InnerFaces& faces, std::size_t n_used, InnerFace* to) {
+  for (std::size_t k = 0; k < n_used; ++k)
+    to[k] = {faces.non_orthogonality[k], faces.skewness[k], faces.weight[k], faces.volume_ratio[k], faces.flatness[k], faces.tets[k]};
+}
+
+}  // namespace
+
+void ColumnShapes::read(std::size_t column) {
+  n_ = static_cast<std::size_t>(mesh_.layers.layers_of_column(column));
+  for (std::size_t k = 0; k < 3; ++k) lines_[k].read(mesh_, mesh_.layers.base[column][k]);
+}
+
+ColumnShapes::Side ColumnShapes::side_at(std::size_t corner, std::size_t layer) const {
+  const LineVectors &u = lines_[corner], &v = lines_[(corner + 1) % 3];
+  return {u.at(layer), v.at(layer), v.at(layer + 1), u.at(layer + 1)};
+}
+
+std::span<const CellShape> ColumnShapes::cells() {
+  cells_.resize(n_);
+  for (std::size_t j = 0; j < n_; j += k_width) {
+    const CellShapes shapes = cell_shapes(prism_faces(lines_, j));
+    for (std::size_t k = 0; k < k_width && j + k < n_; ++k)
+      cells_[j + k] = {lane(shapes.place.centre, k), shapes.place.volume[k], shapes.aspect_ratio[k], shapes.openness[k], shapes.determinant[k]};
+  }
+  return cells_;
+}
+
+void ColumnShapes::places(Place* places) const {
+  for (std::size_t j = 0; j < n_; j += k_width) {
+    const Places four = cell_places(prism_faces(lines_, j));
+    for (std::size_t k = 0; k < k_width && j + k < n_; ++k) places[j + k] = lane(four, k);
+  }
+}
+
+std::span<const InnerFace> ColumnShapes::tops(const Place* places) {
+  const std::size_t n = n_ - 1;
+  tops_.resize(n);
+  for (std::size_t j = 0; j < n; j += k_width) {
+    const std::array<Vec3x4, 3> corners = {lines_[0].at(j + 1), lines_[1].at(j + 1), lines_[2].at(j + 1)};
+    const std::size_t n_used = std::min(k_width, n - j);
+    store_faces(inner_faces(corners, face_shapes(corners), load(places + j), load(places + j + 1), n_used), n_used, tops_.data() + j);
+  }
+  return tops_;
+}
+
+std::span<const InnerFace> ColumnShapes::side(std::size_t corner, const Place* places, const Place* places_beyond) {
+  sides_.resize(n_);
+  for (std::size_t j = 0; j < n_; j += k_width) {
+    const Side corners = side_at(corner, j);
+    const std::size_t n_used = std::min(k_width, n_ - j);
+    store_faces(inner_faces(corners, face_shapes(corners), load(places + j), load(places_beyond + j), n_used), n_used, sides_.data() + j);
+  }
+  return sides_;
+}
+
+}  // namespace sterna::check_parts

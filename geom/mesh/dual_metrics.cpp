@@ -8,14 +8,15 @@
 
 #include "geom/math/constants.h"
 #include "geom/mesh/dual_parts.h"
+#include "geom/mesh/layer_scans.h"
 
 namespace sterna {
 namespace {
 
 using namespace dual_parts;
+using check_parts::k_line_chunk;
 
-/// Lines and nodes per chunk; large enough that making the scans of a chunk does not count.
-constexpr std::size_t k_line_chunk = 512;
+/// Nodes per chunk, as k_line_chunk.
 constexpr std::size_t k_node_chunk = 4096;
 /// Corners held at a time: 256 MB.
 constexpr std::uint64_t k_most_corners = std::uint64_t{1} << 26;
@@ -80,22 +81,27 @@ class DualWalk {
         [](bool a, bool b) { return a || b; });
   }
 
+  /// Nodes of lines() on some lines. `take(part, node, metrics)` adds a node.
+  template <class Part, class Take>
+  void add_lines(std::size_t begin, std::size_t end, const Take& take, WithSuspects<Part>& part) const {
+    LineDual lines(mesh_, rings_);
+    for (std::size_t k = begin; k < end; ++k) {
+      if (is_regular_[k] == 0) continue;
+      std::uint32_t node = mesh_.layers.first_node[k];
+      for (const NodeMetrics& metrics : lines.measure(static_cast<std::uint32_t>(k)))
+        if (!special_.contains(++node)) take(part.part, node, metrics);
+    }
+    part.suspects = lines.take_suspects();
+  }
+
   /// `make()` gives an empty part; `take(part, node, metrics)` adds a node to it; `merge(all, part)`.
   template <class Part, class Make, class Take, class Merge>
   WithSuspects<Part> lines(const Make& make, const Take& take, const Merge& merge) const {
-    const LayerBlock& layers = mesh_.layers;
     return parallel_reduce(
-        context_, layers.n_lines(), WithSuspects<Part>{make(), {}},
+        context_, mesh_.layers.n_lines(), WithSuspects<Part>{make(), {}},
         [&](std::size_t begin, std::size_t end) {
           WithSuspects<Part> part{make(), {}};
-          LineDual lines(mesh_, rings_);
-          for (std::size_t k = begin; k < end; ++k) {
-            if (is_regular_[k] == 0) continue;
-            std::uint32_t node = layers.first_node[k];
-            for (const NodeMetrics& metrics : lines.measure(static_cast<std::uint32_t>(k)))
-              if (!special_.contains(++node)) take(part.part, node, metrics);
-          }
-          part.suspects = lines.take_suspects();
+          add_lines(begin, end, take, part);
           return part;
         },
         joined<Part>(merge), k_line_chunk);
@@ -227,6 +233,25 @@ DualScan scan_lines(const HybridMesh& mesh, const GateTable& limits, const RunCo
   const ScanSteps steps{limits};
   return with_suspects(DualWalk(mesh, context).lines<DualScan>(steps.make(), steps.take, steps.merge));
 }
+
+namespace check_parts {
+
+DualScan joined(DualScan all, DualScan more) {
+  all.suspects.insert(all.suspects.end(), more.suspects.begin(), more.suspects.end());
+  all.merge(std::move(more));
+  return all;
+}
+
+void fill_lines(ScanChunks<DualScan>& chunks, const HybridMesh& mesh, const GateTable& limits, const RunContext& context) {
+  const DualWalk walk(mesh, context);
+  chunks.fill(context, [&](std::size_t begin, std::size_t end) {
+    DualWalk::WithSuspects<DualScan> part{DualScan(limits), {}};
+    walk.add_lines(begin, end, ScanSteps::take, part);
+    return with_suspects(std::move(part));
+  });
+}
+
+}  // namespace check_parts
 
 Column<NodeId, NodeMetrics> dual_metrics(const HybridMesh& mesh, const RunContext& context) {
   Column<NodeId, NodeMetrics> result(mesh.points.size(), NodeMetrics{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, 0.0});

@@ -24,16 +24,33 @@ inline Packed all(double value) { return Packed{value, value, value, value}; }
 inline Packed least(Packed a, Packed b) { return _mm256_min_pd(a, b); }
 inline Packed most(Packed a, Packed b) { return _mm256_max_pd(a, b); }
 inline Packed root(Packed a) { return _mm256_sqrt_pd(a); }
+inline Packed magnitude(Packed a) { return _mm256_andnot_pd(all(-0.0), a); }
 
 /// asin to 2e-8 (a millionth of a degree) without branches: Abramowitz & Stegun 4.4.46.
 inline Packed arc_sine(Packed x) {
   const Packed one = all(1.0);
-  const Packed magnitude = least(one, most(x, -x));
+  const Packed size = least(one, most(x, -x));
   Packed p = all(-0.0012624911);
   for (const double coefficient : {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050})
-    p = p * magnitude + coefficient;
-  const Packed angle = all(0.5 * std::numbers::pi) - root(one - magnitude) * p;
+    p = p * size + coefficient;
+  const Packed angle = all(0.5 * std::numbers::pi) - root(one - size) * p;
   return x < all(0.0) ? -angle : angle;
+}
+
+/// acos of values in [-1, 1] to two roundings, without branches: asin(s) = s + s R(s^2) up to 1/2, twice that of the half angle beyond; R is fdlibm's.
+inline Packed arc_cosine(Packed x) {
+  const Packed half = all(0.5), size = magnitude(x);
+  const auto is_small = size < half;
+  const Packed z = is_small ? size * size : (all(1.0) - size) * half;
+  const Packed s = is_small ? size : root(z);
+  Packed p = all(3.47933107596021167570e-05), q = all(7.70381505559019352791e-02);
+  for (const double coefficient :
+       {7.91534994289814532176e-04, -4.00555345006794114027e-02, 2.01212532134862925881e-01, -3.25565818622400915405e-01, 1.66666666666666657415e-01})
+    p = p * z + coefficient;
+  for (const double coefficient : {-6.88283971605453293030e-01, 2.02094576023350569471e+00, -2.40339491173441421878e+00, 1.0}) q = q * z + coefficient;
+  const Packed angle = s + s * (p * z / q);
+  const Packed of_size = is_small ? all(0.5 * std::numbers::pi) - angle : 2.0 * angle;
+  return x < all(0.0) ? all(std::numbers::pi) - of_size : of_size;
 }
 
 /// Four vectors.
@@ -42,6 +59,8 @@ struct Vec3x4 {
   friend Vec3x4 operator+(const Vec3x4& a, const Vec3x4& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Vec3x4 operator*(double s, const Vec3x4& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend Vec3x4 operator*(Packed s, const Vec3x4& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend Vec3x4 operator/(const Vec3x4& a, Packed s) { return {a.x / s, a.y / s, a.z / s}; }
 };
 inline Packed dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Packed norm(const Vec3x4& a) { return root(dot(a, a)); }
@@ -74,7 +93,18 @@ struct LineVectors {
     x.resize(n);
     y.resize(n);
     z.resize(n);
-    for (std::size_t j = 0; j < n; ++j) {
+    static_assert(sizeof(Point) == 3 * sizeof(double));
+    std::size_t j = 0;
+    for (; j + k_width <= n_nodes; j += k_width) {
+      const auto* values = reinterpret_cast<const double*>(points + j);  // x y z x | y z x y | z x y z
+      const Packed first = _mm256_loadu_pd(values), second = _mm256_loadu_pd(values + 4), third = _mm256_loadu_pd(values + 8);
+      const Packed xy = _mm256_permute2f128_pd(first, second, 0x30), zx = _mm256_permute2f128_pd(first, third, 0x21),
+                   yz = _mm256_permute2f128_pd(second, third, 0x30);
+      store(x, j, _mm256_shuffle_pd(xy, zx, 0b1010));
+      store(y, j, _mm256_shuffle_pd(xy, yz, 0b0101));
+      store(z, j, _mm256_shuffle_pd(zx, yz, 0b1010));
+    }
+    for (; j < n; ++j) {
       const Point& p = points[std::min(j, n_nodes - 1)];
       x[j] = p.x;
       y[j] = p.y;

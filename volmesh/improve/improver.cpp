@@ -20,6 +20,13 @@ constexpr std::size_t k_job_chunk = 1;
 constexpr std::uint32_t k_no_region = 0xffffffffu;
 /// Tetrahedra graded in all passes: of a run, and for each tetrahedron. Usual meshes take 20 to 400 for each; fans of thousands of needles would take days.
 constexpr std::uint64_t k_least_effort = 300'000'000, k_effort_of_tet = 500, k_effort_of_job = 20'000'000;
+/// What every run may take without asking what it brings, for itself and for each tetrahedron that it is about: 10 s for a million of these.
+constexpr std::uint64_t k_free_effort = 2'000'000, k_free_effort_of_tet = 100;
+/// Then it ends with the first passes, one of each kind, that took more than so many tetrahedra graded for each bad one mended: usual ones are mended with some
+/// thousand, walls full of needles go on like this for minutes.
+constexpr std::uint64_t k_dear_mend = 10'000;
+constexpr std::size_t k_judged_passes = 3;
+constexpr double k_hard_counts = 3.0;  ///< tetrahedra beyond the hard limits count as so many bad ones, as in the costs of a Region
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
 constexpr double k_floor = 0.5;
 /// Volume of a prism over that of a tetrahedron that fits it: a third of the height of a regular one is the step that gates G9 count from.
@@ -37,7 +44,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }  // namespace
 
 Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, const RunContext& context)
-    : limits_(limits), n_fixed_(boundary.points.size()), tets_(tets.tetrahedra), context_(context) {
+    : limits_(limits), n_fixed_(boundary.points.size()), n_about_(tets.tetrahedra.size()), tets_(tets.tetrahedra), context_(context) {
   points_.reserve(n_fixed_ + tets.new_points.size());
   points_.assign(boundary.points.begin(), boundary.points.end());
   points_.insert(points_.end(), tets.new_points.begin(), tets.new_points.end());
@@ -114,6 +121,7 @@ void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
 }
 
 void Improver::work_on_bad_of(std::span<const std::uint32_t> some) {
+  n_about_ = some.size();
   std::vector<std::uint32_t> bad;
   for (const std::uint32_t t : some)
     if (quality(tets_[t]) < limits_.target) bad.push_back(t);
@@ -163,9 +171,18 @@ void Improver::for_each_at(std::uint32_t vertex, const F& f) const {
   for (const std::uint32_t t : later_[vertex]) visit(t);
 }
 
+double Improver::amount_of_bad() const {
+  double amount = 0.0;
+  for (const Bad& bad : bad_) amount += bad.quality < limits_.hard ? k_hard_counts : 1.0;
+  return amount;
+}
+
 int Improver::run(int max_passes) {
   int pass = 0;
   std::uint64_t left = k_least_effort + k_effort_of_tet * tets_.size();
+  const std::uint64_t free_until = left - std::min(left, k_free_effort + k_free_effort_of_tet * n_about_);
+  std::vector<std::uint64_t> left_after;  // each pass
+  std::vector<double> bad_after;
   for (; pass < max_passes; ++pass) {
     context_.check_stop();
     std::vector<Job> jobs = choose_jobs(pass);
@@ -175,6 +192,18 @@ int Improver::run(int max_passes) {
                                           " places left: strips and fans of needles take more than " + std::to_string(k_effort_of_tet) +
                                           " tries a tetrahedron");
       break;
+    }
+    left_after.push_back(left);
+    bad_after.push_back(amount_of_bad());
+    if (const std::size_t n = left_after.size(); left < free_until && n > k_judged_passes) {
+      const double mended = bad_after[n - 1 - k_judged_passes] - bad_after[n - 1];
+      const auto effort = static_cast<double>(left_after[n - 1 - k_judged_passes] - left);
+      if (effort > static_cast<double>(k_dear_mend) * std::max(mended, 0.0)) {
+        context_.log(LogLevel::info, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
+                                         " below what is wished: the last " + std::to_string(k_judged_passes) + " took more than " +
+                                         std::to_string(k_dear_mend) + " tries for each that they mended");
+        break;
+      }
     }
     const std::uint64_t share = std::max(left / jobs.size(), k_effort_of_job);
     owner_.assign(points_.size(), k_no_region);
@@ -189,6 +218,7 @@ int Improver::run(int max_passes) {
     for (const Job& job : jobs) {
       put_back(job);
       left -= std::min(left, job.effort);
+      effort_ += job.effort;
     }
     drop_good();
   }

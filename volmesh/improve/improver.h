@@ -28,8 +28,9 @@ class Improver {
   void work_on_all_but(std::span<const std::uint32_t> left);
   /// The same: those of some that are below the target.
   void work_on_bad_of(std::span<const std::uint32_t> some);
-  /// Number of passes made.
+  /// Until nothing is left to work on, nothing helps, or passes take more than they bring. Number of passes made.
   int run(int max_passes);
+  std::uint64_t effort() const { return effort_; }  ///< Region::effort() of all passes
   /// Removes what has vanished: numbers close up in order.
   void finish(TetraResult& result);
 
@@ -60,6 +61,7 @@ class Improver {
   bool is_alive(std::uint32_t tet) const;
   std::uint32_t owner_of(std::uint32_t vertex) const { return owner_[vertex] & 0x0fffffffu; }
   void drop_good();
+  double amount_of_bad() const;
   void list_incident();
   std::vector<Job> choose_jobs(int pass) const;
   void claim_ring(Job& job, std::uint32_t number, std::uint32_t ring);
@@ -70,7 +72,9 @@ class Improver {
   void for_each_at(std::uint32_t vertex, const F& f) const;
 
   QualityLimits limits_;
+  std::uint64_t effort_ = 0;  ///< tetrahedra graded in all passes
   std::size_t n_fixed_;
+  std::size_t n_about_;  ///< tetrahedra among which bad ones were looked for
   std::vector<Corners>& tets_;
   const RunContext& context_;
   std::vector<Vec3> points_;

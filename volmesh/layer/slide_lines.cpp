@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <limits>
 #include <optional>
 
 #include "geom/base/parallel.h"
 #include "geom/base/sort_unique.h"
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
-#include "geom/mesh/cell_centred.h"
+#include "geom/mesh/cell_shapes.h"
 #include "geom/mesh/line_measures.h"
 #include "volmesh/layer/layer_cells.h"
 
@@ -336,14 +338,30 @@ std::vector<LineSlider::Star> LineSlider::stars_of(const TetraResult& tets, cons
   return stars;
 }
 
-/// Pairs of a star's tetrahedra with a common face.
+/// Pairs of a star's tetrahedra with a common face, ascending by the later one's place, then by the other's. O(n log n): lines under fans of needles have
+/// thousands.
 std::vector<std::array<std::uint32_t, 2>> LineSlider::neighbours_in(const TetraResult& tets, const std::vector<std::uint32_t>& star) const {
+  struct Face {
+    std::array<std::uint32_t, 3> corners;  ///< ascending
+    std::uint32_t place;
+    auto operator<=>(const Face&) const = default;
+  };
+  std::vector<Face> faces;
+  faces.reserve(4 * star.size());
+  for (std::uint32_t i = 0; i < star.size(); ++i) {
+    std::array<std::uint32_t, 4> c = tets.tetrahedra[star[i]];
+    std::ranges::sort(c);
+    for (const auto& face : {std::array{c[1], c[2], c[3]}, std::array{c[0], c[2], c[3]}, std::array{c[0], c[1], c[3]}, std::array{c[0], c[1], c[2]}})
+      faces.push_back({face, i});
+  }
+  std::ranges::sort(faces);
+  std::vector<std::array<std::uint32_t, 2>> places;
+  for (std::size_t k = 1; k < faces.size(); ++k)
+    if (faces[k].corners == faces[k - 1].corners) places.push_back({faces[k].place, faces[k - 1].place});
+  std::ranges::sort(places);
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  for (std::size_t i = 0; i < star.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto &a = tets.tetrahedra[star[i]], &b = tets.tetrahedra[star[j]];
-      if (std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::find(b, v) != b.end(); }) == 3) pairs.push_back({star[j], star[i]});
-    }
+  pairs.reserve(places.size());
+  for (const auto& [later, earlier] : places) pairs.push_back({star[earlier], star[later]});
   return pairs;
 }
 
@@ -356,17 +374,18 @@ double LineSlider::excess_of_step(const TetraResult& tets, const std::array<std:
   return check_parts::deviation(volume(pair[0]) / volume(pair[1])) / largest_step_;
 }
 
-double LineSlider::cost(const TetraResult& tets, const Star& star) const {
+/// Ends once the sum is not below `stop_at`. What is dearest comes last: sides take all layers.
+double LineSlider::cost(const TetraResult& tets, const Star& star, double stop_at) const {
   double sum = 0.0;
   for (const auto& pair : star.neighbours) sum += cost_of(excess_of_step(tets, pair) / k_reserve);
   for (const std::uint32_t t : star.tets) sum += cost_of(excess_of_tet(tets, t));
-  for (std::size_t i = 0; i < star.columns.size(); ++i) {
+  for (std::size_t i = 0; i < star.columns.size() && sum < stop_at; ++i) {
     if (star.tet_on[i] == k_no_tet) continue;
     const Interface interface = interface_of(tets, star.columns[i], star.tet_on[i]);
     for (const double excess : {interface.volume, interface.height, interface.weight}) sum += cost_of(excess / k_reserve);
   }
   for (const std::uint32_t column : star.columns)
-    for (std::size_t k = 0; k < 3; ++k) sum += cost_of(excess_of_side(side_of(column, k)));
+    for (std::size_t k = 0; k < 3 && sum < stop_at; ++k) sum += cost_of(excess_of_side(side_of(column, k)));
   return sum;
 }
 
@@ -407,7 +426,7 @@ Vec3 LineSlider::to_middle(Line line, const Star& star) const {
 
 /// One move: the best of the smaller and smaller steps up, down and to the sides; false where none helps.
 bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Moved& state) {
-  const double cost_now = cost(tets, star);
+  const double cost_now = cost(tets, star, std::numeric_limits<double>::infinity());
   if (!(cost_now > 0.0)) return false;
   const std::vector<Point> now = nodes_of(line);
   const double height = distance(state.nodes.front(), state.nodes.back()), growth = std::max(worst_growth(steps_of(now)), allowed_growth(line));
@@ -427,8 +446,8 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
       shift_top(shift, *nodes);
       if (worst_growth(steps_of(*nodes)) > growth) return;
       put(line, *nodes);
-      const double with = cost(tets, star);
-      if (with < (1.0 - k_least_win) * cost_now) trials.push_back({with, share, shift, std::move(*nodes)});
+      const double most = (1.0 - k_least_win) * cost_now, with = cost(tets, star, most);
+      if (with < most) trials.push_back({with, share, shift, std::move(*nodes)});
     };
     const double length = step * state.reach;
     for (const double sign : {-1.0, 1.0}) {

@@ -81,7 +81,7 @@ class LineSlider {
   std::vector<std::uint32_t> tets_on_columns(const TetraResult& tets) const;
   std::vector<Fault> find_faults(const TetraResult& tets, const std::vector<std::uint32_t>& tet_on) const;
   std::vector<Star> stars_of(const TetraResult& tets, const std::vector<Fault>& faults, const std::vector<std::uint32_t>& tet_on) const;
-  double cost(const TetraResult& tets, const Star& star) const;
+  double cost(const TetraResult& tets, const Star& star, double stop_at) const;
   bool is_valid(const TetraResult& tets, const Star& star) const;
   std::vector<Point> nodes_of(Line line) const;
   void put(Line line, const std::vector<Point>& nodes);

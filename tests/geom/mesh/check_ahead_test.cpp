@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/mesh/check.h"
+#include "geom/mesh/check_moved.h"
 #include "tests/geom/mesh/check_support.h"
 
 namespace sterna {
@@ -42,6 +43,34 @@ TEST(CheckAhead, TetrahedraThatReachIntoTheColumnsAreNoticed) {
   const NodeId inside = mesh.layers.node(3, 2);
   mesh.tetrahedra.front()[0] = inside;
   expect_same_report(mesh);
+}
+
+/// Moves a line's nodes aside, in proportion to their height.
+void bend(HybridMesh& mesh, std::uint32_t line, double by) {
+  const int n = mesh.layers.n_steps(line);
+  for (int j = 1; j <= n; ++j) mesh.points[mesh.layers.node(line, j)] += Vec3{0.3, 1.0, -0.5} * (by * j / n);
+}
+
+TEST(CheckAhead, WhatMovedIsCheckedAgain) {
+  const RunContext context({.threads = 2});
+  // Some 2000 columns: most chunks are kept. The second line is folded through its neighbours.
+  for (const auto& [bend_of_7, bend_of_600] : {std::pair(0.002, -0.001), std::pair(0.001, 1.0)}) {
+    HybridMesh mesh = sphere_shell(10, {.n_layers = 5, .collapsed = {3}});
+    HybridMesh layers = mesh;
+    layers.tetrahedra.clear();
+    const LayerCheck before = check_ahead(layers, {}, context);
+    const std::string known = to_json(check(mesh, {}, context, &before));
+    for (HybridMesh* both : {&mesh, &layers}) {
+      bend(*both, 7, bend_of_7);
+      bend(*both, 600, bend_of_600);
+    }
+    const std::vector<std::uint32_t> lines = {7, 600};
+    const LayerCheck after = check_moved_lines(before, layers, lines, {}, context);
+    const CheckReport report = check(mesh, {}, context, &after);
+    EXPECT_EQ(to_json(report), to_json(check(mesh, {}, context)));
+    EXPECT_NE(to_json(report), known);
+    EXPECT_EQ(report.is_valid(), bend_of_600 != 1.0);
+  }
 }
 
 TEST(CheckAhead, KnowsNothingOfAMeshThatCannotBeRead) {
