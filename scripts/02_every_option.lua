@@ -170,7 +170,7 @@ local mesh = volume_mesh{ wall,
     try_other_engine = true,        -- after a failure that would repeat itself
     repair_boundary = true,         -- when nothing of that helps: a lower, smoother layer around slivers, folds and gaps of its top, and all again
     fall_back_on_limits = false,    -- also after a time or memory limit; the manifest then says "not reproducible"
-    memory_limit = 20e9,            -- bytes, of the helper process
+    memory_limit = 20e9,            -- bytes, of the engine
     time_limit = "automatic",       -- seconds; automatic: in proportion to boundary and sizes
     helper_folder = "",             -- where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside sterna
   },

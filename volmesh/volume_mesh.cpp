@@ -10,6 +10,8 @@
 #include "geom/base/alongside.h"
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
+#include "geom/base/sort_unique.h"
+#include "geom/mesh/check_moved.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/periodic.h"
 #include "volmesh/layer/lay_out.h"
@@ -150,8 +152,10 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 
 constexpr int k_slide_rounds = 4;
 
-/// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them.
-ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
+/// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them. \p slid gets these
+/// lines, ascending.
+ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options,
+                                  std::vector<std::uint32_t>& slid, const RunContext& context) {
   const auto domain = [&] {
     return TetraBoundary{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
   };
@@ -161,10 +165,12 @@ ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, Te
   for (int round = 0; round < k_slide_rounds; ++round) {
     const std::vector<std::uint32_t> moved = slider.slide(tets);
     if (moved.empty()) break;
+    slid.insert(slid.end(), moved.begin(), moved.end());
     if (round + 1 < k_slide_rounds) improve_around(domain(), moved, tets, options, report, context);  // slides have the last word
   }
   if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
-  report.n_slid = static_cast<std::int64_t>(slider.n_moved());
+  sort_unique(slid);
+  report.n_slid = static_cast<std::int64_t>(slid.size());
   return report;
 }
 
@@ -266,18 +272,22 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
   FillBoundary boundary = boundary_of(result.mesh);
+  std::vector<std::uint32_t> slid;
   {
     const StageTimer timer(context, "improve");
-    result.improvement = improve_with_slides(result.mesh, boundary, tets, options, context.part("improve", ends.tetrahedra, ends.improve));
+    result.improvement = improve_with_slides(result.mesh, boundary, tets, options, slid, context.part("improve", ends.tetrahedra, ends.improve));
   }
-  const bool is_layer_known = result.improvement.n_slid == 0;
+  if (!slid.empty()) {
+    const StageTimer timer(context, "check");
+    knowledge.check = check_moved_lines(*knowledge.check, result.mesh, slid, {}, context);
+  }
   {
     const StageTimer timer(context, "assemble");
     add_tetrahedra(boundary, tets, result.mesh, context);
   }
   {
     const StageTimer timer(context, "check");
-    result.check = check(result.mesh, {}, context.part("check", ends.improve, 1.0), is_layer_known ? &*knowledge.check : nullptr);
+    result.check = check(result.mesh, {}, context.part("check", ends.improve, 1.0), &*knowledge.check);
   }
   require_valid(result.check);
   for (const PeriodicMatchReport& sides : result.check.periodic)

@@ -16,7 +16,7 @@ namespace {
 
 // Lengths below are in units of the wanted edge length times this: so the geometric mean of the edges is the wanted length (measured in a field of constant
 // size).
-constexpr double k_length_factor = 1.09;
+constexpr double k_length_factor = 1.07;
 /// Edge that a point in front of a face is to have.
 constexpr double k_front_edge = 0.85;
 /// A larger circumradius is refined. A regular tetrahedron has 0.61.
@@ -73,13 +73,14 @@ Base base_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Refiner {
  public:
-  Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, const RunContext& context)
-      : mesh_(mesh), sizes_(sizes), context_(context), inserter_(mesh, context, n_corners) {}
+  Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, double most_bytes, const RunContext& context)
+      : mesh_(mesh), sizes_(sizes), most_bytes_(most_bytes), context_(context), inserter_(mesh, context, n_corners) {}
 
   RefineReport run() {
     bool needs_front = true;
     for (; report_.rounds < k_most_rounds; ++report_.rounds) {
       context_.check_stop();
+      if (report_.is_over_limit = bytes() > most_bytes_; report_.is_over_limit) break;
       judge();
       const std::int64_t n_inserted = round(needs_front);
       if (n_inserted < 0) {  // nobody had a point to propose
@@ -91,11 +92,12 @@ class Refiner {
     }
     report_.n_left = std::ranges::count(inserter_.state(), k_given_up);
     report_.n_serial = inserter_.n_serial();
-    report_.bytes = static_cast<double>(mesh_.nodes.capacity()) * 43.0 + static_cast<double>(mesh_.points.capacity()) * 24.0;
+    report_.bytes = bytes();
     return report_;
   }
 
  private:
+  double bytes() const { return static_cast<double>(mesh_.nodes.capacity()) * 43.0 + static_cast<double>(mesh_.points.capacity()) * 24.0; }
   std::array<Vec3, 4> corners(std::size_t t) const {
     const Corners& v = mesh_.nodes[t];
     return {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]};
@@ -112,6 +114,7 @@ class Refiner {
 
   TetMesh& mesh_;
   const SizeFunction& sizes_;
+  double most_bytes_;
   const RunContext& context_;
   BulkInserter inserter_;
   RefineReport report_;
@@ -213,8 +216,8 @@ std::int64_t Refiner::round(bool needs_front) {
 
 }  // namespace
 
-RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context) {
-  const RefineReport report = Refiner(mesh, n_kept_points, sizes, context).run();
+RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context, double most_bytes) {
+  const RefineReport report = Refiner(mesh, n_kept_points, sizes, most_bytes, context).run();
   compact(mesh, n_kept_points);
   return report;
 }

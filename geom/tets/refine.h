@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "geom/base/run_context.h"
 #include "geom/tets/tet_mesh.h"
@@ -25,9 +26,10 @@ struct RefineReport {
   int rounds = 0;
   std::int64_t n_candidates = 0;
   std::int64_t n_inserted = 0;
-  std::int64_t n_serial = 0;  ///< candidates that no block could take
-  std::int64_t n_left = 0;    ///< tetrahedra that are larger than wanted, and no point helped
-  double bytes = 0.0;         ///< of the arrays at their largest
+  std::int64_t n_serial = 0;   ///< candidates that no block could take
+  std::int64_t n_left = 0;     ///< tetrahedra that are larger than wanted, and no point helped
+  double bytes = 0.0;          ///< of the arrays at their largest
+  bool is_over_limit = false;  ///< more bytes than were allowed: unfinished
 };
 
 /// Inserts points until every tetrahedron's circumradius fits the size at its centroid, as far as the boundary lets it. In rounds: each tetrahedron that is too
@@ -37,7 +39,9 @@ struct RefineReport {
 /// wanted length in the geometric mean. Parallel, same bytes for any number of threads.
 /// \pre as connect() makes it; the first points, and those of the boundary, stay
 /// \post the same boundary; tetrahedra positive; new points behind the old ones, each used. Points in the volume may be gone.
+/// \p most_bytes: looked at after each round
 /// \throws Error(cancelled); Error(overflow) for more tetrahedra than a mesh can have
-RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context);
+RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context,
+                    double most_bytes = std::numeric_limits<double>::infinity());
 
 }  // namespace sterna::tets

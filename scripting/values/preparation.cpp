@@ -28,7 +28,7 @@ constexpr double k_repair_of_crossing = 4e-4;  ///< of a pair: cutting, hull, me
 constexpr double k_repair_of_filling = 1e-4;   ///< of a facet that fills a hole
 constexpr double k_wrap_of_triangle = 2.5e-4;  ///< of the wrap
 constexpr double k_wrap_coarse = 2.0;          ///< factor where a coarser wrap closes openings first
-constexpr double k_wrap_leaking = 7.0;         ///< factor where the gap is doubled in vain
+constexpr double k_wrap_leaking = 3.0;         ///< factor where openings are wider than any gap
 constexpr double k_remesh_of_facet = 3.5e-5;
 constexpr double k_remesh_of_first = 5e-4;  ///< of each of the first facets: coarse surfaces get many new triangles
 constexpr double k_remesh_first = 2000.0;
@@ -108,7 +108,7 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
   } else {
     p.reason = forecast.problem + "; facets cross, and no hull can be taken where the fluid is inside";
   }
-  // Wrapped once; with a coarser wrap before, where openings are wider than the edge; again and again, where they are wider than any gap.
+  // Wrapped once; with a coarser wrap before, where openings are wider than the edge; with skin on both sides, where they are wider than any gap.
   const double rounds = forecast.widest_open > wrap.widest_gap ? k_wrap_leaking : forecast.widest_open > 2.0 * wrap.edge ? k_wrap_coarse : 1.0;
   p.seconds =
       k_start_seconds + k_repair_of_facet * static_cast<double>(forecast.n_facets) + rounds * k_wrap_of_triangle * static_cast<double>(wrap.n_triangles);

@@ -33,12 +33,10 @@ struct Schema<volmesh::TetraOptions> {
   static constexpr std::string_view stage = "tetrahedra";
   static constexpr volmesh::MeshSteps steps = volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
-      Field<O>{
-          .name = "engine",
-          .member = &O::engine,
-          .help =
-              "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in; sterna: our own refinement, of the boundary as hxt recovers it",
-          .choices = "automatic tetgen hxt sterna"},
+      Field<O>{.name = "engine",
+               .member = &O::engine,
+               .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in; sterna: our own, in the program itself",
+               .choices = "automatic tetgen hxt sterna"},
       Field<O>{.name = "radius_edge",
                .member = &O::radius_edge,
                .min = 1.01,
@@ -52,12 +50,16 @@ struct Schema<volmesh::TetraOptions> {
                .min = 0.0,
                .max = 1.0,
                .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
-      Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
+      Field<O>{.name = "memory_limit",
+               .member = &O::memory_limit,
+               .unit = Unit::byte,
+               .min = 1e8,
+               .help = "of the engine: address space of a helper process, or our own arrays"},
       Field<O>{.name = "time_limit",
                .member = &O::time_limit,
                .unit = Unit::second,
                .min = 0.1,
-               .help = "the helper is stopped after this time",
+               .help = "the engine is stopped after this time",
                .automatic = "60 s of processor time and 0.1 ms for each tetrahedron that boundary and sizes ask for, seven times of what is usual"},
       Field<O>{.name = "max_new_points",
                .member = &O::max_new_points,

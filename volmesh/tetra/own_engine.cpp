@@ -1,10 +1,17 @@
 #include "volmesh/tetra/own_engine.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
+#include "geom/tets/recover.h"
 #include "geom/tets/refine.h"
 #include "geom/tets/tet_mesh.h"
 #include "volmesh/tetra/size_supply.h"
@@ -21,8 +28,41 @@ EngineOutcome no_sizes() {
                                              .problem = "there is no size field, without which it puts no points into the volume"});
 }
 
-/// The first that has an answer; else the first failure that explains something.
-EngineOutcome recover_boundary(const EngineInput& input, const TetraOptions& options, const RunContext& context) {
+/// The boundary's own points with those that recovery needed in the volume.
+std::vector<Vec3> all_points(const TetraBoundary& boundary, const TetraResult& result) {
+  std::vector<Vec3> points(boundary.points.begin(), boundary.points.end());
+  points.insert(points.end(), result.new_points.begin(), result.new_points.end());
+  return points;
+}
+
+/// By our own kernel. Without mesh: why, in the log and in `failures`.
+std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<std::string>& failures, const RunContext& context) {
+  const StageTimer timer(context, "tetrahedra/recovery");
+  const TetraBoundary& boundary = input.boundary;
+  const JoinedBoundary* const joined = input.joined;
+  const std::span<const Vec3> points = joined ? std::span<const Vec3>(joined->points) : boundary.points;
+  tets::Recovery recovery =
+      tets::recover(points, joined ? joined->triangles() : boundary.triangles, joined ? joined->sheets() : std::span<const tets::Facet>(), context);
+  const tets::RecoverReport& report = recovery.report;
+  if (recovery.mesh.nodes.empty()) {
+    const std::vector<Vec3>& places = recovery.failure.places;
+    failures.push_back("recovery of the boundary: " + recovery.failure.problem + (places.empty() ? "" : ", the first at " + format_point(places[0])));
+    context.warn(failures.back());
+    return std::nullopt;
+  }
+  context.info("recovery: " + std::to_string(report.n_missing_edges) + " of " + std::to_string(report.n_edges) + " edges and " +
+               std::to_string(report.n_missing_facets) + " of " + std::to_string(report.n_facets) + " triangles were missing, " +
+               std::to_string(report.n_points) + " points in the volume for their sake");
+  if (!joined) return std::move(recovery.mesh);
+  TetraResult result;
+  result.new_points.assign(recovery.mesh.points.begin() + static_cast<std::ptrdiff_t>(points.size()), recovery.mesh.points.end());
+  result.tetrahedra = std::move(recovery.mesh.nodes);
+  part_sheets(boundary, *joined, result);
+  return tets::connect(all_points(boundary, result), result.tetrahedra, context);
+}
+
+/// By another engine: the first that has an answer; else the first failure that explains something.
+EngineOutcome recover_elsewhere(const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/recovery");
   const EngineInput recovery{.boundary = input.boundary, .parts = input.parts, .joined = input.joined, .is_recovery_only = true};
   EngineOutcome first = run_engine(EngineKind::hxt, recovery, options, context);
@@ -42,35 +82,84 @@ std::string told(const tets::RefineReport& report, std::size_t n_tets, double re
   return text;
 }
 
-/// The mesh of the boundary with points in the volume.
-void refine_result(const EngineInput& input, TetraResult& result, const RunContext& context) {
+/// A context that is stopped after some time, too; without limit the caller's own.
+class Deadline {
+ public:
+  Deadline(double seconds, const RunContext& context) : outer_(context), context_(context) {
+    if (is_automatic(seconds)) return;
+    context_ = context.beside(context.threads(), source_.get_token());
+    clock_ = std::jthread([this, seconds](const std::stop_token& stop) {
+      std::mutex mutex;
+      std::unique_lock lock(mutex);
+      std::condition_variable_any end;
+      if (!end.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; }) && !stop.stop_requested()) source_.request_stop();
+    });
+  }
+  const RunContext& context() const { return context_; }
+  /// Whether a stop was its doing, not the user's.
+  bool is_over() const { return source_.stop_requested() && !outer_.stop_token().stop_requested(); }
+
+ private:
+  RunContext outer_, context_;
+  std::stop_source source_;
+  std::jthread clock_;  ///< last: ends before what it uses
+};
+
+EngineOutcome over_limit(std::string problem, const char* option) {
+  return failed(FailureKind::limit, {.code = ErrorCode::tetra_engine_failed,
+                                     .attempted = "filling the volume with tetrahedra (our own engine)",
+                                     .problem = std::move(problem),
+                                     .hint = std::string("raise tetrahedra.") + option + ", or coarsen the surface"});
+}
+
+std::string rounded(double value, const char* unit) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);
+  return text.data();
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+
+/// The mesh of the boundary with points in the volume. False: it would need more than `most_bytes`.
+bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes, TetraResult& result, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/refinement");
   const auto start = std::chrono::steady_clock::now();
   const std::size_t n_boundary = input.boundary.points.size();
-  std::vector<Vec3> points(input.boundary.points.begin(), input.boundary.points.end());
-  points.insert(points.end(), result.new_points.begin(), result.new_points.end());
-  tets::TetMesh mesh = tets::connect(std::move(points), result.tetrahedra, context);
-  result.tetrahedra = {};
   const SizeField& field = input.sizes->get();
-  const tets::RefineReport report = tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const tets::RefineReport report = tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes);
+  if (report.is_over_limit) return false;
+  const double seconds = seconds_since(start);
   context.info(told(report, mesh.nodes.size(), result.engine_seconds, seconds));
   result.new_points.assign(mesh.points.begin() + static_cast<std::ptrdiff_t>(n_boundary), mesh.points.end());
   result.tetrahedra = std::move(mesh.nodes);
   result.engine = to_string(EngineKind::sterna);
   result.engine_seconds += seconds;
   result.engine_peak_bytes = std::max(result.engine_peak_bytes, report.bytes);
+  return true;
 }
 
 }  // namespace
 
 EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   if (!input.sizes) return no_sizes();
-  EngineOutcome outcome = recover_boundary(input, options, context);
-  if (!outcome.result) return outcome;
-  TetraResult& result = *outcome.result;
+  EngineOutcome outcome;
+  std::vector<std::string> failures;
+  const Deadline deadline(options.time_limit, context);
   try {
-    refine_result(input, result, context);
+    const auto start = std::chrono::steady_clock::now();
+    std::optional<tets::TetMesh> mesh = recover_here(input, failures, deadline.context());
+    if (mesh) {
+      outcome.result.emplace().engine_seconds = seconds_since(start);
+    } else {
+      outcome = recover_elsewhere(input, options, deadline.context());
+      if (!outcome.result) return outcome;
+      mesh = tets::connect(all_points(input.boundary, *outcome.result), outcome.result->tetrahedra, context);
+      outcome.result->tetrahedra = {};
+    }
+    TetraResult& result = *outcome.result;
+    result.failures.insert(result.failures.begin(), failures.begin(), failures.end());
+    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, result, deadline.context()))
+      return over_limit("out of memory: the limit is " + rounded(options.memory_limit / 1e6, "MB"), "memory_limit");
     if (!is_automatic(options.max_new_points) && static_cast<double>(result.new_points.size()) > options.max_new_points)
       return failed(FailureKind::deterministic, {.code = ErrorCode::tetra_engine_failed,
                                                  .attempted = "filling the volume with tetrahedra (our own engine)",
@@ -80,6 +169,8 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
     const StageTimer timer(context, "tetrahedra/verify");
     verify_tetrahedra(input.boundary, result, context);
   } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled && deadline.is_over())
+      return over_limit("stopped after the time limit of " + rounded(options.time_limit, "s"), "time_limit");
     if (error.code() == ErrorCode::tetra_result_invalid) return failed(FailureKind::deterministic, error.info());
     throw;
   }

@@ -85,18 +85,17 @@ class TetraLadder {
 };
 
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h). Engines: "tetgen",
-/// TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "sterna", our refinement of the boundary as HXT recovers it, or TetGen where HXT fails
-/// (own_engine.h), then the others; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md). All keep the boundary and make edges of about
-/// the length that the size field asks for; without one (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary. Coordinates are
-/// scaled by a power of two first, so a mesh in other units is the same mesh. Before any engine runs, the boundary is checked, exactly where it must be
-/// (preflight.h); what engines find hard is logged. Of a clear boundary that is looked for while the first engine runs. Ladder: when the engine fails in a way
-/// that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried, then TetGen with leave to split triangles of the
-/// boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary that may be split). With "always" TetGen comes first and splits them where
-/// tetrahedra become better by it, too. A time or memory limit of the user ends the call unless `fall_back_on_limits`; after the engine's own limit of
-/// processor time, which is in proportion to boundary and sizes, the other engine is tried, but no splits. Every step is logged as a warning and kept in the
-/// result. Sheets are one layer of facets for the engines (sheets.h); what comes back is parted. No engine may split triangles then. With `two_pass` TetGen
-/// comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones. A stop of
-/// the context or the time limit kills the helper at once; it never outlives the call.
+/// TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "sterna", our own (own_engine.h), then the others; "automatic" is hxt, or tetgen where hxt is not
+/// built in (docs/tetrahedra.md). All keep the boundary and make edges of about the length that the size field asks for; without one (nullptr) TetGen's sizes
+/// follow from the radius-edge ratio, HXT's from the boundary. Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
+/// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is
+/// looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points),
+/// the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary
+/// that may be split). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory limit of the user ends the
+/// call unless `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes, the other engine is tried,
+/// but no splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines (sheets.h); what comes back is
+/// parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed
+/// sizes at its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface,
 /// non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory
 /// limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.

@@ -1,4 +1,4 @@
-// engine = "sterna": another engine's recovery, our refinement, and what follows when either fails.
+// engine = "sterna": recovery and refinement of our own, and what follows when one fails.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -89,21 +89,45 @@ TEST_F(OwnEngine, FillsAroundRealSurfaces) {
   }
 }
 
-TEST_F(OwnEngine, TetgenRecoversWhereHxtCannot) {
+TEST_F(OwnEngine, NeedsNoHelper) {
   const Domain domain = domain_around(test::sphere(5), 10.0);
-  const TetraResult result = fill(domain, {.helper_folder = folder_where_crashes({"sterna-tet-hxt"})});
+  const TetraResult result = fill(domain, {.helper_folder = folder_where_crashes({"sterna-tet-hxt", "sterna-tet-tetgen"})});
   expect_tiling(domain, result);
   EXPECT_EQ(result.engine, "sterna");
-  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("signal 11")));
-  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("trying TetGen")));
+  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_THAT(warnings_, IsEmpty());
 }
 
-TEST_F(OwnEngine, NoRecoveryIsAnError) {
-  const Domain domain = domain_around(test::sphere(5), 10.0);
-  const std::string helpers = folder_where_crashes({"sterna-tet-hxt", "sterna-tet-tetgen"});
-  const ErrorInfo error = error_info_of([&] { fill(domain, {.helper_folder = helpers}); });
+TEST_F(OwnEngine, NoRecoveryIsAnErrorOfAllWhoTried) {
+  // Said to be clear, but two balls cross: nobody can recover that.
+  Domain crossing;
+  crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));
+  crossing.add(inside_out(transformed(test::cube(2), 10.0, {-5, -5, -5})));
+  TetraBoundary boundary = crossing.boundary();
+  boundary.is_clear = true;
+  const RunContext context({.log = [this](LogLevel level, std::string_view text) {
+    if (level == LogLevel::warning) warnings_.emplace_back(text);
+  }});
+  const SizeField sizes = build_size_field(boundary, {}, {}, context);
+  const ErrorInfo error = error_info_of([&] {
+    volmesh::fill(boundary, &sizes,
+                  {.engine = "sterna", .try_other_engine = false, .helper_folder = folder_where_crashes({"sterna-tet-hxt", "sterna-tet-tetgen"})}, context);
+  });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("signal 11"));
+  EXPECT_THAT(warnings_, testing::Contains(HasSubstr("could not be made a part of the mesh, the first at")));
+}
+
+TEST_F(OwnEngine, EndsAtItsLimits) {
+  const Domain domain = domain_around(test::sphere(6), 10.0);
+  const std::vector<SizeSource> sources = {{.kind = SourceKind::sphere, .from = {6, 0, 0}, .radius = 4.0, .size = 0.05}};
+  const ErrorInfo late = error_info_of([&] { fill(domain, {.time_limit = 0.2, .try_other_engine = false}, sources); });
+  EXPECT_EQ(late.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(late.problem, HasSubstr("time limit of 0.2 s"));
+  EXPECT_THAT(late.hint, HasSubstr("tetrahedra.time_limit"));
+  const ErrorInfo large = error_info_of([&] { fill(domain, {.memory_limit = 1e7, .try_other_engine = false}, sources); });
+  EXPECT_THAT(large.problem, HasSubstr("out of memory: the limit is 10 MB"));
+  EXPECT_THAT(large.hint, HasSubstr("memory_limit"));
 }
 
 TEST_F(OwnEngine, OtherEnginesFollowWhereItMakesTooManyPoints) {

@@ -1,0 +1,43 @@
+// Triangles that a mesh of tetrahedra is to have, and their edges, to be looked up by their corners.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geom/base/run_context.h"
+
+namespace sterna::tets {
+
+using Facet = std::array<std::uint32_t, 3>;
+using Edge = std::array<std::uint32_t, 2>;
+
+/// Edges in ascending order of their lower corner, then of the other; facets by their number.
+class FacetIndex {
+ public:
+  static constexpr std::uint32_t k_missing = 0xffffffffu;
+
+  /// \pre corners below n_points, three different ones
+  FacetIndex(std::span<const Facet> facets, std::size_t n_points, const RunContext& context);
+
+  std::span<const Facet> facets() const { return facets_; }
+  std::size_t n_edges() const { return high_.size(); }
+  Edge edge(std::size_t i) const { return {low_[i], high_[i]}; }
+  /// Number of the edge between two points, any points; or k_missing.
+  std::uint32_t find_edge(std::uint32_t a, std::uint32_t b) const;
+  /// Number of the facet with these corners in any order, any points; or k_missing.
+  std::uint32_t find_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+ private:
+  struct AtPoint {
+    std::uint32_t middle, high, facet;
+  };
+  std::span<const Facet> facets_;
+  std::vector<std::uint32_t> first_edge_, low_, high_;  ///< edges at their lower corner
+  std::vector<std::uint32_t> first_facet_;
+  std::vector<AtPoint> at_point_;  ///< facets at their lowest corner
+};
+
+}  // namespace sterna::tets

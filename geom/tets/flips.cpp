@@ -1,0 +1,382 @@
+// Why positive tetrahedra with the same hull fill the same place: their signed volumes cover each point of it as often as the old ones did, once, and none
+// counts backwards.
+
+#include "geom/tets/flips.h"
+
+#include <algorithm>
+#include <array>
+
+#include "geom/tets/insert.h"
+#include "geom/tets/signs.h"
+
+namespace sterna::tets {
+namespace {
+
+/// Of a larger ring nothing is asked: the effort grows with the cube.
+constexpr std::size_t k_largest_ring = 60;
+/// Of an edge that is only in the way of another one.
+constexpr std::size_t k_largest_other_ring = 24;
+/// What all diagonals of a ring together may cost for their lengths: less than the least of other costs.
+constexpr double k_length_cost = 0.5;
+/// Edges that are tried for the sake of one.
+constexpr int k_most_effort = 400;
+/// Tetrahedra that a new point takes the place of.
+constexpr std::size_t k_most_cavity = 200;
+constexpr int k_most_walk = 2000;  ///< on the way to a new point
+
+std::size_t corner_of(const Corners& v, std::uint32_t node) { return static_cast<std::size_t>(std::ranges::find(v, node) - v.begin()); }
+bool has(const Corners& v, std::uint32_t node) { return v[0] == node || v[1] == node || v[2] == node || v[3] == node; }
+
+}  // namespace
+
+Flips::Flips(TetMesh& mesh, const FacetIndex& wanted) : mesh_(mesh), wanted_(wanted) {
+  tet_at_.assign(mesh.points.size(), k_none);
+  for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
+    if (!mesh.is_alive(t)) continue;
+    for (const std::uint32_t v : mesh.nodes[t]) tet_at_[v] = t;
+  }
+}
+
+bool Flips::is_positive(const Corners& v) const { return orientation(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]) > 0; }
+
+void Flips::star(std::uint32_t v, std::vector<std::uint32_t>& tets) {
+  seen_.resize(mesh_.nodes.size(), 0);
+  ++stamp_;
+  tets.assign(1, tet_at_[v]);
+  seen_[tet_at_[v]] = stamp_;
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    const std::uint32_t t = tets[i];
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      if (mesh_.nodes[t][corner] == v) continue;
+      const std::uint32_t n = mesh_.neighbours[t][corner];
+      if (n == k_none || seen_[n / 4] == stamp_) continue;
+      seen_[n / 4] = stamp_;
+      tets.push_back(n / 4);
+    }
+  }
+}
+
+std::uint32_t Flips::tet_with_edge(std::uint32_t p, std::uint32_t q) {
+  star(p, star_);
+  for (const std::uint32_t t : star_)
+    if (has(mesh_.nodes[t], q)) return t;
+  return k_none;
+}
+
+bool Flips::find_ring(std::uint32_t p, std::uint32_t q, Ring& ring) {
+  const std::uint32_t first = tet_with_edge(p, q);
+  if (first == k_none) return false;
+  // Of the two other corners the one that makes p, q, r, s positive.
+  const Corners& v = mesh_.nodes[first];
+  const std::size_t ip = corner_of(v, p), iq = corner_of(v, q);
+  std::size_t ir = 0;
+  while (ir == ip || ir == iq) ++ir;
+  std::size_t is = 6 - ip - iq - ir;
+  const auto is_odd = [](std::array<std::size_t, 4> order) {
+    bool odd = false;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < i; ++j) odd ^= order[j] > order[i];
+    return odd;
+  };
+  if (is_odd({ip, iq, ir, is})) std::swap(ir, is);
+  ring.tets.clear();
+  ring.vertices.clear();
+  std::uint32_t t = first, r = v[ir], s = v[is];
+  for (;;) {
+    ring.tets.push_back(t);
+    ring.vertices.push_back(r);
+    const std::uint32_t n = mesh_.neighbours[t][corner_of(mesh_.nodes[t], r)];
+    if (n == k_none) return false;
+    t = n / 4;
+    if (t == first) return true;
+    r = s;
+    s = mesh_.nodes[t][n % 4];
+  }
+}
+
+bool Flips::has_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  star(a, star_);
+  return std::ranges::any_of(star_, [&](std::uint32_t t) { return has(mesh_.nodes[t], b) && has(mesh_.nodes[t], c); });
+}
+
+void Flips::save(std::uint32_t t) { journal_.push_back({t, mesh_.nodes[t], mesh_.neighbours[t], static_cast<std::uint32_t>(mesh_.nodes.size())}); }
+
+void Flips::undo(std::size_t state) {
+  const std::size_t end = journal_.size();
+  std::size_t n_tets = mesh_.nodes.size();
+  for (std::size_t i = end; i-- > state;) {
+    const Entry& entry = journal_[i];
+    mesh_.nodes[entry.tet] = entry.nodes;
+    mesh_.neighbours[entry.tet] = entry.neighbours;
+    n_tets = entry.n_tets;
+  }
+  mesh_.nodes.resize(n_tets);
+  mesh_.neighbours.resize(n_tets);
+  seen_.resize(std::min(seen_.size(), n_tets));
+  for (std::size_t i = state; i < end; ++i) {
+    const std::uint32_t t = journal_[i].tet;
+    if (t >= n_tets || !mesh_.is_alive(t)) continue;
+    for (const std::uint32_t v : mesh_.nodes[t]) tet_at_[v] = t;
+  }
+  journal_.resize(state);
+}
+
+/// \pre the new ones are positive. False, and nothing is changed, where they have another hull.
+bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners> made) {
+  sides_.clear();
+  const auto sorted = [](const Corners& v, std::size_t corner) {
+    Facet f = {v[k_face[corner][0]], v[k_face[corner][1]], v[k_face[corner][2]]};
+    std::ranges::sort(f);
+    return f;
+  };
+  for (const std::uint32_t t : gone) {
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const std::uint32_t n = mesh_.neighbours[t][corner];
+      if (n != k_none && std::ranges::find(gone, n / 4) != gone.end()) continue;
+      sides_.push_back({sorted(mesh_.nodes[t], corner), n, true});
+    }
+  }
+  // Pairs of faces; numbers of the new tetrahedra are those in the list at first.
+  std::vector<std::array<std::uint32_t, 4>> links(made.size(), {k_none, k_none, k_none, k_none});
+  std::vector<std::array<bool, 4>> is_outer(made.size(), std::array<bool, 4>{});
+  for (std::uint32_t i = 0; i < made.size(); ++i) {
+    for (std::uint32_t corner = 0; corner < 4; ++corner) {
+      const Facet f = sorted(made[i], corner);
+      const auto other = std::ranges::find(sides_, f, &Side::corners);
+      if (other == sides_.end()) {
+        sides_.push_back({f, 4 * i + corner, false});
+        continue;
+      }
+      links[i][corner] = other->face;
+      is_outer[i][corner] = other->is_outer;
+      if (!other->is_outer) links[other->face / 4][other->face % 4] = 4 * i + corner;
+      *other = sides_.back();
+      sides_.pop_back();
+    }
+  }
+  if (!sides_.empty()) return false;
+
+  std::vector<std::uint32_t> places(gone.begin(), gone.end());
+  for (const std::uint32_t t : gone) save(t);
+  while (places.size() < made.size()) {
+    const auto t = static_cast<std::uint32_t>(mesh_.nodes.size());
+    // Saved before it is there, so that the way back is without it.
+    journal_.push_back({t, {k_none, k_none, k_none, k_none}, {k_none, k_none, k_none, k_none}, t});
+    mesh_.nodes.push_back({k_none, k_none, k_none, k_none});
+    mesh_.neighbours.push_back({k_none, k_none, k_none, k_none});
+    places.push_back(t);
+  }
+  for (const std::uint32_t t : gone) mesh_.nodes[t] = {k_none, k_none, k_none, k_none};
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const std::uint32_t t = places[i];
+    mesh_.nodes[t] = made[i];
+    for (std::uint32_t corner = 0; corner < 4; ++corner) {
+      std::uint32_t& n = mesh_.neighbours[t][corner];
+      if (is_outer[i][corner]) {
+        n = links[i][corner];
+        if (n == k_none) continue;
+        save(n / 4);
+        mesh_.neighbours[n / 4][n % 4] = 4 * t + corner;
+      } else {
+        n = 4 * places[links[i][corner] / 4] + links[i][corner] % 4;
+      }
+    }
+    for (const std::uint32_t v : made[i]) tet_at_[v] = t;
+  }
+  return true;
+}
+
+bool Flips::flip_face(std::uint32_t face) {
+  const std::uint32_t t = face / 4, n = mesh_.neighbours[t][face % 4];
+  if (n == k_none) return false;
+  const auto& f = k_face[face % 4];
+  const std::uint32_t a = mesh_.nodes[t][f[0]], b = mesh_.nodes[t][f[1]], c = mesh_.nodes[t][f[2]];
+  const std::uint32_t top = mesh_.nodes[t][face % 4], bottom = mesh_.nodes[n / 4][n % 4];
+  if (wanted_.find_facet(a, b, c) != FacetIndex::k_missing) return false;
+  const std::array<Corners, 3> made = {{{a, b, bottom, top}, {b, c, bottom, top}, {c, a, bottom, top}}};
+  if (!std::ranges::all_of(made, [&](const Corners& v) { return is_positive(v); })) return false;
+  return replace(std::array{t, n / 4}, made);
+}
+
+/// Triangulations of the ring's polygon, each triangle a tetrahedron with p and one with q: the least cost between any two corners from those of shorter
+/// pieces (Klincsek 1980; Shewchuk 2002 for rings).
+bool Flips::fill_ring(std::uint32_t p, std::uint32_t q, const Ring& ring, const FlipCosts& costs) {
+  const std::size_t n = ring.vertices.size();
+  if (n < 3) return false;
+  constexpr double k_impossible = 1e9;
+  std::array<std::array<double, k_largest_ring>, k_largest_ring> least;
+  std::array<std::array<std::uint8_t, k_largest_ring>, k_largest_ring> middle;
+  const auto r = [&](std::size_t i) { return ring.vertices[i]; };
+  const auto length2 = [&](std::size_t i, std::size_t j) { return norm2(mesh_.points[r(i)] - mesh_.points[r(j)]); };
+  double longest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) longest = std::max(longest, length2(i, (i + n / 2) % n));
+  const double length_cost = longest > 0.0 ? 0.25 * k_length_cost / (static_cast<double>(n) * longest) : 0.0;  // no two are more than twice as far apart
+  for (std::size_t length = 1; length < n; ++length) {
+    for (std::size_t i = 0; i + length < n; ++i) {
+      const std::size_t j = i + length;
+      if (length == 1) {
+        least[i][j] = 0;
+        continue;
+      }
+      least[i][j] = k_impossible;
+      for (std::size_t m = i + 1; m < j; ++m) {
+        const double parts = least[i][m] + least[m][j];
+        if (parts >= least[i][j]) continue;
+        if (!is_positive({r(i), r(m), r(j), q}) || !is_positive({r(i), r(j), r(m), p})) continue;
+        const double cost = parts + (costs.face ? costs.face(r(i), r(m), r(j)) : 0);
+        if (cost >= least[i][j]) continue;
+        least[i][j] = cost;
+        middle[i][j] = static_cast<std::uint8_t>(m);
+      }
+      if (length + 1 == n || least[i][j] >= k_impossible) continue;
+      least[i][j] += std::min(length_cost * length2(i, j), k_length_cost / static_cast<double>(n));
+      if (costs.edge) least[i][j] += costs.edge(r(i), r(j));
+      if (costs.face) least[i][j] += costs.face(r(i), r(j), p) + costs.face(r(i), r(j), q);
+    }
+  }
+  if (least[0][n - 1] >= k_impossible) return false;
+  std::vector<Corners> made;
+  std::vector<std::array<std::size_t, 2>> pieces = {{0, n - 1}};
+  while (!pieces.empty()) {
+    const auto [i, j] = pieces.back();
+    pieces.pop_back();
+    if (j - i < 2) continue;
+    const std::size_t m = middle[i][j];
+    made.push_back({r(i), r(m), r(j), q});
+    made.push_back({r(i), r(j), r(m), p});
+    pieces.push_back({i, m});
+    pieces.push_back({m, j});
+  }
+  return replace(ring.tets, made);
+}
+
+bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipCosts& costs) {
+  if (wanted_.find_edge(p, q) != FacetIndex::k_missing) return false;
+  const bool is_first = effort_ == 0;
+  if (is_first) effort_ = k_most_effort;
+  const std::size_t before = state();
+  bool is_gone = false;
+  Ring ring;
+  for (bool has_changed = true; has_changed && !is_gone;) {
+    has_changed = false;
+    if (!find_ring(p, q, ring)) break;
+    const std::size_t n_most = is_first ? k_largest_ring : k_largest_other_ring;
+    if (ring.vertices.size() > n_most) break;
+    if (fill_ring(p, q, ring, costs)) {
+      is_gone = true;
+      break;
+    }
+    const std::size_t n = ring.vertices.size();
+    if (depth == 0) break;
+    for (std::size_t i = 0; i < n && !has_changed; ++i) {
+      const std::uint32_t last = ring.vertices[(i + n - 1) % n], at = ring.vertices[i], next = ring.vertices[(i + 1) % n];
+      for (const bool is_top : {true, false}) {
+        // An ear that can be cut on this side is not in the way here.
+        if (is_top ? is_positive({last, at, next, q}) : is_positive({last, next, at, p})) continue;
+        if (--effort_ <= 0) break;
+        const std::size_t step = state();
+        if (!remove_edge(is_top ? q : p, at, depth - 1, costs)) continue;
+        Ring smaller;
+        if (find_ring(p, q, smaller) && smaller.vertices.size() < n) {
+          has_changed = true;
+          break;
+        }
+        undo(step);
+      }
+      if (effort_ <= 0) break;
+    }
+    // An ear that can be cut may open others.
+    for (std::size_t i = 0; i < n && !has_changed && effort_ > 0; ++i) {
+      const std::uint32_t t = ring.tets[i], next = ring.vertices[(i + 1) % n];
+      has_changed = flip_face(4 * t + static_cast<std::uint32_t>(corner_of(mesh_.nodes[t], next)));
+    }
+  }
+  if (!is_gone) undo(before);
+  if (is_first) effort_ = 0;
+  return is_gone;
+}
+
+/// Whether an edge of the cavity's tetrahedra that is wanted has lost its place on the cavity's hull: then one of those tetrahedra, not the first.
+std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity, std::span<const Facet> hull) const {
+  for (const std::uint32_t t : cavity) {
+    const Corners& v = mesh_.nodes[t];
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (wanted_.find_edge(v[i], v[j]) == FacetIndex::k_missing) continue;
+        const auto is_on = [&](const Facet& f) { return std::ranges::find(f, v[i]) != f.end() && std::ranges::find(f, v[j]) != f.end(); };
+        if (std::ranges::any_of(hull, is_on)) continue;
+        for (const std::uint32_t other : cavity.subspan(1))
+          if (has(mesh_.nodes[other], v[i]) && has(mesh_.nodes[other], v[j])) return other;
+      }
+    }
+  }
+  return k_none;
+}
+
+bool Flips::add_point(const Vec3& position, std::uint32_t start) {
+  // To the tetrahedron that holds the place.
+  std::uint32_t base = start;
+  for (int step = 0;; ++step) {
+    if (step == k_most_walk) return false;
+    const Corners& v = mesh_.nodes[base];
+    std::uint32_t next = base;
+    for (std::size_t i = 0; i < 4 && next == base; ++i) {
+      const std::size_t corner = (i + static_cast<std::size_t>(step)) % 4;
+      const auto& f = k_face[corner];
+      if (orientation(mesh_.points[v[f[0]]], mesh_.points[v[f[1]]], mesh_.points[v[f[2]]], position) >= 0) continue;
+      if (mesh_.neighbours[base][corner] == k_none) return false;
+      next = mesh_.neighbours[base][corner] / 4;
+    }
+    if (next == base) break;
+    base = next;
+  }
+  const auto point = static_cast<std::uint32_t>(mesh_.points.size());
+  mesh_.points.push_back(position);
+  tet_at_.push_back(k_none);
+
+  // The tetrahedra whose spheres hold it, but not behind wanted facets; fewer, until all faces see it and no wanted edge is lost.
+  std::vector<std::uint32_t> cavity = {base};
+  std::vector<std::uint32_t> barred;
+  const auto is_in = [](const std::vector<std::uint32_t>& list, std::uint32_t t) { return std::ranges::find(list, t) != list.end(); };
+  std::vector<Facet> hull;
+  for (;;) {
+    cavity.assign(1, base);
+    for (std::size_t i = 0; i < cavity.size() && cavity.size() < k_most_cavity; ++i) {
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        const std::uint32_t n = mesh_.neighbours[cavity[i]][corner];
+        if (n == k_none || is_in(cavity, n / 4) || is_in(barred, n / 4)) continue;
+        const Corners& v = mesh_.nodes[cavity[i]];
+        const auto& f = k_face[corner];
+        if (wanted_.find_facet(v[f[0]], v[f[1]], v[f[2]]) != FacetIndex::k_missing) continue;
+        if (perturbed_sphere_side(mesh_, mesh_.nodes[n / 4], point) > 0) cavity.push_back(n / 4);
+      }
+    }
+    hull.clear();
+    std::uint32_t bad = k_none;
+    for (const std::uint32_t t : cavity) {
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        const std::uint32_t n = mesh_.neighbours[t][corner];
+        if (n != k_none && is_in(cavity, n / 4)) continue;
+        const Corners& v = mesh_.nodes[t];
+        const Facet f = {v[k_face[corner][0]], v[k_face[corner][1]], v[k_face[corner][2]]};
+        hull.push_back(f);
+        if (orientation(mesh_.points[f[0]], mesh_.points[f[1]], mesh_.points[f[2]], position) <= 0) bad = t;
+      }
+    }
+    if (bad == k_none) bad = tet_around_lost_edge(cavity, hull);
+    if (bad == k_none) break;
+    if (bad == base) {
+      hull.clear();
+      break;
+    }
+    barred.push_back(bad);
+  }
+  std::vector<Corners> made;
+  for (const Facet& f : hull) made.push_back({f[0], f[1], f[2], point});
+  if (!made.empty() && replace(cavity, made)) return true;
+  mesh_.points.pop_back();
+  tet_at_.pop_back();
+  return false;
+}
+
+}  // namespace sterna::tets

@@ -1,0 +1,274 @@
+// Recovery of boundaries, on bodies of which no two triangles cross: bit for bit, no hole, no tetrahedron outside.
+#include "geom/tets/recover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "tests/geom/tets/grids.h"
+
+namespace sterna::tets {
+namespace {
+
+/// A closed surface; normals into the body, so that its inside is the domain.
+struct Shell {
+  std::vector<Vec3> points;
+  std::vector<Facet> facets;
+
+  /// Another one beside or around it.
+  void add(const Shell& other) {
+    const auto first = static_cast<std::uint32_t>(points.size());
+    points.insert(points.end(), other.points.begin(), other.points.end());
+    for (const Facet& f : other.facets) facets.push_back({f[0] + first, f[1] + first, f[2] + first});
+  }
+  Shell inside_out() const {
+    Shell turned = *this;
+    for (Facet& f : turned.facets) std::swap(f[1], f[2]);
+    return turned;
+  }
+  Shell moved(const Vec3& by, double factor = 1.0) const {
+    Shell other = *this;
+    for (Vec3& p : other.points) p = factor * p + by;
+    return other;
+  }
+};
+
+/// n parallels and 2 n meridians on the unit sphere; a radius for each point makes any star.
+Shell star(std::uint32_t n, const std::function<double(const Vec3&)>& radius) {
+  Shell shell;
+  const std::uint32_t around = 2 * n;
+  const auto add = [&](const Vec3& p) { shell.points.push_back(radius(p) * p); };
+  add({0, 0, 1});
+  for (std::uint32_t i = 1; i < n; ++i) {
+    const double polar = std::numbers::pi * i / n;
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const double azimuth = 2.0 * std::numbers::pi * j / around;
+      add({std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)});
+    }
+  }
+  add({0, 0, -1});
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + (i - 1) * around + j % around; };
+  const auto last = static_cast<std::uint32_t>(shell.points.size() - 1);
+  for (std::uint32_t j = 0; j < around; ++j) {
+    shell.facets.push_back({0, at(1, j + 1), at(1, j)});
+    shell.facets.push_back({last, at(n - 1, j), at(n - 1, j + 1)});
+    for (std::uint32_t i = 1; i + 1 < n; ++i) {
+      const bool is_turned = (i * 7 + j * 13) % 3 == 0;  // diagonals either way, so that those of the Delaunay mesh are not always the wanted ones
+      if (is_turned) {
+        shell.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+        shell.facets.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+      } else {
+        shell.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+        shell.facets.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+      }
+    }
+  }
+  return shell;
+}
+
+Shell ball(std::uint32_t n) {
+  return star(n, [](const Vec3&) { return 1.0; });
+}
+
+std::set<std::array<std::array<double, 3>, 3>> places_of(const Shell& shell) {
+  std::set<std::array<std::array<double, 3>, 3>> faces;
+  for (const Facet& f : shell.facets) {
+    std::array<std::array<double, 3>, 3> face;
+    for (std::size_t k = 0; k < 3; ++k) face[k] = {shell.points[f[k]].x, shell.points[f[k]].y, shell.points[f[k]].z};
+    std::ranges::rotate(face, std::ranges::min_element(face));
+    faces.insert(face);
+  }
+  return faces;
+}
+
+/// By the divergence theorem.
+double volume_of(const Shell& shell) {
+  double sum = 0.0;
+  for (const Facet& f : shell.facets) sum -= dot(shell.points[f[0]], cross(shell.points[f[1]], shell.points[f[2]])) / 6.0;
+  return sum;
+}
+
+Recovery recovered(const Shell& shell, int threads = 1) { return recover(shell.points, shell.facets, {}, RunContext({.threads = threads})); }
+
+/// The mesh fills what the shell bounds, and nothing else; the shell's points are as they were.
+void expect_filled(const Shell& shell, const Recovery& recovery, const std::string& what) {
+  SCOPED_TRACE(what);
+  ASSERT_EQ(recovery.failure.problem, "");
+  const TetMesh& mesh = recovery.mesh;
+  EXPECT_TRUE(test::is_sound(mesh));
+  EXPECT_EQ(test::boundary_of(mesh), places_of(shell));
+  EXPECT_NEAR(test::volume_of(mesh) / volume_of(shell), 1.0, 1e-11);
+  ASSERT_GE(mesh.points.size(), shell.points.size());
+  for (std::size_t i = 0; i < shell.points.size(); ++i) EXPECT_EQ(mesh.points[i], shell.points[i]);
+  EXPECT_EQ(mesh.points.size(), shell.points.size() + static_cast<std::size_t>(recovery.report.n_points));
+}
+
+TEST(TetRecover, FacesOfAGridWhoseDiagonalsTurnEitherWay) {
+  // Every square of the cube's six sides has four points on one circle, every cell eight on one sphere.
+  const test::TetSoup soup = test::cube_of_tets(4);
+  const TetMesh grid = connect(soup.points, soup.tetrahedra, RunContext{});
+  Shell shell;
+  std::mt19937 generator(5);
+  std::map<std::uint32_t, std::uint32_t> number;
+  const auto number_of = [&](std::uint32_t v) {
+    const auto [it, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(shell.points.size()));
+    if (is_new) shell.points.push_back(grid.points[v]);
+    return it->second;
+  };
+  std::map<std::array<double, 3>, std::vector<Facet>> squares;  // by the middle of the diagonal
+  for (std::uint32_t t = 0; t < grid.nodes.size(); ++t) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (grid.neighbours[t][i] != k_none) continue;
+      Facet f;
+      for (std::size_t k = 0; k < 3; ++k) f[k] = number_of(grid.nodes[t][k_face[i][k]]);
+      std::size_t longest = 0;
+      const auto length = [&](std::size_t k) { return norm2(shell.points[f[k]] - shell.points[f[(k + 1) % 3]]); };
+      for (std::size_t k = 1; k < 3; ++k)
+        if (length(k) > length(longest)) longest = k;
+      std::ranges::rotate(f, f.begin() + static_cast<std::ptrdiff_t>(longest));
+      const Vec3 middle = 0.5 * (shell.points[f[0]] + shell.points[f[1]]);
+      squares[{middle.x, middle.y, middle.z}].push_back(f);
+    }
+  }
+  for (const auto& [middle, two] : squares) {
+    ASSERT_EQ(two.size(), 2u);
+    const std::uint32_t a = two[0][0], b = two[0][1], c = two[0][2], d = two[1][2];
+    if (generator() % 2 == 0) shell.facets.insert(shell.facets.end(), two.begin(), two.end());
+    else shell.facets.insert(shell.facets.end(), {{c, a, d}, {d, b, c}});
+  }
+  const Recovery recovery = recovered(shell);
+  EXPECT_GT(recovery.report.n_missing_edges, 0);
+  expect_filled(shell, recovery, "cube");
+}
+
+TEST(TetRecover, RoughStars) {
+  // Radii at random, so that a third of the edges are missing in the Delaunay mesh; seen from the middle no two triangles are in each other's way.
+  for (const double roughness : {0.02, 0.2, 0.6}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      std::mt19937 generator(seed);
+      std::uniform_real_distribution<double> at(1.0 - roughness, 1.0);
+      const Shell shell = star(8 + 2 * seed, [&](const Vec3&) { return at(generator); });
+      const std::string what = "roughness " + std::to_string(roughness) + ", seed " + std::to_string(seed);
+      expect_filled(shell, recovered(shell), what + ", inside");
+      Shell room = ball(6).moved({}, 5.0);
+      room.add(shell.inside_out());
+      expect_filled(room, recovered(room), what + ", outside");
+    }
+  }
+}
+
+TEST(TetRecover, ABodyThatNoTetrahedraFillWithoutAPoint) {
+  // A prism whose top is turned by 30 degrees, its sides folded inwards (Schoenhardt 1928).
+  Shell shell;
+  for (const double z : {0.0, 1.0})
+    for (int i = 0; i < 3; ++i) {
+      const double angle = 2.0 * std::numbers::pi / 3.0 * i - (z > 0.5 ? std::numbers::pi / 6.0 : 0.0);
+      shell.points.push_back({std::cos(angle), std::sin(angle), z});
+    }
+  shell.facets = {{0, 1, 2}, {3, 5, 4}};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::uint32_t j = (i + 1) % 3;
+    shell.facets.push_back({i, i + 3, j});
+    shell.facets.push_back({j, i + 3, j + 3});
+  }
+  ASSERT_GT(volume_of(shell), 0.0);
+  const Recovery recovery = recovered(shell);
+  EXPECT_GT(recovery.report.n_points, 0);
+  expect_filled(shell, recovery, "Schoenhardt's");
+}
+
+TEST(TetRecover, StripsNeedlesAndNearContacts) {
+  // Triangles 2000 times as long as wide, on a body of revolution.
+  expect_filled(star(4, [](const Vec3&) { return 1.0; }).moved({}, 1.0), recovered(star(4, [](const Vec3&) { return 1.0; })), "ball");
+  Shell strip;
+  for (std::uint32_t i = 0; i < 40; ++i)
+    for (const double side : {0.0, 1.0}) strip.points.push_back({i * 5e-4, side, 1e-3 * std::sin(0.1 * i)});
+  const auto n = static_cast<std::uint32_t>(strip.points.size());
+  for (std::uint32_t i = 0; i < n; ++i) strip.points.push_back(strip.points[i] + Vec3{0, 0, -0.1});
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    strip.facets.push_back({a, b, c});
+    strip.facets.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i + 2 < n; i += 2) {
+    quad(i, i + 1, i + 3, i + 2);
+    quad(n + i, n + i + 2, n + i + 3, n + i + 1);
+    quad(i, i + 2, n + i + 2, n + i);
+    quad(i + 1, n + i + 1, n + i + 3, i + 3);
+  }
+  quad(0, n, n + 1, 1);
+  quad(n - 2, n - 1, 2 * n - 1, 2 * n - 2);
+  if (volume_of(strip) < 0.0) strip = strip.inside_out();
+  expect_filled(strip, recovered(strip), "strip");
+
+  // Two balls, 1e-4 of an edge apart, of which points stand opposite to edges.
+  Shell room = ball(5).moved({}, 20.0);
+  room.add(ball(12).inside_out());
+  room.add(ball(13).inside_out().moved({0, 0, 2.0 + 2.5e-5}));
+  expect_filled(room, recovered(room), "near contact");
+}
+
+TEST(TetRecover, ManyBodiesAndOneInAnothersHole) {
+  Shell room = ball(6).moved({}, 30.0);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      for (int k = 0; k < 6; ++k) room.add(ball(3).inside_out().moved({3.0 * i - 7.5, 3.0 * j - 7.5, 3.0 * k - 7.5}));
+  expect_filled(room, recovered(room), "216 bodies");
+
+  // Two domains: one around a hollow ball, the other one in its hole around a small one.
+  Shell nested = ball(8).moved({}, 4.0);
+  nested.add(ball(8).inside_out().moved({}, 2.0));
+  nested.add(ball(7));
+  nested.add(ball(5).inside_out().moved({0.1, 0.2, 0.1}, 0.3));
+  expect_filled(nested, recovered(nested), "nested");
+}
+
+TEST(TetRecover, SheetsHaveTheDomainOnBothSides) {
+  Shell room = ball(8).moved({}, 3.0);
+  const auto first = static_cast<std::uint32_t>(room.points.size());
+  std::vector<Facet> sheet;
+  room.points.push_back({0.1, 0.2, 0.3});
+  for (std::uint32_t j = 0; j < 12; ++j) room.points.push_back({0.1 + std::cos(std::numbers::pi * j / 6), 0.2 + std::sin(std::numbers::pi * j / 6), 0.3});
+  for (std::uint32_t j = 0; j < 12; ++j) sheet.push_back({first, first + 1 + j, first + 1 + (j + 1) % 12});
+  const Recovery recovery = recover(room.points, room.facets, sheet, RunContext{});
+  ASSERT_EQ(recovery.failure.problem, "");
+  EXPECT_TRUE(test::is_sound(recovery.mesh));
+  EXPECT_EQ(test::boundary_of(recovery.mesh), places_of(room));
+  for (const Facet& f : sheet) {
+    int n_tets = 0;
+    for (const Corners& v : recovery.mesh.nodes)
+      n_tets += std::ranges::all_of(f, [&](std::uint32_t corner) { return std::ranges::find(v, corner) != v.end(); });
+    EXPECT_EQ(n_tets, 2);
+  }
+}
+
+TEST(TetRecover, WhatCannotBeIsToldWithAPlace) {
+  // A point of one ball within a facet of the other one's side of the room: two balls that cross.
+  Shell room = ball(5).moved({}, 20.0);
+  room.add(ball(6).inside_out());
+  room.add(ball(6).inside_out().moved({0.9, 0.1, 0.2}));
+  const Recovery recovery = recovered(room);
+  EXPECT_TRUE(recovery.mesh.nodes.empty());
+  EXPECT_NE(recovery.failure.problem, "");
+  ASSERT_GT(recovery.failure.n_places, 0);
+  ASSERT_FALSE(recovery.failure.places.empty());
+  EXPECT_LT(norm(recovery.failure.places[0]), 3.0);
+}
+
+TEST(TetRecover, SameMeshForAnyThreads) {
+  std::mt19937 generator(9);
+  std::uniform_real_distribution<double> at(0.9, 1.0);
+  const Shell shell = star(60, [&](const Vec3&) { return at(generator); });
+  const Recovery one = recovered(shell, 1);
+  ASSERT_EQ(one.failure.problem, "");
+  for (const int threads : {2, 7}) {
+    const Recovery more = recovered(shell, threads);
+    EXPECT_EQ(more.mesh.nodes, one.mesh.nodes) << threads;
+    EXPECT_EQ(more.mesh.points, one.mesh.points) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace sterna::tets
