@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "geom/math/constants.h"
@@ -12,6 +13,7 @@
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/value_keys.h"
+#include "surfmesh/remesh/remesh_demand.h"
 #include "volmesh/case/needle_options.h"
 
 namespace sterna::scripting {
@@ -28,16 +30,14 @@ std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecip
   return KeyMaker("remeshed").add(key_of(wall.mesh)).add(sterna::options_of(options)).add(recipe.patches).add(recipe.sources).key();
 }
 
-}  // namespace
-
-SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context,
-                      const Reuse& reuse) {
+SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size,
+                         const surfmesh::RemeshDemand& demand, const RunContext& context, const Reuse& reuse) {
   SurfaceRecipe asked;
   asked.options.growth = recipe.options.growth;
   asked.sources = recipe.sources;
   const surfmesh::SpaceSizes sizes = space_sizes(asked, size);
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
-    return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, context);
+    return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, demand, context);
   });
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
@@ -52,6 +52,13 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
                                      count_text(result.report.n_triangles), std::max(result.report.to_input.max, result.report.from_input.max)));
   context.info(text);
   return made;
+}
+
+}  // namespace
+
+SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context,
+                      const Reuse& reuse) {
+  return remeshed_if(wall, recipe, size, {}, context, reuse);
 }
 
 bool is_remesh_advised(const SurfaceValue& wall) {
@@ -69,7 +76,10 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   const std::size_t most = std::clamp(k_many_times * n, k_few_triangles, std::max(k_many_triangles, n));
   bounded.options.max_triangles = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), most));
   try {
-    SurfaceValue made = remeshed(wall, bounded, {}, context, reuse);
+    // A cached result was made without a demand, perhaps: it is looked at again.
+    const surfmesh::RemeshDemand demand{.most_needles = static_cast<std::int64_t>(std::ceil(k_fewer_needles * static_cast<double>(before.n))) - 1,
+                                        .least_angle = before.least_angle};
+    SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
     if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle) return made;
     context.info(fmt::format("auto: remesh leaves {} needles of {}, the least angle {:.3g} deg for {:.3g} deg: the triangles stay as they are",

@@ -16,6 +16,7 @@
 #include "scripting/values/surface_items.h"
 #include "scripting/values/value_keys.h"
 #include "scripting/values/wrap_surfaces.h"
+#include "surfmesh/model/replaced_faces.h"
 #include "surfmesh/repair/folded_edges.h"
 
 namespace sterna::scripting {
@@ -28,6 +29,7 @@ constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
 constexpr double k_repair_end = 0.6;
 constexpr double k_remesh_begin = 0.7;
+constexpr std::size_t k_faces_told = 3;  ///< in the summary
 
 /// What a cache keeps of a repair.
 struct RepairedWall {
@@ -43,6 +45,23 @@ ContentKey repair_key(const SurfaceItems& items, surfmesh::RepairOptions options
     maker.add(soup.points).add(soup.triangles).add(soup.patch).add(soup.patch_names).add(soup.source).add(soup.has_names).add(soup.single_precision);
   surfmesh::StitchOptions stitching = items.wall.options;
   return maker.add(sterna::options_of(stitching)).add(sterna::options_of(options)).key();
+}
+
+/// Names the faces of a model whose triangles are not their own any more, with their distance from it.
+void tell_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, const RunContext& context) {
+  const surfmesh::ReplacedFaces replaced = surfmesh::find_replaced_faces(*made.model_wall, made.mesh, repaired.mesh, context);
+  if (replaced.faces.empty()) return;
+  const std::vector<std::string> lines = to_lines(replaced.faces, replaced.faces.size());
+  std::string text = fmt::format(
+      "{} of {} faces of the model have triangles that are not their own, the other {} of {} triangles are as the faces made them: ", replaced.faces.size(),
+      made.mesh_report->faces.size(), count_text(replaced.n_exact), count_text(static_cast<std::int64_t>(repaired.mesh.n_triangles())));
+  for (std::size_t i = 0; i < std::min(k_faces_told, lines.size()); ++i) text += (i == 0 ? "" : "; ") + lines[i];
+  if (lines.size() > k_faces_told) text += fmt::format("; and {} more (log, report)", lines.size() - k_faces_told);
+  repaired.changes.push_back(std::move(text));
+  for (const std::string& line : lines) {
+    repaired.report.messages.push_back(line);
+    context.info("repair: " + line);
+  }
 }
 
 bool are_models(std::span<const InputPath> files) {
@@ -136,17 +155,20 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   }
   context.info("auto: " + first.attempted + ": " + first.problem + "; repair is tried");
   std::vector<UnionItem> items(files.begin(), files.end());
+  SurfaceHandle of_model;  // as its faces are
   if (are_models(files)) {
     SurfaceRecipe recipe = options.recipe;
     recipe.options.crossings = "ignore";
     const RunContext part = context.part("triangles", k_as_it_is_end, k_triangles_end);
-    items = {std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse))};
+    of_model = std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse));
+    items = {of_model};
     stitching.unit = 1.0;
   }
   std::optional<SurfaceValue> folded;  // repaired, but what is left lies on itself
   try {
     SurfaceValue repaired = repair_surfaces(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end));
     if (open && repaired.changes.size() == open->changes.size()) return *open;
+    if (of_model) tell_replaced_faces(*of_model, repaired, context);
     const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.mesh);
     if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.mesh.n_triangles())) return repaired;
     context.info(

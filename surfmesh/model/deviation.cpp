@@ -81,6 +81,7 @@ class Probe {
 
   /// The nearest place of the model.
   ModelFoot nearest(const Point& p) const { return nearest(p, tree_.nearest(p)); }
+  TriangleId nearest_triangle(const Point& p) const { return tree_.nearest(p).triangle; }
 
   /// Nearest places of all faces around the point, each within its face's border.
   std::vector<ModelFoot> feet(const Point& p, const NearestHit& hit) const {
@@ -295,5 +296,16 @@ Deviation measure_deviation(const TriMesh& surface, const TriMesh& wall, const M
   find_nodes(walls);
   return measure(walls, wall, model, limits, context);
 }
+
+struct ModelDistance::Lookup {
+  Probe probe;
+};
+
+ModelDistance::ModelDistance(const TriMesh& wall, const ModelWall& model, const RunContext& context)
+    : lookup_(std::make_unique<const Lookup>(Lookup{Probe(wall, model, body_length(wall), context)})) {}
+ModelDistance::~ModelDistance() = default;
+
+double ModelDistance::operator()(const Point& p) const { return lookup_->probe.distance_of(p); }
+TriangleId ModelDistance::nearest_triangle(const Point& p) const { return lookup_->probe.nearest_triangle(p); }
 
 }  // namespace sterna::surfmesh

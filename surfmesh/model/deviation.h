@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,19 @@ struct Deviation {
 Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);
 /// The same of a surface, all of its patches that `wall` has; it may be `wall` itself.
 Deviation measure_deviation(const TriMesh& surface, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);
+
+/// Distances of single points from the model behind a wall: to the exact faces within their borders and to the exact edges. From many threads.
+class ModelDistance {
+ public:
+  /// All must outlive it.
+  /// \pre as measure_deviation
+  ModelDistance(const TriMesh& wall, const ModelWall& model, const RunContext& context);
+  ~ModelDistance();
+  double operator()(const Point& p) const;            ///< m
+  TriangleId nearest_triangle(const Point& p) const;  ///< of the wall
+ private:
+  struct Lookup;
+  std::unique_ptr<const Lookup> lookup_;
+};
 
 }  // namespace sterna::surfmesh

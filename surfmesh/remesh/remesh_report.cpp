@@ -7,6 +7,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/math/nearest.h"
 #include "geom/mesh/bvh.h"
 
 namespace sterna::surfmesh {
@@ -79,16 +80,14 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, const R
       context, n_points + from.n_triangles(), Part{},
       [&](std::size_t begin, std::size_t end) {
         Part part;
-        Point last{};
-        double limit = std::numeric_limits<double>::infinity();
+        TriangleId last;
         const auto add = [&](const Point& p) {
-          // No farther than the last one's nearest place.
-          const double reach = limit + distance(last, p);
-          NearestHit hit = tree.nearest(p, reach * (1.0 + 1e-9));
+          // No farther than the last one's nearest triangle.
+          NearestHit hit;
+          if (last.is_valid()) hit = tree.nearest(p, distance(p, nearest_on_triangle(p, corners(to, last))) * (1.0 + 1e-9));
           if (!hit.triangle.is_valid()) hit = tree.nearest(p);
           part.add(p, hit.distance);
-          last = p;
-          limit = hit.distance;
+          last = hit.triangle;
         };
         for (std::size_t i = begin; i < end; ++i) {
           if (i < n_points) {

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
+#include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
+#include "surfmesh/remesh/remesh_demand.h"
 #include "surfmesh/remesh/remesh_report.h"
 #include "surfmesh/remesh/remesh_sizes.h"
 #include "surfmesh/remesh/remesher.h"
@@ -39,6 +44,8 @@ constexpr double k_finer = 0.5;
 constexpr std::int64_t k_most_crossings = 1;
 /// Triangles made for each one foretold, at most.
 constexpr double k_foretold_share = 1.5;
+constexpr double k_half_turn = std::numbers::pi;
+constexpr int k_angle_digits = 3;
 
 /// What the rounds before have found.
 struct Trouble {
@@ -123,10 +130,45 @@ void require_clear(const TriMesh& wall, const RunContext& context) {
   throw Error(std::move(info));
 }
 
+void require_worth(const NeedleCount& needles, const char* what, const RemeshDemand& demand) {
+  if (needles.n <= demand.most_needles && needles.least_angle >= demand.least_angle) return;
+  ErrorInfo info{.code = ErrorCode::geometry_failed,
+                 .attempted = std::string(k_attempted),
+                 .problem = std::string(what) + " " + std::to_string(needles.n) + " needles, the least angle " +
+                            number_text(needles.least_angle / k_degree, k_angle_digits) + " degrees; asked for at most " + std::to_string(demand.most_needles) +
+                            " and " + number_text(demand.least_angle / k_degree, k_angle_digits) + " degrees",
+                 .hint = "remesh without that demand, or wrap{}"};
+  info.add_place(needles.place, "the thinnest triangle");
+  throw Error(std::move(info));
+}
+
+/// Needles whose shortest edge joins two corners of lines: corners stay, and so do they.
+NeedleCount forced_needles(const Reference& reference) {
+  const TriMesh& mesh = *reference.mesh;
+  NeedleCount forced{.n = 0, .least_angle = k_half_turn};
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto p = corners(mesh, t);
+    std::size_t shortest = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (distance(p[k], p[(k + 1) % 3]) < distance(p[shortest], p[(shortest + 1) % 3])) shortest = k;
+    const TriangleVertices& v = mesh.triangles[t];
+    if (reference.is_corner[v[shortest]] == 0 || reference.is_corner[v[(shortest + 1) % 3]] == 0) continue;
+    const double least = std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])});
+    if (least >= k_needle_angle) continue;
+    if (forced.n++ == 0) forced.place = (p[0] + p[1] + p[2]) / 3.0;
+  }
+  return forced;
+}
+
 }  // namespace
 
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RunContext& context) {
+  return remesh_surface(wall, options, patches, asked, RemeshDemand{}, context);
+}
+
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                            const RemeshDemand& demand, const RunContext& context) {
   const StageTimer timer(context, "remesh");
   require_clear(wall, context);
   ReferenceOptions reference_options{options.feature_angle, least_edge(wall, options, patches, context), options.smooth};
@@ -137,6 +179,7 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
   std::int64_t n_crossing = std::numeric_limits<std::int64_t>::max();
   for (int round = 1;; ++round) {
     const Reference reference(wall, reference_options, trouble.kept, trouble.flat, context);
+    if (round == 1) require_worth(forced_needles(reference), "corners of lines, which stay, force", demand);
     RemeshSizes sizes(reference, options, patches, asked, context);
     for (const auto& [t, size] : trouble.sizes) {
       const auto [a, b, c] = corners(wall, t);
@@ -152,6 +195,7 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
     report.max_edge = sizes.largest();
     report.n_lines = static_cast<std::int64_t>(reference.lines.size());
     report.n_corners = std::count(reference.is_corner.begin(), reference.is_corner.end(), 1);
+    require_worth(count_needles(result.mesh), "the new triangles have", demand);
     const CrossingPairs pairs = crossings_of(result.mesh, context);
     if (pairs.total == 0) {
       report.needles = remesher.needles(k_needle_angle);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
@@ -33,6 +35,10 @@ constexpr int k_most_samples = 12;
 /// Winding number beyond which a place is inside of the input; share of the wrap that lies before such places when it leaks, not just folds; and from where on
 /// (of the body length) an automatic gap is not doubled any more.
 constexpr double k_inside_input = 0.55, k_leaking_share = 0.05, k_widest_gap = 0.08;
+/// Of its ball: the offset of a coarser wrap. Of the edge: the ball that looks whether closings are enough before the edge's own.
+constexpr double k_coarse_offset = 0.05, k_glance_ball = 4.0;
+/// Of the area of the input: a wrap with more than so much goes round both sides of sheets, and its edge is chosen by its own area.
+constexpr double k_both_sides = 1.25;
 /// us, of one point of the alpha wrap with all that follows; for the estimate in the log.
 constexpr double k_seconds_per_triangle = 1.5e-4;
 /// Of the tolerance: cuts beside the plane of a half model that are tried.
@@ -42,6 +48,7 @@ constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_
 
 std::int64_t expected_triangles(double area, double edge) { return std::llround(k_triangles_per_area * area / (edge * edge)); }
 
+/// \param area m^2, to be covered by triangles
 WrapSizes choose_sizes(double area, double length, const WrapOptions& options) {
   WrapSizes sizes;
   sizes.edge = !is_automatic(options.edge)
@@ -105,6 +112,55 @@ double leaking_share(const WrapInput& input, const WrapSurface& wrap, double pro
   return all.value() > 0.0 ? leaking.value() / all.value() : 0.0;
 }
 
+double area_of(const WrapSurface& wrap) {
+  CompensatedSum area;
+  for (const auto& t : wrap.triangles) area.add(triangle_area(wrap.points[t[0]], wrap.points[t[1]], wrap.points[t[2]]));
+  return area.value();
+}
+
+/// A wrap that was made to see whether its gap closes the input's openings.
+struct GapTrial {
+  double gap = 0.0, alpha = 0.0;  ///< m
+  WrapSurface wrap;
+  double leaking = 0.0;  ///< leaking_share
+};
+
+/// Of `leaking` shares: from here on a gap leaks.
+double leaking_limit(double least) { return least < k_leaking_share ? k_leaking_share : least + k_leaking_share; }
+
+/// The least gap that does not leak; where all do, the least that leaks no more than the best one, give or take: where openings are as wide as the surface
+/// itself, a wider gap is of no use.
+std::size_t least_gap(const std::vector<GapTrial>& trials) {
+  double least = trials.front().leaking;
+  for (const GapTrial& trial : trials) least = std::min(least, trial.leaking);
+  std::size_t chosen = 0;
+  while (!(trials[chosen].leaking < leaking_limit(least))) ++chosen;
+  return chosen;
+}
+
+/// m; diagonal of the box of the widest opening: borders that hang together.
+double widest_opening(const WrapInput& input) {
+  DisjointSets openings(input.mesh.n_vertices());
+  for (const TriangleId t : input.mesh.triangles.ids())
+    for (std::size_t k = 0; k < 3; ++k)
+      if (input.is_border[t.index()][k]) openings.join(input.mesh.triangles[t][k].value(), input.mesh.triangles[t][(k + 1) % 3].value());
+  std::vector<Box> boxes(input.mesh.n_vertices());
+  for (const VertexId v : input.mesh.points.ids()) boxes[openings.root(v.value())].add(input.mesh.points[v]);
+  double widest = 0.0;
+  for (const Box& box : boxes)
+    if (!box.empty()) widest = std::max(widest, norm(box.max - box.min));
+  return widest;
+}
+
+void tell_gap(const std::vector<GapTrial>& trials, std::size_t chosen, double length, WrapReport& report) {
+  if (chosen > 0)
+    report.messages.push_back("openings are wider than " + short_number(trials[chosen - 1].gap) + " m: the gap is " + short_number(trials[chosen].gap) + " m");
+  if (trials[chosen].leaking < k_leaking_share) return;
+  report.messages.push_back("openings are wider than " + short_number(trials.back().gap) + " m (" + short_number(trials.back().gap / length) +
+                            " of the length), the widest gap that is tried: the skin behind them is wrapped on both sides, with a gap of " +
+                            short_number(trials[chosen].gap) + " m");
+}
+
 /// A place within the input, as far from it as can be found on a grid.
 Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) {
   const TriangleTree tree(input.mesh, context);
@@ -128,11 +184,12 @@ Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) 
   return place(static_cast<std::size_t>(deepest - depth.begin()));
 }
 
-double coarse_offset(const WrapSizes& sizes) { return std::min(0.05 * 0.5 * sizes.gap, sizes.edge); }
+double coarse_offset(const WrapSizes& sizes) { return std::min(k_coarse_offset * 0.5 * sizes.gap, sizes.edge); }
 
 /// What closes the openings wider than the edge's ball, from a wrap with a ball of half the gap: facets off the input that the input nearly encloses.
-void close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSurface& coarse, double least_winding, AlphaWrapInput& soup, WrapReport& report,
-                    const RunContext& context) {
+/// \return what was done, for people; empty: nothing
+std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSurface& coarse, double least_winding, AlphaWrapInput& soup,
+                           const RunContext& context) {
   const TriMesh mesh = wrap_mesh(coarse.points, coarse.triangles);
   const TriangleTree tree(input.mesh, context);
   std::vector<char> is_closing(mesh.n_triangles(), 0);
@@ -162,10 +219,9 @@ void close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSu
     soup.triangles.push_back(triangle);
     ++n;
   }
-  if (n == 0) return;
+  if (n == 0) return {};
   soup.points.insert(soup.points.end(), coarse.points.begin(), coarse.points.end());
-  report.messages.push_back("openings between the edge and the gap closed by " + std::to_string(n) + " triangles of a wrap with a ball of " +
-                            short_number(alpha) + " m radius");
+  return "openings between the edge and the gap closed by " + std::to_string(n) + " triangles of a wrap with a ball of " + short_number(alpha) + " m radius";
 }
 
 /// The given half, its rim in the plane. Where the wrap touches itself or the plane along the cut, the cut is made a little further in, and the half shifted
@@ -254,27 +310,77 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
   soup = alpha_input(input);
   if (is_inside) soup.seeds = {find_seed(input, sizes.edge, context)};
   const RunContext close_part = context.part("close", k_read_end, k_close_end), wrap_part = context.part("wrap", k_close_end, k_wrap_end);
-  double alpha = sizes.edge;
-  while (true) {
-    const bool is_coarse = !is_inside && sizes.gap > k_gap_of_edge * sizes.edge;
-    alpha = is_coarse ? 0.5 * sizes.gap : sizes.edge;
-    const double offset = is_coarse ? coarse_offset(sizes) : sizes.offset;
-    wrap_with(alpha, offset, is_coarse ? close_part : wrap_part);
-    turn_parts(input, wrap_mesh(wrap.points, wrap.triangles), 2.0 * offset + sizes.tolerance, context);
-    if (!is_automatic(options.gap) || is_inside || sizes.gap > k_widest_gap * input.length) break;
-    if (leaking_share(input, wrap, 0.25 * alpha, context) < k_leaking_share) break;
-    sizes.gap *= 2.0;
-    report.messages.push_back("openings are wider than " + short_number(0.5 * sizes.gap) + " m: the gap is " + short_number(sizes.gap) + " m");
+  std::vector<double> gaps{sizes.gap};
+  if (is_automatic(options.gap) && !is_inside)
+    while (gaps.back() <= k_widest_gap * input.length) gaps.push_back(2.0 * gaps.back());
+  std::vector<GapTrial> trials;
+  const auto turn_by = [&](const GapTrial& trial) {
+    const double offset = trial.alpha > sizes.edge ? coarse_offset(sizes) : sizes.offset;
+    turn_parts(input, wrap_mesh(trial.wrap.points, trial.wrap.triangles), 2.0 * offset + sizes.tolerance, context);
+  };
+  const auto try_gap = [&](double gap) {
+    sizes.gap = gap;
+    const bool is_coarse = !is_inside && gap > k_gap_of_edge * sizes.edge;
+    const double alpha = is_coarse ? 0.5 * gap : sizes.edge;
+    wrap_with(alpha, is_coarse ? coarse_offset(sizes) : sizes.offset, is_coarse ? close_part : wrap_part);
+    trials.push_back({gap, alpha, std::move(wrap), 0.0});
+    turn_by(trials.back());
+    if (gaps.size() > 1) trials.back().leaking = leaking_share(input, trials.back().wrap, 0.25 * alpha, context);
+    return trials.back().leaking;
+  };
+  // Each wrap costs four times as much as that for the next wider gap. So where there are openings wider than the first gap, from the widest down until it
+  // leaks; else from the first up while it leaks.
+  if (gaps.size() > 1 && widest_opening(input) > gaps.front()) {
+    double least = std::numeric_limits<double>::infinity();
+    for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
+      const double leaking = try_gap(*gap);
+      if (leaking >= leaking_limit(least)) break;
+      least = std::min(least, leaking);
+    }
+    std::reverse(trials.begin(), trials.end());
+  } else {
+    for (const double gap : gaps)
+      if (try_gap(gap) < k_leaking_share) break;
   }
-  if (alpha > sizes.edge) {
-    const WrapSurface coarse = std::move(wrap);
-    // First what the input nearly encloses, so that grooves keep their depth; if that leaks, all that the coarse wrap closes.
+  const std::size_t chosen = least_gap(trials);
+  GapTrial& trial = trials[chosen];
+  sizes.gap = trial.gap;
+  if (trials.size() > 1) turn_by(trial);
+  if (gaps.size() > 1) tell_gap(trials, chosen, input.length, report);
+  if (const double area = area_of(trial.wrap); is_automatic(options.edge) && area > k_both_sides * input.area) {
+    const double gap = sizes.gap;
+    sizes = choose_sizes(area, input.length, options);
+    sizes.gap = std::max(gap, k_gap_of_edge * sizes.edge);
+    sizes.is_fluid_inside = is_inside;
+    report.edge = sizes.edge;
+    report.tolerance = sizes.tolerance;
+    report.offset = sizes.offset;
+    report.expected_triangles = expected_triangles(area, sizes.edge);
+    report.messages.push_back("both sides of sheets and what closes openings have " + short_number(area) + " m^2 for " + short_number(input.area) +
+                              " of the input: the edge is " + short_number(sizes.edge) + " m");
+  }
+  if (trial.alpha > sizes.edge) {
+    // First what the input nearly encloses, so that grooves keep their depth; if more leaks than did with a ball of half the gap, all that this one closed.
+    const double most = std::max(k_leaking_share, trial.leaking + k_leaking_share);
+    const double glance = k_glance_ball * sizes.edge;
+    std::string closed;
     for (const double least_winding : {k_closing, -k_unbounded}) {
       soup = alpha_input(input);
-      close_openings(input, sizes, coarse, least_winding, soup, report, context);
+      closed = close_openings(input, sizes, trial.wrap, least_winding, soup, context);
+      const bool is_first = least_winding == k_closing;
+      // What is left open and wider than the larger ball is seen with a sixteenth of the points.
+      if (is_first && glance < trial.alpha) {
+        wrap_with(glance, k_coarse_offset * glance, close_part);
+        if (leaking_share(input, wrap, 0.25 * glance, context) >= most) continue;
+      }
       wrap_with(sizes.edge, sizes.offset, wrap_part);
-      if (leaking_share(input, wrap, 0.25 * sizes.edge, context) < k_leaking_share) break;
+      if (!is_first || leaking_share(input, wrap, 0.25 * sizes.edge, context) < most) break;
     }
+    if (!closed.empty()) report.messages.push_back(std::move(closed));
+  } else if (sizes.edge > trial.alpha) {
+    wrap_with(sizes.edge, sizes.offset, wrap_part);
+  } else {
+    wrap = std::move(trial.wrap);
   }
   report.gap = sizes.gap;
   const InputSurface surface(input, context);

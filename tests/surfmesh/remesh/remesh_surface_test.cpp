@@ -14,6 +14,7 @@
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 #include "io/file/surface_file.h"
+#include "surfmesh/remesh/remesh_demand.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"
@@ -276,6 +277,24 @@ TEST(RemeshSurface, SameBytesForAnyThreads) {
     EXPECT_EQ(mesh.points, meshes[0].points);
     EXPECT_EQ(mesh.triangles, meshes[0].triangles);
   }
+}
+
+TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
+  const TriMesh wall = test::sphere(8);
+  const auto demanding = [&](const RemeshDemand& demand) { return remesh_surface(wall, {}, {}, {}, demand, k_context); };
+  // Met: the same as without.
+  const RemeshResult free = remeshed(wall), met = demanding({.most_needles = 0, .least_angle = 10.0 * k_degree});
+  EXPECT_EQ(free.mesh.points, met.mesh.points);
+  EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
+  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles", [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
+  // A blunt edge of two corners 1e-4 apart: corners stay, so the needles beside them do.
+  TriMesh wedge = test::cube(1);
+  for (Point& p : wedge.points)
+    if (p.x == 1.0) p.z = 1e-4 * p.z;
+  const std::int64_t n = count_needles(wedge).n;
+  ASSERT_GE(n, 2);
+  test::expect_error(ErrorCode::geometry_failed, "corners of lines, which stay, force",
+                     [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 1, .least_angle = 0.0}, k_context); });
 }
 
 TEST(RemeshSurface, Refusals) {

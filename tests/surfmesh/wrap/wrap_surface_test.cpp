@@ -175,6 +175,50 @@ TEST(Wrap, HalfModelsEndInTheirPlaneToTheBit) {
     }
 }
 
+TEST(Wrap, AnAutomaticGapIsTheLeastThatClosesWhatIsOpen) {
+  SurfaceSoup soup = soup_of(cube(8)), open = soup;
+  open.triangles.clear();
+  open.patch.clear();
+  for (const auto& t : soup.triangles) {
+    const Vec3 middle = (soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]) / 3.0;
+    if (middle.z == 1.0 && middle.x > 0.5 && middle.x < 0.625 && middle.y > 0.5 && middle.y < 0.625) continue;
+    open.triangles.push_back(t);
+    open.patch.push_back(0);
+  }
+  const WrapResult closed = wrap({open}, {.edge = 0.0375, .half = "never"});
+  expect_stitched(closed.mesh);
+  EXPECT_TRUE(closed.report.leaks.empty());
+  EXPECT_NEAR(volume(closed.mesh), 1.0, 0.02);
+  EXPECT_EQ(closed.report.gap, 0.15) << "the window is 0.125 wide, twice the edge is 0.075";
+  EXPECT_TRUE(has_message(closed, "openings are wider than 0.075 m: the gap is 0.15 m"));
+}
+
+TEST(Wrap, WhereNoGapClosesAnAutomaticOneStaysAndIsToldOnce) {
+  // A bowl: its opening is as wide as itself.
+  const WrapResult bowl = wrap({half_sphere(2, false, 0.0)}, {.edge = 0.08, .half = "never"});
+  expect_stitched(bowl.mesh);
+  EXPECT_EQ(bowl.report.gap, 0.16) << "twice the edge: a wider one is of no use";
+  EXPECT_TRUE(has_message(bowl, "the widest gap that is tried"));
+  EXPECT_EQ(std::count_if(bowl.report.messages.begin(), bowl.report.messages.end(), [](const std::string& m) { return m.starts_with("openings are wider"); }),
+            1);
+  EXPECT_LT(std::abs(volume(bowl.mesh)), 0.1 * area(bowl.mesh) * bowl.report.edge + 0.3) << "a shell, not a body";
+  EXPECT_NEAR(area(bowl.mesh), 4.0 * std::numbers::pi, 0.5) << "both sides";
+}
+
+TEST(Wrap, TheEdgeOfSheetsIsChosenByBothSides) {
+  TriMesh sheet;
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}}) sheet.points.push_back(p);
+  sheet.triangles.push_back({VertexId(0u), VertexId(1u), VertexId(2u)});
+  sheet.triangles.push_back({VertexId(0u), VertexId(2u), VertexId(3u)});
+  sheet.triangle_patch.assign(2, PatchId(0u));
+  sheet.patches.push_back({"sheet", PatchKind::wall});
+  const double edge = surfmesh::estimate_wrap(1.0, 1.0, {}).edge;
+  const WrapResult result = wrap({soup_of(sheet)}, {.half = "never"});
+  expect_stitched(result.mesh);
+  EXPECT_NEAR(result.report.edge, std::sqrt(2.0) * edge, 0.05 * edge);
+  EXPECT_TRUE(has_message(result, "both sides of sheets"));
+}
+
 TEST(Wrap, ATunnelIsWrappedFromWithin) {
   const WrapResult result = wrap({soup_of(cube(6))}, {.edge = 0.1, .gap = 0.2, .fluid = "inside"});
   const Topology topology(result.mesh, quiet());

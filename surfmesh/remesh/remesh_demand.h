@@ -1,0 +1,24 @@
+// Remeshing that is only worth its time where needles go: it ends as soon as it is seen that they do not.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "surfmesh/remesh/remesh_surface.h"
+
+namespace sterna::surfmesh {
+
+/// What a result has to meet.
+struct RemeshDemand {
+  std::int64_t most_needles = std::numeric_limits<std::int64_t>::max();  ///< triangles with an angle below k_needle_angle
+  double least_angle = 0.0;                                              ///< rad
+};
+
+/// remesh_surface that gives up early: before the work, where corners of lines, which stay, force more needles than that (needles whose shortest edge joins two
+/// of them); and after a round that does not meet the demand, whatever crosses: later rounds keep more of the given triangles.
+/// \throws Error as remesh_surface; Error(geometry_failed) with the place of the thinnest triangle where it gives up
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                            const RemeshDemand& demand, const RunContext& context);
+
+}  // namespace sterna::surfmesh
