@@ -1,0 +1,35 @@
+"""What sterna tells of the changes that it made to a surface, in short; used by tools/measure_dirty and tools/measure_auto."""
+import re
+
+NUMBER = r"([-+.\deE]+)"
+SHORT = [("dropped", "dropped"), ("welded", "welded"), ("seams zipped", "seams"), ("rim of the half model", "half"), ("holes filled", "holes"),
+         ("cut where facets cross", "cut"), ("sheets without", "sheets"), ("facets inside", "inside"), ("small parts", "parts"),
+         ("touching vertices", "parted"), ("short edges", "collapsed"), ("crossing facets replaced", "replaced"), ("turned", "turned")]
+
+
+def short(change):
+    """What one change did, and its largest distances (kept, all) in metres."""
+    kind, _, rest = change.partition(": ")
+    if kind == "wrapped":
+        found = re.search(rf"wrap to input at most {NUMBER} m outside of closures, {NUMBER} m in them; input to wrap at most {NUMBER} m", rest)
+        kept, closed, back = (float(x) for x in found.groups())
+        closures = re.search(r"closed (\d+) place", rest)
+        words = [f"{closures.group(1)} closed"] if closures else []
+        words += [f"{len(re.findall('leak: ', rest))} leaks"] if "leak: " in rest else []
+        return ", ".join(words), kept, max(kept, closed, back)
+    words, kept, far = [], 0.0, 0.0
+    for part in rest.split("; "):
+        found = re.match(r"(.*?): (\d+) places? \((\d+) facets?\)", part)
+        if found:
+            name = next((b for a, b in SHORT if found.group(1).startswith(a)), found.group(1))
+            words.append(f"{name} {found.group(2)} ({found.group(3)})")
+        found = re.match(rf"what is left moved by at most {NUMBER} m, the new surface is at most {NUMBER} m from the given one, the given one at most {NUMBER} m", part)
+        if found:
+            kept, far = float(found.group(1)), max(float(x) for x in found.groups())
+    return ", ".join(words) or rest[:60], kept, far
+
+
+def remeshed(changes):
+    """Number of triangles that remesh began with, and the largest distance of the new ones from them, in metres; nothing where it did not run."""
+    found = re.search(rf"remeshed: ([\d ]+) -> [\d ]+ triangles, at most {NUMBER} m from the given ones", "\n".join(changes))
+    return (found.group(1).replace(" ", ""), float(found.group(2))) if found else None
