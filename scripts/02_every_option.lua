@@ -161,7 +161,7 @@ local mesh = volume_mesh{ wall,
   sources = {},                        -- smaller tetrahedra: box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }, point, line, sphere, cylinder, wake, size_samples
   interfaces = {},                     -- actuator_disc{ name = "prop", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }
   tetrahedra = {
-    engine = "automatic",           -- or "tetgen", "hxt"
+    engine = "automatic",           -- or "sterna", "hxt", "tetgen"
     radius_edge = 1.2,              -- TetGen
     two_pass = false,               -- TetGen: a coarse mesh gives the sizes of the mesh itself
     hxt_improve_below = 0,          -- HXT's own improvement; 0: none

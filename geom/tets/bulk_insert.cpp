@@ -10,10 +10,10 @@
 namespace sterna::tets {
 namespace {
 
-constexpr std::size_t k_most_blocks = 16;
-/// Of the passes one after the other; every other one has its limits in the middle of the blocks before. Large blocks at last: where tetrahedra are large.
-constexpr std::array<std::size_t, 4> k_pass_blocks = {16, 16, 4, 4};
-constexpr std::size_t k_block_seeds = 512;
+constexpr std::size_t k_most_blocks = 64;
+/// Every other pass has its limits in the middle of the blocks before. Later ones have fewer seeds and so fewer and larger blocks: where tetrahedra are large.
+constexpr int k_most_block_passes = 4;
+constexpr std::size_t k_block_seeds = 2048;
 /// Of a mesh with more, finding the owners takes longer than another thread saves.
 constexpr std::size_t k_tets_per_seed = 1000;  ///< at least, in the mean
 /// New places that a block gets for each seed: a point makes six and a half tetrahedra more in the mean, and not every seed is inserted.
@@ -170,8 +170,8 @@ std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, const R
   for (const Seed& seed : seeds) mesh_.points.push_back(seed.position);
 
   std::vector<Insertion> results(seeds.size(), Insertion::foreign);
-  for (std::size_t pass = 0; pass < k_pass_blocks.size(); ++pass) {
-    const std::size_t n_blocks = std::min(k_pass_blocks[pass], order.size() / k_block_seeds);
+  for (int pass = 0; pass < k_most_block_passes; ++pass) {
+    const std::size_t n_blocks = std::min(k_most_blocks, order.size() / k_block_seeds);
     if (n_blocks < 2 || order.size() < mesh_.nodes.size() / k_tets_per_seed) break;
     const std::vector<std::uint32_t> later = run_pass(seeds, order, n_blocks, pass % 2 == 1, static_cast<std::uint32_t>(first_point), results, context);
     for (std::size_t i = 0; i < later.size(); ++i) order[i] = order[later[i]];

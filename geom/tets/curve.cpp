@@ -9,6 +9,16 @@ namespace {
 
 constexpr int k_levels = 21;
 
+/// The bits of a number, two zeros between any two.
+constexpr std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffffull;
+  x = (x | x << 16) & 0x001f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  x = (x | x << 2) & 0x1249249249249249ull;
+  return x;
+}
+
 }  // namespace
 
 Curve::Curve(std::span<const Vec3> points) {
@@ -28,32 +38,23 @@ Curve::Curve(std::span<const Vec3> points) {
 /// Level by level: which eighth of the cube in Gray's order, then the cube turned and mirrored so that the next level's path begins where this one's ended
 /// (Skilling 2004 has the bits).
 std::uint64_t Curve::key(const Vec3& p) const {
-  constexpr std::uint32_t k_top = 1u << (k_levels - 1);
   std::array<std::uint32_t, 3> x;
   for (std::size_t axis = 0; axis < 3; ++axis)
     x[axis] = static_cast<std::uint32_t>(std::clamp((p[axis] - origin_[axis]) * cells_per_metre_, 0.0, static_cast<double>((1u << k_levels) - 1)));
-  for (std::uint32_t bit = k_top; bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (x[axis] & bit) {
-        x[0] ^= below;
-      } else {
-        const std::uint32_t swapped = (x[0] ^ x[axis]) & below;
-        x[0] ^= swapped;
-        x[axis] ^= swapped;
-      }
+  for (int level = k_levels - 1; level > 0; --level) {
+    const std::uint32_t below = (1u << level) - 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // mirrored where the bit is set, else turned; without branches
+      const std::uint32_t is_set = 0u - (x[axis] >> level & 1u);
+      const std::uint32_t swapped = (x[0] ^ x[axis]) & below & ~is_set;
+      x[axis] ^= swapped;
+      x[0] ^= axis == 0 ? below & is_set : swapped ^ (below & is_set);
     }
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
-  std::uint32_t gray = 0;
-  for (std::uint32_t bit = k_top; bit > 1; bit >>= 1)
-    if (x[2] & bit) gray ^= bit - 1;
-  for (std::uint32_t& axis : x) axis ^= gray;
-  std::uint64_t key = 0;
-  for (int level = k_levels - 1; level >= 0; --level)
-    for (const std::uint32_t axis : x) key = key << 1 | std::uint64_t{axis >> level & 1u};
-  return key;
+  std::uint32_t gray = x[2] >> 1;  // of each bit: whether those above it are an odd number
+  for (const int shift : {1, 2, 4, 8, 16}) gray ^= gray >> shift;
+  return spread(x[0] ^ gray) << 2 | spread(x[1] ^ gray) << 1 | spread(x[2] ^ gray);
 }
 
 }  // namespace sterna::tets

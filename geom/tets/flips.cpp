@@ -379,4 +379,27 @@ bool Flips::add_point(const Vec3& position, std::uint32_t start) {
   return false;
 }
 
+bool Flips::add_point_in_ring(std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b, const Vec3& position) {
+  Ring ring;
+  if (!find_ring(p, q, ring)) return false;
+  const std::size_t n = ring.vertices.size();
+  const auto first = static_cast<std::size_t>(std::ranges::find(ring.vertices, a) - ring.vertices.begin());
+  if (first == n || std::ranges::find(ring.vertices, b) == ring.vertices.end()) return false;
+  const auto point = static_cast<std::uint32_t>(mesh_.points.size());
+  std::vector<std::uint32_t> cavity;
+  std::vector<Corners> made = {{p, q, a, point}, {p, q, point, b}};
+  for (std::size_t i = first; ring.vertices[i] != b; i = (i + 1) % n) {
+    const std::uint32_t r = ring.vertices[i], s = ring.vertices[(i + 1) % n];
+    cavity.push_back(ring.tets[i]);
+    made.push_back({p, point, r, s});
+    made.push_back({point, q, r, s});
+  }
+  mesh_.points.push_back(position);
+  tet_at_.push_back(k_none);
+  if (std::ranges::all_of(made, [&](const Corners& v) { return is_positive(v); }) && replace(cavity, made)) return true;
+  mesh_.points.pop_back();
+  tet_at_.pop_back();
+  return false;
+}
+
 }  // namespace sterna::tets

@@ -52,6 +52,10 @@ class Flips {
   /// face. \p start: a tetrahedron near to it. There is no way back behind it.
   bool add_point(const Vec3& position, std::uint32_t start);
 
+  /// A new point in the tetrahedra around p-q from the ring's vertex `a` to its vertex `b`, in the ring's sense: afterwards it is the only one between them.
+  /// False where one of them does not see it, or where there is no such ring.
+  bool add_point_in_ring(std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b, const Vec3& position);
+
   /// A state to which undo() goes back, as long as none before has been gone back to.
   std::size_t state() const { return journal_.size(); }
   void undo(std::size_t state);

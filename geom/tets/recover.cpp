@@ -28,6 +28,10 @@ constexpr int k_most_points = 3;  ///< in the volume for one edge or facet
 constexpr int k_most_passes = 6;  ///< over what is missing, the first one aside
 /// How far off a facet's plane new points are, in lengths of what crosses there.
 constexpr double k_beside = 0.3;
+/// And how far towards an end of the other edge, as a share of the way.
+constexpr double k_aside = 0.1;
+/// So often the distance is halved where they do not see what is around.
+constexpr int k_most_halvings = 30;
 constexpr std::size_t k_stop_tries = 256;
 
 /// Any order in which neighbours in the list are no neighbours in space (Steele, Lea and Flood 2014).
@@ -127,6 +131,7 @@ class Recoverer {
   Made make_edge(const Edge& edge, int depth);
   Made make_facet(const Facet& facet, int depth);
   bool add_points_beside(const Vec3& at, const Vec3& normal, double length, std::uint32_t start, RecoverReport& report);
+  bool add_points_in_ring(const Edge& edge, const Edge& across, const Vec3& at, const Vec3& normal, double length, RecoverReport& report);
   bool help_edge(const Edge& edge, int n_before, RecoverReport& report);
   bool help_facet(const Facet& facet, int n_before, RecoverReport& report);
   template <class Make, class Help>
@@ -221,6 +226,27 @@ bool Recoverer::add_points_beside(const Vec3& at, const Vec3& normal, double len
   return is_done;
 }
 
+/// The same where the edge crosses one other in its plane and nothing else: with a point on each side, so near that it sees the whole ring around the other
+/// edge, that one can always be replaced.
+bool Recoverer::add_points_in_ring(const Edge& edge, const Edge& across, const Vec3& at, const Vec3& normal, double length, RecoverReport& report) {
+  const auto [p, q] = across;
+  const Vec3 from = mesh_.points[p];
+  const Vec3 foot = at + k_aside * (from - at);  // not where the two cross: the edge between both points would be as good as the wanted one
+  const double side = dot(cross(mesh_.points[q] - from, mesh_.points[edge[0]] - from), normal) > 0.0 ? 1.0 : -1.0;
+  for (const bool is_first : {true, false}) {
+    const Edge ends = is_first ? edge : Edge{edge[1], edge[0]};
+    double beside = (is_first ? side : -side) * k_beside * length;
+    int n_halvings = 0;
+    while (!flips_.add_point_in_ring(p, q, ends[0], ends[1], foot + beside * normalized(normal))) {
+      if (++n_halvings > k_most_halvings) return false;
+      beside *= 0.5;
+    }
+    flips_.accept();
+    ++report.n_points;
+  }
+  return true;
+}
+
 bool Recoverer::help_edge(const Edge& edge, int n_before, RecoverReport& report) {
   const std::optional<std::vector<Crossing>> way = crossings(flips_, edge[0], edge[1]);
   if (!way || way->empty()) return false;
@@ -231,8 +257,10 @@ bool Recoverer::help_edge(const Edge& edge, int n_before, RecoverReport& report)
     const Vec3 normal = cross(b - a, q - p);
     const double t = dot(cross(p - a, q - p), normal) / norm2(normal);  // where the two cross
     if (!std::isfinite(t)) return false;
-    return add_points_beside(a + std::clamp(t, 0.0, 1.0) * (b - a), normal, between(norm(b - a), norm(q - p), norm(normal), n_before),
-                             flips_.tet_with_edge(c.edge[0], c.edge[1]), report);
+    const Vec3 at = a + std::clamp(t, 0.0, 1.0) * (b - a);
+    const double length = between(norm(b - a), norm(q - p), norm(normal), n_before);
+    if (way->size() == 1 && add_points_in_ring(edge, c.edge, at, normal, length, report)) return true;
+    return add_points_beside(at, normal, length, flips_.tet_with_edge(c.edge[0], c.edge[1]), report);
   }
   const Corners& v = mesh_.nodes[c.face / 4];
   const Vec3 middle = 0.25 * (mesh_.points[v[0]] + mesh_.points[v[1]] + mesh_.points[v[2]] + mesh_.points[v[3]]);

@@ -74,7 +74,7 @@ Base base_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 class Refiner {
  public:
   Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, double most_bytes, const RunContext& context)
-      : mesh_(mesh), sizes_(sizes), most_bytes_(most_bytes), context_(context), inserter_(mesh, context, n_corners) {}
+      : mesh_(mesh), sizes_(sizes), most_bytes_(most_bytes), context_(context), inserter_(mesh, context, n_corners), n_corners_(n_corners) {}
 
   RefineReport run() {
     bool needs_front = true;
@@ -104,6 +104,11 @@ class Refiner {
   }
   double length_at(const Vec3& p) const { return k_length_factor * sizes_(p); }
   void judge();
+  void drop_hopeless(std::vector<Seed>& proposed);
+  void count_proposal(std::uint32_t t) {
+    std::uint8_t& state = inserter_.state()[t];
+    state = state + 1 < k_waiting + k_most_proposals ? static_cast<std::uint8_t>(state + 1) : k_given_up;
+  }
   std::int64_t round(bool needs_front);
   std::optional<Seed> propose(std::uint32_t t, bool needs_front) const;
   struct Place {
@@ -117,6 +122,7 @@ class Refiner {
   double most_bytes_;
   const RunContext& context_;
   BulkInserter inserter_;
+  std::uint32_t n_corners_;
   RefineReport report_;
 };
 
@@ -175,10 +181,23 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
   return seed;
 }
 
+/// Without those that are too near to a corner of their own tetrahedron: it is given up where it has nothing else to propose.
+void Refiner::drop_hopeless(std::vector<Seed>& proposed) {
+  std::erase_if(proposed, [&](const Seed& seed) {
+    const auto is_near = [&](std::uint32_t v) {
+      const double least = v < n_corners_ ? seed.room.to_corners : seed.room.to_points;
+      return norm2(mesh_.points[v] - seed.position) < least * least;
+    };
+    if (!std::ranges::any_of(mesh_.nodes[seed.start], is_near)) return false;
+    count_proposal(seed.start);
+    return true;
+  });
+}
+
 /// \return -1: nobody had anything to propose
 std::int64_t Refiner::round(bool needs_front) {
   std::vector<std::uint8_t>& state = inserter_.state();
-  const std::vector<Seed> proposed = parallel_collect<Seed>(
+  std::vector<Seed> proposed = parallel_collect<Seed>(
       context_, mesh_.nodes.size(),
       [&](std::size_t begin, std::size_t end, std::vector<Seed>& list) {
         for (std::size_t t = begin; t < end; ++t) {
@@ -188,14 +207,14 @@ std::int64_t Refiner::round(bool needs_front) {
       },
       k_scan_chunk);
   if (proposed.empty()) return -1;
+  drop_hopeless(proposed);
   std::vector<Seed> seeds;
   for (const std::uint32_t i : thinned(proposed, inserter_.order_along_curve(proposed, context_))) seeds.push_back(proposed[i]);
   // Whoever has proposed has done so; those that are still there and have gained nothing will know.
   std::vector<std::uint8_t> before;
   for (const Seed& seed : seeds) {
-    std::uint8_t& s = state[seed.start];
-    before.push_back(s);
-    s = s + 1 < k_waiting + k_most_proposals ? static_cast<std::uint8_t>(s + 1) : k_given_up;
+    before.push_back(state[seed.start]);
+    count_proposal(seed.start);
   }
   const std::vector<Insertion> results = inserter_.insert(seeds, context_);
   for (std::size_t i = 0; i < seeds.size(); ++i)

@@ -35,7 +35,9 @@ struct Schema<volmesh::TetraOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "engine",
                .member = &O::engine,
-               .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in; sterna: our own, in the program itself",
+               .help = "what makes the tetrahedra; automatic: sterna, our own, in the program itself, where few triangles are needles, else hxt, or tetgen "
+                       "where that is not "
+                       "built in",
                .choices = "automatic tetgen hxt sterna"},
       Field<O>{.name = "radius_edge",
                .member = &O::radius_edge,

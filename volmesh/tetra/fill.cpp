@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <optional>
 
 #include "geom/base/alongside.h"
 #include "geom/base/error.h"
+#include "geom/base/parallel.h"
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/boundary_parts.h"
 #include "volmesh/tetra/engine.h"
@@ -34,11 +37,38 @@ std::string text_of(const LadderRung& rung) {
          (rung.is_two_pass ? " in two passes" : "");
 }
 
+/// Corner below which a triangle of the boundary is a needle to our engine: it leaves some more bad tetrahedra beside those than HXT does.
+constexpr double k_needle_cosine = 0.990268;  // 8 degrees
+/// Where needles are at most this share, our engine is no worse than HXT (docs/tetrahedra.md).
+constexpr double k_most_needles = 0.02;
+
+bool is_needle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto has_narrow_corner = [](const Vec3& p, const Vec3& q, const Vec3& r) {
+    const Vec3 u = q - p, v = r - p;
+    return dot(u, v) > k_needle_cosine * norm(u) * norm(v);
+  };
+  return has_narrow_corner(a, b, c) || has_narrow_corner(b, c, a) || has_narrow_corner(c, a, b);
+}
+
+/// Whether our engine is tried first where the choice is ours.
+bool is_own_first(const TetraBoundary& boundary, const RunContext& context) {
+  const std::size_t n = boundary.triangles.size();
+  const auto count = [&](std::size_t begin, std::size_t end) {
+    return std::ranges::count_if(boundary.triangles.subspan(begin, end - begin), [&](const std::array<std::uint32_t, 3>& triangle) {
+      const auto& [a, b, c] = triangle;
+      return is_needle(boundary.points[a], boundary.points[b], boundary.points[c]);
+    });
+  };
+  const std::ptrdiff_t n_needles = parallel_reduce(context, n, std::ptrdiff_t{0}, count, std::plus());
+  return static_cast<double>(n_needles) <= k_most_needles * static_cast<double>(n);
+}
+
 /// What is to be tried, in this order.
-std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, const TetraOptions& options) {
+std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, const TetraOptions& options, const RunContext& context) {
   std::vector<LadderRung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
-  else if (options.engine == "sterna") rungs.insert(rungs.begin(), {EngineKind::sterna});
+  else if (options.engine == "sterna" || (options.engine == "automatic" && has_sizes && is_own_first(boundary, context)))
+    rungs.insert(rungs.begin(), {EngineKind::sterna});
   else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, sterna, tetgen, hxt");
   if (options.two_pass) {
     if (options.engine == "hxt" || options.engine == "sterna")
@@ -124,7 +154,7 @@ struct TetraLadder::State {
         sizes(size_supply),
         options(tetra_options),
         context(run_context),
-        rungs(rungs_of(of, tetra_options)),
+        rungs(rungs_of(of, size_supply != nullptr, tetra_options, run_context)),
         joined(of.has_sheets ? std::optional(join_sheets(of, run_context)) : std::nullopt),
         parts(checked_parts(of, joined, seen, run_context)) {
     // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.

@@ -68,7 +68,7 @@ TEST_F(Determinism, MeshesDoNotDependOnWhatWasInMemory) {
   std::vector<std::string> meshes;
   for (const char* fill : {"0", "85", "170", "0", "0", "0"}) {
     setenv("MALLOC_PERTURB_", fill, 1);
-    const test::ProcessResult result = sterna({"mesh", wall, "--layers", "10", "--first-height", "1e-4", "--quiet", "-o", "bwb.su2"});
+    const test::ProcessResult result = sterna({"mesh", wall, "--layers", "10", "--first-height", "1e-4", "--engine", "hxt", "--quiet", "-o", "bwb.su2"});
     unsetenv("MALLOC_PERTURB_");
     ASSERT_EQ(result.status, k_exit_success) << result.errors;
     std::ifstream file(folder / "bwb.su2", std::ios::binary);

@@ -49,7 +49,7 @@ class DriverLadder : public testing::Test {
 };
 
 TEST_F(DriverLadder, ARepairedLayerFollowsWhenAllElseFails) {
-  const VolumeMeshResult result = mesh(thin_plate(), {.boundary_splits = "never", .helper_folder = folder_that_fails(1)});
+  const VolumeMeshResult result = mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .helper_folder = folder_that_fails(1)});
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_THAT(log_, HasSubstr("trying again with a layer that is lower"));
   EXPECT_GE(result.tetra_failures.size(), 2u);
@@ -58,15 +58,15 @@ TEST_F(DriverLadder, ARepairedLayerFollowsWhenAllElseFails) {
 
 TEST_F(DriverLadder, RepairsCanBeForbiddenAndEnd) {
   test::expect_error(ErrorCode::tetra_engine_failed, "(HXT): the helper died of signal 11",
-                     [&] { (void)mesh(thin_plate(), {.boundary_splits = "never", .repair_boundary = false, .helper_folder = folder_that_fails(1)}); });
+                     [&] { (void)mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .repair_boundary = false, .helper_folder = folder_that_fails(1)}); });
   EXPECT_THAT(log_, testing::Not(HasSubstr("trying again")));
   test::expect_error(ErrorCode::tetra_engine_failed, "(HXT): the helper died of signal 11",
-                     [&] { (void)mesh(thin_plate(), {.boundary_splits = "never", .helper_folder = folder_that_fails(100)}); });
+                     [&] { (void)mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .helper_folder = folder_that_fails(100)}); });
   EXPECT_THAT(log_, HasSubstr("trying again"));
 }
 
 TEST_F(DriverLadder, SplitsComeBeforeRepairs) {
-  const VolumeMeshResult result = mesh(test::cube(2), {.helper_folder = folder_that_fails(1)});
+  const VolumeMeshResult result = mesh(test::cube(2), {.engine = "hxt", .helper_folder = folder_that_fails(1)});
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_THAT(log_, HasSubstr("trying TetGen with splits"));
   EXPECT_EQ(result.tetra_failures.size(), 2u);

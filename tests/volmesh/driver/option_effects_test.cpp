@@ -61,7 +61,7 @@ Setting setting_of(const std::string& name) {
     setting.wall = long_strips(24, 6.0);
     setting.mesh_case.needles.needle_budget = 4.0;
   }
-  if (name == "tetgen") setting.mesh_case.tetrahedra.engine = "tetgen";
+  if (name == "tetgen" || name == "hxt") setting.mesh_case.tetrahedra.engine = name;
   if (name == "height") setting.mesh_case.envelope.total_height = 0.03;
   if (name == "coarse") {
     setting.mesh_case.tetrahedra.engine = "tetgen";
@@ -149,9 +149,9 @@ const std::map<std::string, Change> k_changes = {
     {"tetrahedra.engine", {"tetgen"}},
     {"tetrahedra.radius_edge", {"2", "tetgen"}},
     {"tetrahedra.two_pass", {"true", "coarse"}},
-    {"tetrahedra.hxt_improve_below", {"0.35"}},
+    {"tetrahedra.hxt_improve_below", {"0.35", "hxt"}},
     {"tetrahedra.max_new_points", {"1"}},
-    {"tetrahedra.helper_folder", {"/nowhere"}},
+    {"tetrahedra.helper_folder", {"/nowhere", "hxt"}},
     {"tetrahedra.boundary_splits", {"always", "tetgen"}},
     {"improve.improve_min_angle", {"0.5"}},
     {"improve.improve_max_angle", {"2.1"}},

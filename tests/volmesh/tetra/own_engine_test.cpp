@@ -138,6 +138,19 @@ TEST_F(OwnEngine, OtherEnginesFollowWhereItMakesTooManyPoints) {
   EXPECT_THAT(error.problem, HasSubstr(std::to_string(free.new_points.size()) + " new points, limit 5"));
 }
 
+TEST_F(OwnEngine, IsAutomaticWhereFewTrianglesAreNeedles) {
+  const auto chosen = [](const TriMesh& wall) {
+    const Domain domain = domain_around(wall, 10.0);
+    const RunContext context;
+    const SizeField sizes = build_size_field(domain.boundary(), {}, {}, context);
+    return volmesh::fill(domain.boundary(), &sizes, {}, context).engine;
+  };
+  EXPECT_EQ(chosen(test::sphere(5)), "sterna");
+  TriMesh plate = test::cube(4);
+  for (Point& p : plate.points) p.z *= 0.02;  // four of six sides are needles
+  EXPECT_EQ(chosen(plate), "hxt");
+}
+
 TEST_F(OwnEngine, WithoutSizesAnotherEngineIsTaken) {
   const Domain domain = domain_around(test::cube(2), 10.0);
   const TetraResult result = volmesh::fill(domain.boundary(), nullptr, {.engine = "sterna"}, RunContext{});
