@@ -145,7 +145,9 @@ void LineDual::finish(std::size_t n_layers) {
     const Packed orthogonality = weighted / area_sum;
     const Packed sub_volume_ratio = lowest > all(0.0) ? highest / lowest : all(k_infinity);
     const Packed edge_ratio = longest / shortest;
-    const Packed closed = root(dot(closure, closure)) / area_sum;
+    const Packed open = root(dot(closure, closure)), longest_of_all = most(longest, most(height_above, height_below));
+    const Packed rounding = k_face_rounding * static_cast<double>(n_slots_ + 2) * longest_of_all * longest_of_all;
+    const Packed closed = open <= rounding ? least(open / area_sum, all(k_rounding_closure)) : open / area_sum;
     for (std::size_t k = 0; k < k_width; ++k)
       metrics_[j + k] = {orthogonality[k], ratio[k], relative[k], sub_volume_ratio[k], edge_ratio[k], closed[k], volume[k]};
   }

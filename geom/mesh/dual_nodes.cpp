@@ -173,7 +173,7 @@ void NodeDual::add_boundary(std::span<const NodeId> nodes, PatchId patch) {
 NodeMetrics NodeDual::result(std::uint32_t line) const {
   NodeMetrics metrics;
   if (edges_.empty()) return {k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, 0.0};
-  double edge_area = 0.0, all_area = 0.0, weighted = 0.0, largest = 0.0, smallest = k_infinity, longest = 0.0, shortest = k_infinity;
+  double edge_area = 0.0, all_area = 0.0, weighted = 0.0, largest = 0.0, smallest = k_infinity, longest = 0.0, shortest = k_infinity, longest_of_all = 0.0;
   Vec3 closure;
   const auto add_face = [&](const Vec3& normal, double area) {
     closure += normal;
@@ -192,6 +192,7 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
     const double area = norm(edge.normal);
     add_face(edge.normal, area);
     edge_area += area;
+    longest_of_all = std::max(longest_of_all, length);
     if (area > 0.0 && length > 0.0) weighted += area * arc_sine(dot(edge.normal, along) / (area * length));
     if (is_stack(edge)) continue;
     longest = std::max(longest, length);
@@ -203,6 +204,8 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
   metrics.sub_volume_ratio = least_ > 0.0 ? most_ / least_ : k_infinity;
   metrics.edge_ratio = has_hexahedron_ || longest == 0.0 ? k_nan : shortest > 0.0 ? longest / shortest : k_infinity;
   metrics.closure = all_area > 0.0 ? norm(closure) / all_area : k_infinity;
+  const double rounding = k_face_rounding * static_cast<double>(edges_.size()) * longest_of_all * longest_of_all;
+  if (all_area > 0.0 && norm(closure) <= rounding) metrics.closure = std::min(metrics.closure, k_rounding_closure);
   metrics.volume = sum_ / 6.0;
   metrics.relative_face_area_ratio = k_nan;
   if (has_line && node_ - bottom < n_steps) {

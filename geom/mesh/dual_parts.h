@@ -16,6 +16,11 @@ namespace sterna::dual_parts {
 /// squared edges from there): three factors of at most that size, each within 7 roundings of its exact value, some 10 more when they are multiplied and
 /// summed; doubled. Sub-tets of a prism of aspect ratio 1e9 are still certain.
 inline constexpr double k_certain = 64 * 0x1p-53;
+/// Rounding of the dual faces around a node, as a share of its number of edges times the square of the longest: six cross products of such edges for each, with
+/// the differences before them.
+inline constexpr double k_face_rounding = 96 * 0x1p-53;
+/// Closure counts as at most this where rounding explains it: around cells that are 1e5 times as long as they are wide rounding alone is 1e-11 of the faces.
+inline constexpr double k_rounding_closure = 0x1p-40;
 
 /// Columns around each line.
 class LineRings {

@@ -204,6 +204,16 @@ TEST(DualMetrics, ThinLayersFarFromTheOrigin) {
   EXPECT_NEAR(report.dual_volume, report.total_volume, 1e-12 * report.total_volume);
 }
 
+/// Needles 5 m long and 1e-5 m wide, as repair leaves them beside crossings (openscad-nonmanifold-crash.obj: one control volume was said to be open). Rounding
+/// of the long edges is more than 1e-12 of such cells' faces.
+TEST(DualMetrics, NeedlesAreNotOpenByRounding) {
+  HybridMesh mesh = plate_block(4, {.n_layers = 6});
+  for (Point& p : mesh.points) p = {5.0 * p.x + 0.31 * p.y + 0.17 * p.z, 1e-5 * p.y, 1e-5 * p.z + 0.3e-5 * p.x};
+  const CheckReport report = check(mesh, {.intersections = false}, RunContext({.threads = 2}));
+  EXPECT_EQ(report.count(Violation::open_dual_cell), 0);
+  EXPECT_LT(report.gate(Measure::dual_closure).worst, 1e-12);
+}
+
 TEST(DualMetrics, RealMesh) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = io::read_surface_file(shared_data() / "surfaces/clean/pygeo_bwb.stl", RunContext({.threads = 2}));
