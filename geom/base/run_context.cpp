@@ -1,5 +1,7 @@
 #include "geom/base/run_context.h"
 
+#include <sys/resource.h>
+
 #include <chrono>
 
 #include "geom/base/error.h"
@@ -11,6 +13,17 @@ namespace {
 constexpr auto k_progress_interval = std::chrono::milliseconds(100);
 
 std::int64_t now_ns() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Of this process and the helpers that it has waited for.
+double processor_seconds() {
+  double seconds = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& time : {usage.ru_utime, usage.ru_stime}) seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
+  return seconds;
+}
 
 }  // namespace
 
@@ -63,15 +76,15 @@ void RunContext::progress(double share) const {
   state_->settings.progress({.stage = stage_, .share = from_ + share * (to_ - from_)});
 }
 
-void RunContext::add_time(std::string_view stage, double seconds) const {
+void RunContext::add_time(const StageTime& time) const {
   const std::scoped_lock lock(state_->mutex);
-  for (StageTime& time : state_->times) {
-    if (time.stage == stage) {
-      time.seconds += seconds;
-      return;
-    }
+  for (StageTime& known : state_->times) {
+    if (known.stage != time.stage) continue;
+    known.seconds += time.seconds;
+    known.processor_seconds += time.processor_seconds;
+    return;
   }
-  state_->times.push_back({std::string(stage), seconds});
+  state_->times.push_back(time);
 }
 
 std::vector<StageTime> RunContext::times() const {
@@ -79,8 +92,12 @@ std::vector<StageTime> RunContext::times() const {
   return state_->times;
 }
 
-StageTimer::StageTimer(const RunContext& context, std::string_view stage) : context_(context), stage_(stage), start_ns_(now_ns()) {}
+StageTimer::StageTimer(const RunContext& context, std::string_view stage)
+    : context_(context), stage_(stage), start_ns_(now_ns()), processor_start_(processor_seconds()) {}
 
-StageTimer::~StageTimer() { context_.add_time(stage_, static_cast<double>(now_ns() - start_ns_) * 1e-9); }
+StageTimer::~StageTimer() {
+  context_.add_time(
+      {.stage = stage_, .seconds = static_cast<double>(now_ns() - start_ns_) * 1e-9, .processor_seconds = processor_seconds() - processor_start_});
+}
 
 }  // namespace sterna

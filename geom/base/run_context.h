@@ -23,10 +23,17 @@ struct ProgressState {
   double share = 0.0;
 };
 
-/// Seconds of wall time spent in a stage; for logs and reports only, never for results.
+/// Seconds of a stage; for logs and reports only, never for results.
 struct StageTime {
   std::string stage;
-  double seconds = 0.0;
+  double seconds = 0.0;            ///< of the wall clock
+  double processor_seconds = 0.0;  ///< of the whole process meanwhile, with helpers that ended in it
+
+  /// Share of what so many threads could have done, in [0, 1].
+  double busy_share(int threads) const {
+    const double possible = seconds * threads;
+    return processor_seconds < possible ? processor_seconds / possible : 1.0;
+  }
 };
 
 struct RunSettings {
@@ -63,8 +70,8 @@ class RunContext {
   /// Reports that `share` in [0, 1] of this context's part is done; also checks for a stop.
   void progress(double share) const;
 
-  /// Adds wall seconds to the stage's record (log and report only).
-  void add_time(std::string_view stage, double seconds) const;
+  /// Adds to the record of its stage (log and report only).
+  void add_time(const StageTime& time) const;
   /// All recorded stage times, in order of first appearance.
   std::vector<StageTime> times() const;
 
@@ -94,6 +101,7 @@ class StageTimer {
   RunContext context_;
   std::string stage_;
   std::int64_t start_ns_;
+  double processor_start_;
 };
 
 }  // namespace sterna

@@ -261,7 +261,7 @@ Json run_json(const RunContext& context) {
   for (const StageTime& stage : context.times()) {
     const auto depth = std::count(stage.stage.begin(), stage.stage.end(), '/');
     if (depth == 0) seconds += stage.seconds;
-    run["stages"].push_back({{"name", stage.stage}, {"seconds", stage.seconds}, {"depth", depth}});
+    run["stages"].push_back({{"name", stage.stage}, {"seconds", stage.seconds}, {"busy", stage.busy_share(context.threads())}, {"depth", depth}});
   }
   run["seconds"] = seconds;
   run["peak_memory"] = peak_memory_bytes();

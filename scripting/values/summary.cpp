@@ -15,6 +15,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
+constexpr double k_least_told = 0.5;          ///< seconds of a stage whose busy share is told
 constexpr std::size_t k_listed_troubles = 5;  ///< measures that miss a limit in the summary; a finished mesh is told in at most 25 lines
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
@@ -171,10 +172,14 @@ std::string summary_text(const MeshValue& mesh) {
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
   std::string text = fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest\n", measure.wall_seconds, measure.threads,
                                  mesh.origin->tetra_engine_seconds, mesh.origin->tetra_engine, rest_seconds(mesh, measure));
-  text += fmt::format("  memory      {:.0f} MB at most here, {:.0f} MB in the engine's process\n", peak_memory_bytes() / k_bytes_per_mb,
-                      mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb);
+  const bool is_own = mesh.origin->tetra_engine == "sterna";
+  text += fmt::format("  memory      {:.0f} MB at most here, {:.0f} MB in the {}\n", peak_memory_bytes() / k_bytes_per_mb,
+                      mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb, is_own ? "engine's arrays" : "engine's process");
   text += "  stages     ";
-  for (const StageTime& stage : measure.stages) text += fmt::format(" {} {:.2f}", stage.stage, stage.seconds);
+  for (const StageTime& stage : measure.stages) {
+    text += fmt::format(" {} {:.2f}", stage.stage, stage.seconds);
+    if (stage.seconds >= k_least_told) text += fmt::format(" ({:.0f} % busy)", 100.0 * stage.busy_share(measure.threads));
+  }
   return text;
 }
 
@@ -229,6 +234,8 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["rest_seconds"] = rest_seconds(mesh, measure);
   json["stage_seconds"] = nlohmann::ordered_json::object();
   for (const StageTime& stage : measure.stages) json["stage_seconds"][stage.stage] = stage.seconds;
+  json["stage_busy_share"] = nlohmann::ordered_json::object();
+  for (const StageTime& stage : measure.stages) json["stage_busy_share"][stage.stage] = stage.busy_share(measure.threads);
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["engine_peak_memory_bytes"] = mesh.origin->tetra_engine_peak_bytes;
   return json.dump(2) + "\n";

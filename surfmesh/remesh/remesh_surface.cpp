@@ -58,7 +58,7 @@ void require_few(double n, double factor, const char* what, const RemeshOptions&
   throw Error({.code = ErrorCode::overflow,
                .attempted = std::string(k_attempted),
                .problem = what + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " + std::to_string(options.max_triangles),
-               .hint = "larger max_edge, min_edge or curvature_angle"});
+               .hint = "larger max_edge, min_edge or curvature_angle; smooth = false where the triangles are very thin"});
 }
 
 void narrow_strips(const Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes) {

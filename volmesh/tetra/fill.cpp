@@ -67,8 +67,8 @@ bool is_own_first(const TetraBoundary& boundary, const RunContext& context) {
 std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, const TetraOptions& options, const RunContext& context) {
   std::vector<LadderRung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
-  else if (options.engine == "sterna" || (options.engine == "automatic" && has_sizes && is_own_first(boundary, context)))
-    rungs.insert(rungs.begin(), {EngineKind::sterna});
+  else if (options.engine == "sterna") rungs.insert(rungs.begin(), {EngineKind::sterna});
+  else if (options.engine == "automatic" && has_sizes) rungs.insert(is_own_first(boundary, context) ? rungs.begin() : rungs.end(), {EngineKind::sterna});
   else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, sterna, tetgen, hxt");
   if (options.two_pass) {
     if (options.engine == "hxt" || options.engine == "sterna")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <random>
@@ -135,6 +136,26 @@ TEST(CompensatedSum, KeepsSmallTermsBesideLargeOnes) {
   for (int i = 0; i < 1000; ++i) sum.add(1.0);
   sum.add(-1e16);
   EXPECT_EQ(sum.value(), 1000.0);
+}
+
+/// A stage's record has the processor's seconds of the whole process; of two threads one that works is half.
+TEST(StageTimer, TellsHowBusyTheThreadsWere) {
+  const RunContext context({.threads = 2});
+  {
+    const StageTimer timer(context, "work");
+    const auto start = std::chrono::steady_clock::now();
+    volatile double sum = 0.0;
+    while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(60)) sum = sum + 1.0;
+  }
+  {
+    const StageTimer timer(context, "sleep");
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  }
+  ASSERT_EQ(context.times().size(), 2u);
+  const StageTime work = context.times()[0], sleep = context.times()[1];
+  EXPECT_GT(work.processor_seconds, 0.0);
+  EXPECT_GT(work.busy_share(2), sleep.busy_share(2));
+  EXPECT_LE(work.busy_share(1), 1.0);
 }
 
 }  // namespace

@@ -139,16 +139,18 @@ TEST_F(OwnEngine, OtherEnginesFollowWhereItMakesTooManyPoints) {
 }
 
 TEST_F(OwnEngine, IsAutomaticWhereFewTrianglesAreNeedles) {
-  const auto chosen = [](const TriMesh& wall) {
+  const auto chosen = [](const TriMesh& wall, const std::string& helpers = {}) {
     const Domain domain = domain_around(wall, 10.0);
     const RunContext context;
     const SizeField sizes = build_size_field(domain.boundary(), {}, {}, context);
-    return volmesh::fill(domain.boundary(), &sizes, {}, context).engine;
+    return volmesh::fill(domain.boundary(), &sizes, {.helper_folder = helpers}, context).engine;
   };
   EXPECT_EQ(chosen(test::sphere(5)), "sterna");
   TriMesh plate = test::cube(4);
   for (Point& p : plate.points) p.z *= 0.02;  // four of six sides are needles
   EXPECT_EQ(chosen(plate), "hxt");
+  EXPECT_EQ(chosen(plate, folder_where_crashes({"sterna-tet-hxt"})), "tetgen");
+  EXPECT_EQ(chosen(plate, folder_where_crashes({"sterna-tet-hxt", "sterna-tet-tetgen"})), "sterna");
 }
 
 TEST_F(OwnEngine, WithoutSizesAnotherEngineIsTaken) {
