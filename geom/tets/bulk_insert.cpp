@@ -19,8 +19,7 @@ constexpr std::size_t k_tets_per_seed = 1000;  ///< at least, in the mean
 /// New places that a block gets for each seed: a point makes six and a half tetrahedra more in the mean, and not every seed is inserted.
 constexpr std::size_t k_places_per_seed = 3;
 constexpr std::size_t k_more_places = 256;
-constexpr std::size_t k_enough_places = 2 * k_largest_cavity + 4;  ///< for any one point
-constexpr std::size_t k_stop_seeds = 4096;                         ///< between two looks at the stop token
+constexpr std::size_t k_stop_seeds = 4096;  ///< between two looks at the stop token
 
 /// Where a tetrahedron belongs that reaches far: at most of its corners.
 std::uint32_t at_shortest_edge(const TetMesh& mesh, const Corners& v) {
@@ -39,7 +38,8 @@ std::uint32_t at_shortest_edge(const TetMesh& mesh, const Corners& v) {
 
 }  // namespace
 
-BulkInserter::BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners) : mesh_(mesh), n_corners_(n_corners), curve_(mesh.points) {
+BulkInserter::BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners, std::size_t most_effort)
+    : mesh_(mesh), n_corners_(n_corners), most_effort_(most_effort), curve_(mesh.points) {
   const std::size_t n = mesh.nodes.size();
   mark_.assign(n, 0);
   state_.assign(n, 0);
@@ -108,14 +108,15 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
   if (n_blocks == 1) free[0] = std::move(free_);
   for (std::size_t i = 0; n_blocks > 1 && i < free_.size(); ++i) free[owner_[free_[i]]].push_back(free_[i]);
   for (std::size_t block = 0; block < n_blocks; ++block) {
-    const std::size_t wanted = k_places_per_seed * (first[block + 1] - first[block]) + (n_blocks > 1 ? k_more_places : k_enough_places);
+    const std::size_t wanted =
+        k_places_per_seed * (first[block + 1] - first[block]) + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: enough for any point
     first_new[block] = static_cast<std::uint32_t>(n_places);
     if (wanted > free[block].size()) n_places += wanted - free[block].size();
   }
   first_new[n_blocks] = static_cast<std::uint32_t>(n_places);
   make_room(n_places);
 
-  const InsertTarget target{mesh_, mark_, state_, key_, n_corners_, first_point, n_blocks > 1 ? &owner_ : nullptr};
+  const InsertTarget target{mesh_, mark_, state_, key_, n_corners_, first_point, most_effort_, n_blocks > 1 ? &owner_ : nullptr};
   std::vector<std::vector<std::uint32_t>> later(n_blocks);
   parallel_chunks(context, n_blocks, 1, [&](std::size_t block, std::size_t) {
     Inserter inserter(target, static_cast<std::uint8_t>(block), std::move(free[block]), first_new[block], first_new[block + 1]);

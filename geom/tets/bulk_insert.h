@@ -23,7 +23,8 @@ struct Seed {
 class BulkInserter {
  public:
   /// \p n_corners: the first points, those of the boundary, for Room::to_corners
-  explicit BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners = 0);
+  /// \p most_effort: as InsertTarget
+  explicit BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners = 0, std::size_t most_effort = k_largest_cavity);
 
   /// Seeds are taken along the curve. A pass in blocks, a fixed number whatever the threads; what another block bars waits for a pass with other blocks, the
   /// rest is inserted one by one. \return what became of each; never foreign
@@ -53,6 +54,7 @@ class BulkInserter {
 
   TetMesh& mesh_;
   std::uint32_t n_corners_;
+  std::size_t most_effort_;
   Curve curve_;
   std::vector<std::uint8_t> mark_, state_, owner_;
   std::vector<std::uint64_t> key_;

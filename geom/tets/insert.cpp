@@ -10,7 +10,6 @@
 namespace sterna::tets {
 namespace {
 
-constexpr int k_most_steps = 2000;  ///< of a walk; meshes that are not Delaunay can lead it in circles
 constexpr std::uint8_t k_inside = 1, k_outside = 2;
 
 /// Whether a point stands over a triangle and less than `height` above it.
@@ -59,7 +58,7 @@ Insertion Inserter::insert(std::uint32_t point, std::uint64_t key, std::uint32_t
 /// Walks from tetrahedron to tetrahedron through a face that the point is behind.
 std::uint32_t Inserter::locate(const Vec3& p, std::uint32_t start, Insertion& why) {
   std::uint32_t t = start, from = k_none;
-  for (int step = 0; step < k_most_steps; ++step) {
+  for (std::size_t step = 0; step < target_.most_effort; ++step) {  // meshes that are not Delaunay can lead it in circles
     const Corners& v = mesh_.nodes[t];
     const Corners& n = mesh_.neighbours[t];
     std::uint32_t next = t;
@@ -110,7 +109,7 @@ Insertion Inserter::gather(std::uint32_t point, std::uint32_t base, const Room& 
       target_.mark[other] = k_inside;
       cavity_.push_back(other);
       if (const Insertion near = nearness(mesh_.nodes[other][n % 4], p, room); near != Insertion::done) return near;
-      if (cavity_.size() > k_largest_cavity) return Insertion::no_cavity;
+      if (cavity_.size() > target_.most_effort) return Insertion::no_cavity;
     }
   }
   return Insertion::done;

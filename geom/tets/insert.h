@@ -37,6 +37,7 @@ struct InsertTarget {
   std::vector<std::uint64_t>& key;                   ///< of each place: set to that of the point for each new tetrahedron
   std::uint32_t n_corners = 0;                       ///< points of the boundary: the first
   std::uint32_t first_new_point = k_none;            ///< of the pass's points
+  std::size_t most_effort = k_largest_cavity;        ///< tetrahedra of a cavity, and steps of a walk, at most
   const std::vector<std::uint8_t>* owner = nullptr;  ///< block of each place that was there when the pass began; null: all is one block
 };
 

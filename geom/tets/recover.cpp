@@ -22,6 +22,8 @@ constexpr double k_box_factor = 8.0;
 /// Points of the first round; each of the next has so many times as many as there are.
 constexpr std::size_t k_first_points = 64, k_round_factor = 8;
 constexpr int k_most_tries = 4;  ///< of a point
+/// A point far from all others sees the hull of all that is there: the corners of a room around an aircraft of 300 000 points have cavities of more than 4000.
+constexpr std::size_t k_delaunay_effort = std::size_t{1} << 18;
 /// How far remove_edge() may look.
 constexpr int k_most_depth = 3;
 constexpr int k_most_points = 3;  ///< in the volume for one edge or facet
@@ -69,7 +71,7 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
   std::vector<std::uint32_t> number(corners.size());
   std::iota(number.begin(), number.end(), static_cast<std::uint32_t>(n));
   {
-    BulkInserter inserter(mesh, context);
+    BulkInserter inserter(mesh, context, 0, k_delaunay_effort);
     for (std::size_t first = 0, count = k_first_points; first < n; first += count, count = (k_round_factor - 1) * first) {
       count = std::min(count, n - first);
       std::vector<std::uint32_t> round(count);

@@ -222,6 +222,14 @@ TEST(TetRecover, StripsNeedlesAndNearContacts) {
   expect_filled(room, recovered(room), "near contact");
 }
 
+/// Corners of a room see half of a ball's 14 000 triangles when they come after it: as many tetrahedra in one cavity (found on a DLR-F6 of 613 000 triangles,
+/// of which HXT had to recover the boundary).
+TEST(TetRecover, PointsFarFromAllOthers) {
+  Shell room = random_grid(1).moved({-25.0, -25.0, -25.0}, 50.0);
+  room.add(ball(60).inside_out());
+  expect_filled(room, recovered(room), "room");
+}
+
 TEST(TetRecover, ManyBodiesAndOneInAnothersHole) {
   Shell room = ball(6).moved({}, 30.0);
   for (int i = 0; i < 6; ++i)
