@@ -43,6 +43,7 @@ BulkInserter::BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32
   const std::size_t n = mesh.nodes.size();
   mark_.assign(n, 0);
   state_.assign(n, 0);
+  is_changed_.assign(n / k_chunk + 1, 1);
   key_.assign(n, 0);
   parallel_for(context, n, [&](std::size_t t) {
     if (mesh_.nodes[t][0] != k_none) key_[t] = curve_.key(mesh_.points[at_shortest_edge(mesh_, mesh_.nodes[t])]);
@@ -68,6 +69,7 @@ void BulkInserter::make_room(std::size_t n_places) {
   mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});
   mark_.resize(n_places, 0);
   state_.resize(n_places, 0);
+  is_changed_.resize(n_places / k_chunk + 1, 0);
   key_.resize(n_places, 0);
 }
 
@@ -116,7 +118,7 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
   first_new[n_blocks] = static_cast<std::uint32_t>(n_places);
   make_room(n_places);
 
-  const InsertTarget target{mesh_, mark_, state_, key_, n_corners_, first_point, most_effort_, n_blocks > 1 ? &owner_ : nullptr};
+  const InsertTarget target{mesh_, mark_, state_, is_changed_, key_, n_corners_, first_point, most_effort_, n_blocks > 1 ? &owner_ : nullptr};
   std::vector<std::vector<std::uint32_t>> later(n_blocks);
   parallel_chunks(context, n_blocks, 1, [&](std::size_t block, std::size_t) {
     Inserter inserter(target, static_cast<std::uint8_t>(block), std::move(free[block]), first_new[block], first_new[block + 1]);

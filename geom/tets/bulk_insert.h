@@ -39,6 +39,8 @@ class BulkInserter {
   /// A mark of each place for the caller's use, 0 for each new tetrahedron. Places without tetrahedron may have any.
   std::vector<std::uint8_t>& state() { return state_; }
   const std::vector<std::uint8_t>& state() const { return state_; }
+  /// Of each chunk of k_chunk places whether there may be new tetrahedra, for the caller to take back. All at first.
+  std::vector<std::uint8_t>& is_changed() { return is_changed_; }
   std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could take; for reports
 
  private:
@@ -56,7 +58,7 @@ class BulkInserter {
   std::uint32_t n_corners_;
   std::size_t most_effort_;
   Curve curve_;
-  std::vector<std::uint8_t> mark_, state_, owner_;
+  std::vector<std::uint8_t> mark_, state_, owner_, is_changed_;
   std::vector<std::uint64_t> key_;
   std::vector<std::uint32_t> free_;
   std::int64_t n_serial_ = 0;

@@ -4,6 +4,7 @@
 #include "geom/tets/insert.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "geom/tets/signs.h"
 
@@ -208,6 +209,7 @@ void Inserter::fill(std::uint32_t point, std::uint64_t key) {
     mesh_.neighbours[t] = {k_none, k_none, k_none, face.outer};
     target_.mark[t] = 0;
     target_.state[t] = 0;
+    std::atomic_ref(target_.is_changed[t / k_chunk]).store(1, std::memory_order_relaxed);  // chunks have places of several blocks
     target_.key[t] = key;
     if (face.outer != k_none) mesh_.neighbours[face.outer / 4][face.outer % 4] = 4 * t + 3;
     link(face.nodes[1], face.nodes[2], 4 * t);

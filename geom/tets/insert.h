@@ -17,6 +17,7 @@ int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t
 
 /// Tetrahedra; beyond strips of needles each point would see all others.
 inline constexpr std::size_t k_largest_cavity = 4000;
+inline constexpr std::size_t k_chunk = 1 << 13;  ///< places of tetrahedra that are looked at together, or not at all where nothing has changed
 
 enum class Insertion : std::uint8_t {
   done,
@@ -34,6 +35,7 @@ struct InsertTarget {
   TetMesh& mesh;
   std::vector<std::uint8_t>& mark;                   ///< of each place: 0 between insertions
   std::vector<std::uint8_t>& state;                  ///< of each place: set to 0 for each new tetrahedron
+  std::vector<std::uint8_t>& is_changed;             ///< of each chunk of k_chunk places: set to 1 where a tetrahedron is made
   std::vector<std::uint64_t>& key;                   ///< of each place: set to that of the point for each new tetrahedron
   std::uint32_t n_corners = 0;                       ///< points of the boundary: the first
   std::uint32_t first_new_point = k_none;            ///< of the pass's points

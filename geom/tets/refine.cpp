@@ -32,7 +32,6 @@ constexpr double k_boundary_height = 0.4;
 /// A circumcentre that is at most so much further off than the front's point is taken instead: no second point would fit behind.
 constexpr double k_merge = 1.2;
 constexpr int k_most_rounds = 1000;
-constexpr std::size_t k_scan_chunk = 1 << 13;
 
 // States of tetrahedra; from k_waiting on the number of points that it has proposed in vain.
 constexpr std::uint8_t k_unseen = 0, k_right = 1, k_given_up = 2, k_waiting = 3;
@@ -123,20 +122,27 @@ class Refiner {
   const RunContext& context_;
   BulkInserter inserter_;
   std::uint32_t n_corners_;
+  std::vector<std::uint8_t> has_waiting_;  ///< of each chunk: some of its tetrahedra may have points to propose
   RefineReport report_;
 };
 
 /// Which of the new tetrahedra are too large.
 void Refiner::judge() {
-  std::vector<std::uint8_t>& state = inserter_.state();
+  std::vector<std::uint8_t>&state = inserter_.state(), &is_changed = inserter_.is_changed();
+  has_waiting_.resize(is_changed.size(), 0);
   parallel_for(
-      context_, mesh_.nodes.size(),
-      [&](std::size_t t) {
-        if (state[t] != k_unseen || !mesh_.is_alive(static_cast<std::uint32_t>(t))) return;
-        const std::array<Vec3, 4> p = corners(t);
-        state[t] = circumsphere(p).radius <= k_radius_limit * length_at(0.25 * (p[0] + p[1] + p[2] + p[3])) ? k_right : k_waiting;
+      context_, is_changed.size(),
+      [&](std::size_t chunk) {
+        if (is_changed[chunk] == 0) return;
+        is_changed[chunk] = 0;
+        for (std::size_t t = chunk * k_chunk; t < std::min((chunk + 1) * k_chunk, mesh_.nodes.size()); ++t) {
+          if (state[t] != k_unseen || !mesh_.is_alive(static_cast<std::uint32_t>(t))) continue;
+          const std::array<Vec3, 4> p = corners(t);
+          state[t] = circumsphere(p).radius <= k_radius_limit * length_at(0.25 * (p[0] + p[1] + p[2] + p[3])) ? k_right : k_waiting;
+          if (state[t] == k_waiting) has_waiting_[chunk] = 1;
+        }
       },
-      k_scan_chunk);
+      1);
 }
 
 /// The point in front of a face, between its circle's centre and that of the sphere.
@@ -198,14 +204,17 @@ void Refiner::drop_hopeless(std::vector<Seed>& proposed) {
 std::int64_t Refiner::round(bool needs_front) {
   std::vector<std::uint8_t>& state = inserter_.state();
   std::vector<Seed> proposed = parallel_collect<Seed>(
-      context_, mesh_.nodes.size(),
-      [&](std::size_t begin, std::size_t end, std::vector<Seed>& list) {
-        for (std::size_t t = begin; t < end; ++t) {
+      context_, has_waiting_.size(),
+      [&](std::size_t chunk, std::size_t, std::vector<Seed>& list) {
+        if (has_waiting_[chunk] == 0) return;
+        has_waiting_[chunk] = 0;
+        for (std::size_t t = chunk * k_chunk; t < std::min((chunk + 1) * k_chunk, mesh_.nodes.size()); ++t) {
           if (state[t] < k_waiting || !mesh_.is_alive(static_cast<std::uint32_t>(t))) continue;
+          has_waiting_[chunk] = 1;
           if (const std::optional<Seed> seed = propose(static_cast<std::uint32_t>(t), needs_front)) list.push_back(*seed);
         }
       },
-      k_scan_chunk);
+      1);
   if (proposed.empty()) return -1;
   drop_hopeless(proposed);
   std::vector<Seed> seeds;
