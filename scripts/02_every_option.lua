@@ -257,6 +257,22 @@ mesh:su2_config{ "every_option.cfg", cruise,
   boundaries = {},                  -- by patches: { prop = { thrust = 800 } }, or pressure_jump = 120, temperature_jump = 0; of openings pressure = 1e5, total_pressure = 1.1e5, total_temperature = 300
 }
 
+mesh:foam_case{ "every_option_case", cruise,  -- a folder; of the rest of the table: the entries of su2_config but its first four and the last
+  model = "automatic",              -- laminar, euler, SpalartAllmaras, kOmegaSST
+  steady = true,                    -- false: in time
+  compressible = "automatic",       -- yes, no; by itself from Mach 0.3 on
+  turbulence_intensity = 0.001,     -- of the free stream (kOmegaSST)
+  viscosity_ratio = "automatic",    -- of the free stream
+  residual = 1e-6,                  -- below which a steady run ends
+  end_time = "automatic",           -- seconds, of a run in time
+  courant = 2,                      -- of a run in time
+  tasks = 1,                        -- processes
+  write_interval = 500,
+  format = "binary",                -- text
+  numbering = "both",               -- lines, bandwidth
+  reference_area = 16,
+}
+
 -- A half model: volume_mesh{ side, ... } puts half a sphere and the symmetry plane around it.
 local side = half{ wall, axis = "y", at = 0, keep = "+",
   tolerance = "automatic",          -- vertices this near are moved into the plane: 1e-6 of the longest side
@@ -264,6 +280,7 @@ local side = half{ wall, axis = "y", at = 0, keep = "+",
 }
 
 local behind = wake{ {0, 0, 0}, {0, 5, 0}, direction = {1, 0, 0}, length = 10, height = 0, spread = 0, size = 0.1, size_end = 0.1 }   -- for sources, above
+behind = wake{ wall, direction = {1, 0, 0}, length = 2, size = "automatic", size_end = "automatic", spread = 0.05 }   -- behind a whole surface, in body lengths
 
 -- ---- Geometry ----------------------------------------------------------------------------------------------------------------------------
 

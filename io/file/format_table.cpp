@@ -160,12 +160,12 @@ constexpr std::array k_formats = {
            .write_volume = write_volume_sterna,
            .carries_patch_names = true},
     Format{.name = "OpenFOAM",
-           .extensions = ".foam .bin.foam polymesh",
+           .extensions = ".foam .text.foam polymesh",
            .read_volume = read_volume_foam,
            .write_volume = write_volume_foam,
            .carries_patch_names = true,
            .files = polymesh_files,
-           .require_output = require_foam_output},
+           .require_output = require_foam_place},
     Format{.name = "Edge", .extensions = ".bmsh .v2.bmsh", .read_volume = read_volume_edge, .write_volume = write_volume_edge, .carries_patch_names = true},
     Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true},
 };
@@ -200,6 +200,15 @@ std::string lower_case_name(const std::filesystem::path& path) {
   return name;
 }
 
+/// A folder that is a case of OpenFOAM, there ("case" with constant/polyMesh or system in it) or to be made ("case/").
+bool is_case_folder(const std::filesystem::path& path) {
+  std::error_code ignored;  // what cannot be looked up is not there
+  if (!std::filesystem::exists(path, ignored)) return !path.has_filename() && path.has_parent_path();
+  if (!std::filesystem::is_directory(path, ignored)) return false;
+  return !path.has_filename() || std::filesystem::exists(path / "system" / "controlDict", ignored) ||
+         std::filesystem::exists(path / "constant" / "polyMesh", ignored);
+}
+
 /// The lines with the longest extension that ends the name ("wing.lb8.ugrid" could also end in a plain ".ugrid"), in the table's order.
 std::vector<const Format*> formats_of_name(const std::filesystem::path& path) {
   const std::string name = lower_case_name(path);
@@ -213,6 +222,7 @@ std::vector<const Format*> formats_of_name(const std::filesystem::path& path) {
       found.push_back(&format);
     });
   }
+  if (found.empty() && is_case_folder(path)) found.push_back(&*std::ranges::find(k_formats, "OpenFOAM", &Format::name));
   return found;
 }
 
@@ -243,7 +253,7 @@ const Format& format_of(const std::filesystem::path& path) {
       throw Error({.code = ErrorCode::unsupported_format,
                    .attempted = attempted,
                    .problem = "it is a folder",
-                   .hint = "name a file in it; of folders only OpenFOAM's polyMesh is read"});
+                   .hint = "name a file in it; of folders only OpenFOAM's cases and polyMesh are read"});
     if (path == "-" || path.string().starts_with("/dev/"))
       throw Error({.code = ErrorCode::unsupported_format,
                    .attempted = attempted,

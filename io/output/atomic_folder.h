@@ -20,6 +20,9 @@ class AtomicFolder {
   /// Where a file of the folder is to be written, by AtomicFile.
   std::filesystem::path file(std::string_view name) const { return temporary_ / name; }
 
+  /// The folder itself, until commit().
+  const std::filesystem::path& path() const { return temporary_; }
+
   void commit();
 
  private:

@@ -134,7 +134,8 @@ const MeshFaces::ExplicitBlock& MeshFaces::block_of(std::uint64_t cell) const {
   return blocks_[k];
 }
 
-CellKind MeshFaces::kind(std::uint64_t cell) const {
+CellKind MeshFaces::kind(std::uint64_t number) const {
+  const std::uint64_t cell = old_of(number);
   if (cell >= n_column_cells_) return block_of(cell).kind;
   constexpr std::array<CellKind, 3> k_kind_of_collapsed = {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
   return k_kind_of_collapsed[static_cast<std::size_t>(mesh_->layers.n_collapsed(column_of(cells_.at(cell).i)))];
@@ -160,6 +161,14 @@ CellFace MeshFaces::explicit_face(CellKind kind, std::uint64_t i, std::size_t k)
 }
 
 std::size_t MeshFaces::faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const {
+  const std::size_t n = given_faces_of(old_of(cell), faces);
+  if (new_of_old_.empty()) return n;
+  for (std::size_t k = 0; k < n; ++k)
+    if (faces[k].size > 0 && faces[k].neighbour != k_boundary) faces[k].neighbour = new_of_old_[faces[k].neighbour];
+  return n;
+}
+
+std::size_t MeshFaces::given_faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const {
   if (cell >= n_column_cells_) {
     const ExplicitBlock& block = block_of(cell);
     const std::size_t n = cell_faces(block.kind).size();
@@ -314,6 +323,68 @@ void MeshFaces::count_internal(const RunContext& context) {
     internal_before_[i + 1].faces += internal_before_[i].faces;
     internal_before_[i + 1].nodes += internal_before_[i].nodes;
   }
+}
+
+std::uint64_t MeshFaces::unit_of(std::uint64_t cell, bool is_by_column) const {
+  if (!is_by_column) return cell;
+  return cell < n_column_cells_ ? cells_.at(cell).i : n_live_ + (cell - n_column_cells_);
+}
+
+NeighbourGraph MeshFaces::unit_graph(bool is_by_column, const RunContext& context) const {
+  const std::uint64_t n_units = is_by_column ? n_live_ + n_explicit_ : n_cells();
+  NeighbourGraph graph;
+  graph.first.assign(n_units + 1, 0);
+  const auto gather = [&](std::uint64_t unit, std::vector<std::uint32_t>& found) {
+    found.clear();
+    std::array<CellFace, k_most_faces> faces;
+    const bool is_column = is_by_column && unit < n_live_;
+    const std::uint64_t begin = is_column ? cells_.first(unit) : is_by_column ? n_column_cells_ + (unit - n_live_) : unit;
+    const std::uint64_t end = is_column ? begin + cells_.n_layers(unit) : begin + 1;
+    for (std::uint64_t cell = begin; cell < end; ++cell) {
+      const std::size_t n = given_faces_of(cell, faces);
+      for (std::size_t k = 0; k < n; ++k) {
+        if (faces[k].size == 0 || faces[k].neighbour == k_boundary) continue;
+        const std::uint64_t other = unit_of(faces[k].neighbour, is_by_column);
+        if (other != unit) found.push_back(static_cast<std::uint32_t>(other));
+      }
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  };
+  for (const bool is_counting : {true, false}) {
+    parallel_chunks(context, n_units, k_default_chunk, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t> found;
+      for (std::size_t unit = begin; unit < end; ++unit) {
+        gather(unit, found);
+        if (is_counting) graph.first[unit + 1] = found.size();
+        else std::copy(found.begin(), found.end(), graph.neighbours.begin() + static_cast<std::ptrdiff_t>(graph.first[unit]));
+      }
+    });
+    if (!is_counting) break;
+    for (std::uint64_t unit = 0; unit < n_units; ++unit) graph.first[unit + 1] += graph.first[unit];
+    graph.neighbours.resize(graph.first.back());
+  }
+  return graph;
+}
+
+NeighbourGraph MeshFaces::cell_graph(const RunContext& context) const { return unit_graph(false, context); }
+
+void MeshFaces::order_cells(Numbering numbering, const RunContext& context) {
+  old_of_new_.clear();
+  new_of_old_.clear();
+  if (numbering != Numbering::lines) {
+    const bool is_by_column = numbering == Numbering::both;
+    old_of_new_.reserve(n_cells());
+    for (const std::uint32_t unit : bandwidth_order(unit_graph(is_by_column, context))) {
+      const bool is_column = is_by_column && unit < n_live_;
+      const std::uint64_t begin = is_column ? cells_.first(unit) : is_by_column ? n_column_cells_ + (unit - n_live_) : unit;
+      const std::uint64_t end = is_column ? begin + cells_.n_layers(unit) : begin + 1;
+      for (std::uint64_t cell = begin; cell < end; ++cell) old_of_new_.push_back(static_cast<std::uint32_t>(cell));
+    }
+    new_of_old_.resize(n_cells());
+    for (std::uint32_t i = 0; i < old_of_new_.size(); ++i) new_of_old_[old_of_new_[i]] = i;
+  }
+  count_internal(context);
 }
 
 MeshFaces::Count MeshFaces::internal_before(std::uint64_t cell) const {

@@ -10,6 +10,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/numbering.h"
 #include "io/output/layer_numbers.h"
 
 namespace sterna::io {
@@ -23,8 +24,8 @@ struct CellFace {
 };
 
 /// Faces of a mesh that must outlive it. Cells are numbered as for_each_cell() meets them: column by column, layer by layer, then prisms, pyramids, hexahedra,
-/// tetrahedra. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12 bytes for each of them and 4 for
-/// each node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
+/// tetrahedra; after order_cells() as that says. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12
+/// bytes for each of them and 4 for each node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
 class MeshFaces {
  public:
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();
@@ -36,12 +37,21 @@ class MeshFaces {
   MeshFaces(const HybridMesh& mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }
+  std::uint64_t n_column_cells() const { return n_column_cells_; }  ///< the first ones of for_each_cell()
+
+  /// Gives the cells other numbers: `both`, columns as wholes, from the wall on, and the explicit cells by bandwidth_order of these; `bandwidth`, all cells;
+  /// `lines`, as they are. Two more numbers for each cell.
+  void order_cells(Numbering numbering, const RunContext& context);
+  /// Of a cell by its number in for_each_cell().
+  std::uint32_t number_of(std::uint64_t cell) const { return new_of_old_.empty() ? static_cast<std::uint32_t>(cell) : new_of_old_[cell]; }
+  /// Cells that share a face.
+  NeighbourGraph cell_graph(const RunContext& context) const;
   CellKind kind(std::uint64_t cell) const;
   /// The faces of a cell. \returns how many; some may have size 0
   std::size_t faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const;
   /// Cell behind a boundary face.
-  std::uint32_t cell_of_triangle(std::size_t i) const { return partner_[first_boundary_ + i]; }
-  std::uint32_t cell_of_quad(std::size_t i) const { return partner_[first_boundary_ + mesh_->boundary_triangles.size() + i]; }
+  std::uint32_t cell_of_triangle(std::size_t i) const { return number_of(partner_[first_boundary_ + i]); }
+  std::uint32_t cell_of_quad(std::size_t i) const { return number_of(partner_[first_boundary_ + mesh_->boundary_triangles.size() + i]); }
 
   std::uint64_t n_internal() const { return internal_before_.back().faces; }
   std::uint64_t n_internal_nodes() const { return internal_before_.back().nodes; }
@@ -76,6 +86,12 @@ class MeshFaces {
     Slot first_slot;
   };
 
+  std::uint64_t old_of(std::uint64_t cell) const { return old_of_new_.empty() ? cell : old_of_new_[cell]; }
+  /// faces_of by the numbers of for_each_cell().
+  std::size_t given_faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const;
+  /// What is ordered: a cell, or a column as a whole.
+  std::uint64_t unit_of(std::uint64_t cell, bool is_by_column) const;
+  NeighbourGraph unit_graph(bool is_by_column, const RunContext& context) const;
   CellFace side(std::size_t column, std::size_t k, int layer) const;
   CellFace cap(std::size_t column, int level, bool is_top) const;
   std::size_t column_of(std::uint64_t live) const { return live_.empty() ? live : live_[live]; }
@@ -101,8 +117,9 @@ class MeshFaces {
   std::vector<std::uint64_t> open_sides_;  ///< 3 * live column + side
   LayerNumbers open_faces_;                ///< of open sides
   Slot first_open_ = 0, first_boundary_ = 0, n_slots_ = 0;
-  std::vector<std::uint32_t> partner_;  ///< per slot
-  std::vector<Count> internal_before_;  ///< per k_count_interval cells
+  std::vector<std::uint32_t> partner_;                  ///< per slot
+  std::vector<Count> internal_before_;                  ///< per k_count_interval cells
+  std::vector<std::uint32_t> old_of_new_, new_of_old_;  ///< of order_cells; empty: as they are
 };
 
 }  // namespace sterna::io

@@ -1,4 +1,5 @@
-// polyMesh writer: five files in a new folder. Inner faces first, by their lower cell and then by the other; then the boundary, patch by patch.
+// polyMesh writer: five files, and cellZones where there are zones. Inner faces first, by their lower cell and then by the other; then the boundary, patch by
+// patch. Around it the least of a case without which no tool of OpenFOAM starts.
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -53,32 +54,43 @@ CyclicSide order_cyclic(const HybridMesh& mesh, const FacesByPatch& faces, Patch
 
 class FoamWriter {
  public:
-  FoamWriter(const HybridMesh& mesh, const std::filesystem::path& path, bool is_binary, const RunContext& context)
-      : mesh_(mesh), path_(path.string()), is_binary_(is_binary), context_(context), faces_(mesh, context.part("faces", 0.0, 0.3)), by_patch_(mesh) {
+  FoamWriter(const HybridMesh& mesh, const std::filesystem::path& path, const FoamMeshOptions& options, const RunContext& context)
+      : mesh_(mesh),
+        path_(path.string()),
+        options_(options),
+        is_binary_(options.is_binary),
+        context_(context),
+        faces_(mesh, context.part("faces", 0.0, 0.3)),
+        by_patch_(mesh) {
+    if (options.numbering != Numbering::lines) faces_.order_cells(options.numbering, context.part("numbering", 0.3, 0.3));
     const std::uint64_t n_boundary = mesh.boundary_triangles.size() + mesh.boundary_quads.size();
     n_internal_ = faces_.n_internal();
     n_faces_ = n_internal_ + n_boundary;
     n_face_nodes_ = faces_.n_internal_nodes() + 3 * mesh.boundary_triangles.size() + 4 * mesh.boundary_quads.size();
     require_count(mesh.points.size(), k_max_label, "points", "OpenFOAM with 32-bit labels", path_);
     require_count(n_faces_, k_max_label, "faces", "OpenFOAM with 32-bit labels", path_);
-    require_count(is_binary ? n_face_nodes_ : 0, k_max_label, "nodes of faces", "OpenFOAM's binary list with 32-bit labels", path_);
-    for (const PeriodicSides& sides : mesh.periodic) {
-      neighbour_[sides.first] = sides.second;
-      neighbour_[sides.second] = sides.first;
-      cyclic_.emplace(sides.second, order_cyclic(mesh, by_patch_, sides.first, match_periodic(mesh, sides.first, sides.second, periodic_tolerance(mesh))));
-    }
+    require_count(is_binary_ ? n_face_nodes_ : 0, k_max_label, "nodes of faces", "OpenFOAM's binary list with 32-bit labels", path_);
+    for (const PeriodicSides& sides : mesh.periodic) add_cyclic(sides);
+    for (const PeriodicSides& sides : options.joined) add_cyclic(sides);
   }
 
-  void write(const AtomicFolder& folder) const {
+  void write(const std::filesystem::path& folder) const {
     write_file(folder, "points", "vectorField", {points()}, mesh_.points.size(), 0.3, 0.45);
     if (is_binary_) write_faces_compact(folder);
     else write_file(folder, "faces", "faceList", face_texts(), n_faces_, 0.45, 0.7);
     write_file(folder, "owner", "labelList", owners(), n_faces_, 0.7, 0.85);
     write_file(folder, "neighbour", "labelList", {neighbours()}, n_internal_, 0.85, 1.0);
     write_boundary(folder);
+    write_zones(folder);
   }
 
  private:
+  void add_cyclic(const PeriodicSides& sides) {
+    neighbour_[sides.first] = sides.second;
+    neighbour_[sides.second] = sides.first;
+    cyclic_.emplace(sides.second, order_cyclic(mesh_, by_patch_, sides.first, match_periodic(mesh_, sides.first, sides.second, periodic_tolerance(mesh_))));
+  }
+
   std::string header(std::string_view object, std::string_view object_class, bool is_binary) const {
     std::string text = "FoamFile\n{\n    version 2.0;\n    format " + std::string(is_binary ? "binary" : "ascii") + ";\n";
     if (is_binary) text += "    arch \"LSB;label=32;scalar=64\";\n";
@@ -100,20 +112,20 @@ class FoamWriter {
     file.push_back(fixed_section(")\n"));
   }
 
-  void write_file(const AtomicFolder& folder, std::string_view object, std::string_view object_class, std::vector<OutputSection> items, std::uint64_t n,
-                  double from, double to) const {
+  void write_file(const std::filesystem::path& folder, std::string_view object, std::string_view object_class, std::vector<OutputSection> items,
+                  std::uint64_t n, double from, double to) const {
     std::vector<OutputSection> sections{fixed_section(header(object, object_class, is_binary_))};
     add_list(sections, std::move(items), n);
-    AtomicFile file(folder.file(object));
+    AtomicFile file(folder / object);
     write_sections(file, sections, context_.part(object, from, to));
     file.commit();
   }
 
-  void write_faces_compact(const AtomicFolder& folder) const {
+  void write_faces_compact(const std::filesystem::path& folder) const {
     std::vector<OutputSection> sections{fixed_section(header("faces", "faceCompactList", true))};
     add_list(sections, face_places(), n_faces_ + 1);
     add_list(sections, face_labels(), n_face_nodes_);
-    AtomicFile file(folder.file("faces"));
+    AtomicFile file(folder / "faces");
     write_sections(file, sections, context_.part("faces", 0.45, 0.7));
     file.commit();
   }
@@ -257,29 +269,14 @@ class FoamWriter {
     return internal(k_max_label_text, [this](char* at, std::uint64_t, const CellFace& face) { return put_label(at, face.neighbour); });
   }
 
-  /// OpenFOAM compares the unit normals of a symmetryPlane to 1e-15: only those in coordinate planes are exact.
-  bool is_in_coordinate_plane(PatchId patch) const {
-    Box box;
-    for (const std::uint32_t f : by_patch_.triangles(patch))
-      for (const NodeId node : mesh_.boundary_triangles[f].nodes) box.add(mesh_.points[node]);
-    for (const std::uint32_t f : by_patch_.quads(patch))
-      for (const NodeId node : mesh_.boundary_quads[f].nodes) box.add(mesh_.points[node]);
-    return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
-  }
-
   /// The type, and for kinds that types do not tell, a group.
   std::string type_of(PatchId patch) const {
-    const PatchKind kind = mesh_.patches[patch].kind;
-    if (kind == PatchKind::wall) return "wall";
-    if (kind == PatchKind::symmetry) return is_in_coordinate_plane(patch) ? "symmetryPlane" : "symmetry";
-    if (kind == PatchKind::farfield) return "patch";
-    return "patch;\n        inGroups 1(" + std::string(to_string(kind)) + ")";
+    const std::string type = foam_patch_type(mesh_, patch);
+    return type == "patch" ? type + ";\n        inGroups 1(" + std::string(to_string(mesh_.patches[patch].kind)) + ")" : type;
   }
 
-  void write_boundary(const AtomicFolder& folder) const {
-    // Words of OpenFOAM: no blanks, quotes, slashes, semicolons, braces; brackets and '$', '#', ':' mean something to its dictionaries.
-    const std::vector<std::string> names = names_by_rules(
-        mesh_.patches, {.format = "OpenFOAM", .forbidden = "\"'\\/;{}()[]<>$#:,|*?!", .may_begin_with_digit = false, .may_have_blanks = false}, context_);
+  void write_boundary(const std::filesystem::path& folder) const {
+    const std::vector<std::string> names = foam_patch_names(mesh_.patches, context_);
     std::string entries;
     std::uint64_t first = n_internal_;
     int n = 0;
@@ -293,13 +290,52 @@ class FoamWriter {
       first += n_faces;
       ++n;
     }
-    AtomicFile file(folder.file("boundary"));
+    AtomicFile file(folder / "boundary");
     file.append(header("boundary", "polyBoundaryMesh", false) + std::to_string(n) + "\n(\n" + entries + ")\n");
+    file.commit();
+  }
+
+  /// The cells of the layer: none where the mesh has no columns.
+  std::vector<std::uint32_t> layer_cells() const {
+    std::vector<std::uint32_t> cells(faces_.n_column_cells());
+    for (std::uint32_t i = 0; i < cells.size(); ++i) cells[i] = faces_.number_of(i);
+    std::ranges::sort(cells);
+    return cells;
+  }
+
+  void write_zones(const std::filesystem::path& folder) const {
+    std::vector<FoamZone> zones;
+    if (std::vector<std::uint32_t> cells = layer_cells(); !cells.empty()) zones.push_back({.name = "layers", .cells = std::move(cells)});
+    for (const FoamZone& zone : options_.zones) {
+      if (zone.cells.empty()) continue;
+      zones.push_back(zone);
+      for (std::uint32_t& cell : zones.back().cells) cell = faces_.number_of(cell);
+      std::ranges::sort(zones.back().cells);
+    }
+    if (zones.empty()) return;
+    std::vector<OutputSection> sections{fixed_section(header("cellZones", "regIOobject", is_binary_) + std::to_string(zones.size()) + "\n(\n")};
+    for (const FoamZone& zone : zones) {
+      sections.push_back(fixed_section(zone.name + "\n{\n    type cellZone;\n    cellLabels List<label> "));
+      add_list(sections,
+               {{.n_items = zone.cells.size(),
+                 .format =
+                     [this, &zone](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+                       char* at = out.reserve((end - begin) * k_max_label_text);
+                       for (std::uint64_t i = begin; i < end; ++i) at = put_label(at, zone.cells[i]);
+                       out.end_at(at);
+                     }}},
+               zone.cells.size());
+      sections.push_back(fixed_section(";\n}\n"));
+    }
+    sections.push_back(fixed_section(")\n"));
+    AtomicFile file(folder / "cellZones");
+    write_sections(file, sections, context_.part("zones", 1.0, 1.0));
     file.commit();
   }
 
   const HybridMesh& mesh_;
   std::string path_;
+  const FoamMeshOptions& options_;
   bool is_binary_;
   RunContext context_;
   MeshFaces faces_;
@@ -314,6 +350,34 @@ std::filesystem::path marker_of(const std::filesystem::path& path) {
   std::error_code status;
   if (!path.has_filename() || polymesh_folder(path) == path || std::filesystem::is_directory(path, status)) return {};
   return polymesh_folder(path) == path / "constant" / "polyMesh" ? std::filesystem::path() : path;
+}
+
+/// "text.foam" and "case.text.foam" are text, all else binary.
+bool is_text_name(const std::filesystem::path& path) {
+  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name.ends_with("text.foam");
+}
+
+/// The least without which no tool of OpenFOAM starts, checkMesh neither; what is there already stays. mesh:foam_case writes a case that can be run.
+void write_missing_settings(const std::filesystem::path& folder) {
+  constexpr std::array<std::array<std::string_view, 2>, 3> k_settings = {{
+      {"controlDict",
+       "// Enough for checkMesh and other tools of the mesh; mesh:foam_case{} of sterna writes a case that can be run.\napplication none;\nstartFrom "
+       "startTime;\nstartTime 0;\nstopAt endTime;\nendTime 1;\ndeltaT 1;\nwriteControl timeStep;\nwriteInterval 1;\nwriteFormat binary;\nwritePrecision "
+       "12;\n"},
+      {"fvSchemes",
+       "// Gradients of least squares over point neighbours: with Gauss linear, or with neighbours by faces only, drag was 3 % off or the run diverged.\n"
+       "ddtSchemes { default steadyState; }\ngradSchemes { default pointCellsLeastSquares; }\ndivSchemes { default none; }\nlaplacianSchemes { default "
+       "Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }\n"},
+      {"fvSolution", "solvers {}\n"},
+  }};
+  std::error_code status;  // of what cannot be looked at: writing says what is wrong with it
+  for (const auto& [name, text] : k_settings) {
+    if (std::filesystem::exists(folder / name, status)) continue;
+    std::filesystem::create_directories(folder, status);
+    write_whole(folder / name, foam_header(name, "dictionary", "system") + std::string(text));
+  }
 }
 
 }  // namespace
@@ -333,17 +397,61 @@ void require_foam_output(const std::filesystem::path& path) {
                .hint = "OpenFOAM has one mesh in a case: write to a folder for each, or to constant/polyMesh to replace that one"});
 }
 
+void require_foam_place(const std::filesystem::path& path) {
+  require_foam_output(path);
+  const std::filesystem::path folder = polymesh_folder(path).parent_path().parent_path();
+  const std::filesystem::path above = path.extension() == ".foam" ? folder : folder.parent_path();
+  std::error_code status;  // what cannot be looked at is not there
+  if (!above.empty() && !std::filesystem::is_directory(above, status))
+    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + above.string()});
+}
+
+std::vector<std::string> foam_patch_names(const Column<PatchId, Patch>& patches, const RunContext& context) {
+  // Words of OpenFOAM: no blanks, quotes, slashes, semicolons, braces; brackets and '$', '#', ':' mean something to its dictionaries.
+  return names_by_rules(patches, {.format = "OpenFOAM", .forbidden = "\"'\\/;{}()[]<>$#:,|*?!", .may_begin_with_digit = false, .may_have_blanks = false},
+                        context);
+}
+
+std::string foam_patch_type(const HybridMesh& mesh, PatchId patch) {
+  const PatchKind kind = mesh.patches[patch].kind;
+  if (kind == PatchKind::wall) return "wall";
+  if (kind != PatchKind::symmetry) return "patch";
+  Box box;
+  const auto add = [&](const auto& faces) {
+    for (const auto& face : faces)
+      if (face.patch == patch)
+        for (const NodeId node : face.nodes) box.add(mesh.points[node]);
+  };
+  add(mesh.boundary_triangles);
+  add(mesh.boundary_quads);
+  return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z ? "symmetryPlane" : "symmetry";
+}
+
+void write_polymesh(const HybridMesh& mesh, const std::filesystem::path& folder, const FoamMeshOptions& options, const RunContext& context) {
+  FoamWriter(mesh, folder, options, context).write(folder);
+}
+
+std::string foam_header(std::string_view object, std::string_view object_class, std::string_view location) {
+  return "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class " + std::string(object_class) + ";\n    location \"" + std::string(location) +
+         "\";\n    object " + std::string(object) + ";\n}\n\n";
+}
+
 void write_volume_foam(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_numbered_foam(mesh, path, Numbering::lines, context);
+}
+
+void write_numbered_foam(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context) {
   require_foam_output(path);
   const std::filesystem::path folder_path = polymesh_folder(path), marker = marker_of(path);
-  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const FoamWriter writer(mesh, folder_path, name.ends_with(".bin.foam"), context);
+  const FoamMeshOptions options{.is_binary = !is_text_name(path), .numbering = numbering};
+  const FoamWriter writer(mesh, folder_path, options, context);
   AtomicFolder folder(folder_path, "faces");
-  writer.write(folder);
+  writer.write(folder.path());
   folder.commit();
   std::error_code status;
   if (!marker.empty() && !std::filesystem::exists(marker, status)) AtomicFile(marker).commit();
+  if (path.has_filename() ? path.filename() != "polyMesh" : path.parent_path().filename() != "polyMesh")
+    write_missing_settings(folder_path.parent_path().parent_path() / "system");
 }
 
 }  // namespace sterna::io

@@ -158,6 +158,21 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       ->allow_extra_args(false)
       ->take_all();
   command
+      ->add_option(
+          "--source", mesh.sources,
+          "shorter edges in a region, e.g. --source \"cylinder from=1,0,0 to=8,0,0 radius=0.5 size=5cm\"; point, line, box, sphere, cylinder, wake; may be "
+          "given several times")
+      ->type_name("SOURCE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command
+      ->add_option(
+          "--wake", mesh.wakes,
+          "shorter edges behind the whole body, e.g. --wake length=2 (body lengths), or --wake \"length=3 size=5cm direction=1,0,0.05\"; size_end, spread")
+      ->type_name("WAKE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command
       ->add_option_function<std::string>(
           "--farfield",
           [&mesh](const std::string& text) {

@@ -165,6 +165,12 @@ void read_farfield_of(volmesh::MeshCase& options, SurfaceValue& wall, const RunC
   wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
 }
 
+/// Regions of short edges, and what the body leaves behind.
+void add_sources(const MeshCommand& command, const TriMesh& wall, volmesh::MeshCase& options) {
+  for (const std::string& text : command.sources) options.sources.push_back(source_of_text(text));
+  for (const std::string& text : command.wakes) options.sources.push_back(wake_of_text(text, wall));
+}
+
 /// From the last step on. Options that are given win over those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   if (!command.stages.empty())
@@ -178,6 +184,8 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   if (!command.discs.empty()) refuse_done("--disc");
   if (!command.periodic.empty()) refuse_done("--periodic");
   if (!command.patches.empty()) refuse_done("--patch");
+  if (steps.tetrahedra && !command.sources.empty()) refuse_done("--source");
+  if (steps.tetrahedra && !command.wakes.empty()) refuse_done("--wake");
   volmesh::MeshCase options = steps.envelope->options, all;
   const volmesh::MeshSteps to_come = volmesh::k_finish_step | (steps.tetrahedra ? volmesh::MeshSteps{0} : volmesh::k_tetrahedra_step);
   const OptionTable open = volmesh::options_of(options, to_come);
@@ -191,6 +199,7 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
     SurfaceValue inputs;
     read_farfield_of(options, inputs, context.run);
   }
+  add_sources(command, steps.envelope->wall->mesh, options);
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
   context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
   return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse)
@@ -320,6 +329,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
+  add_sources(command, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_surface_end, reuse, context);
 }
 
@@ -343,6 +353,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
+  add_sources(command, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_read_end, reuse, context);
 }
 

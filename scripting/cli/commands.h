@@ -45,6 +45,8 @@ struct MeshCommand {
   std::filesystem::path stages;       ///< .sterna file that keeps the steps of the run; empty: none
   std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
+  std::vector<std::string> sources;   ///< source_of_text
+  std::vector<std::string> wakes;     ///< wake_of_text
   bool is_half = false;               ///< the half of the surface
   bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first

@@ -31,6 +31,7 @@
 #include "scripting/verbs/envelope_steps.h"
 #include "scripting/verbs/family_gate.h"
 #include "scripting/verbs/farfield_verbs.h"
+#include "scripting/verbs/foam_verbs.h"
 #include "scripting/verbs/gate_limits.h"
 #include "scripting/verbs/geometry_verbs.h"
 #include "scripting/verbs/half_verbs.h"
@@ -355,13 +356,16 @@ constexpr std::array<ScriptVerb, 6> k_first_verbs = {{
      "Prints what a verb does and its options; of an object its methods and fields; of an option the verbs that take it.", print_help},
 }};
 constexpr ScriptVerb k_write_surface = {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files, nullptr, true, "self"};
-constexpr std::array<ScriptVerb, 3> k_mesh_methods = {{
+constexpr std::array<ScriptVerb, 4> k_mesh_methods = {{
     {"mesh:check", "mesh:check()  or  mesh:check{ wall = wall }",
      "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
     {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr,
      true, "self"},
     {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.",
      write_su2_config, su2_config_help, true, "self"},
+    {"mesh:foam_case", k_foam_case_usage,
+     "Writes a case of OpenFOAM that can be run: mesh, fields by the kinds of patches, models, schemes for such meshes, forces, Allrun.", write_foam_case,
+     foam_case_help, true, "self"},
 }};
 constexpr std::array<ScriptUnit, 5> k_units = {{{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
 

@@ -402,9 +402,23 @@ MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase
                     cached_finish(*tetrahedra.wall, tetrahedra.stage, with_wall_facts(*tetrahedra.wall, options), reuse, context));
 }
 
+namespace {
+
+/// What the body leaves behind is resolved by nothing but the growth of tetrahedra, unless a source asks for it.
+void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
+  const std::string& shape = options.farfield.farfield_shape;
+  if (!options.sources.empty() || shape == "none" || shape == "surface") return;
+  for (const Patch& patch : wall.mesh.patches)
+    if (patch.kind == PatchKind::inflow || patch.kind == PatchKind::outflow) return;  // a tunnel, or a body with engines
+  context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }");
+}
+
+}  // namespace
+
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
   warn_of_other_member(wall, options, context);
+  hint_at_wake(wall, options, context);
   if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, with_wall_facts(wall, options), {}, reuse, context));
   require_stage_output(stages);
   FinishedParts parts;

@@ -32,11 +32,11 @@ constexpr double k_union_read_end = 0.2;
 
 void require_output(const std::filesystem::path& path, io::FormatUse use) {
   const io::Format& format = io::format_to_write(path, use);
-  if (format.require_output) format.require_output(path);
+  if (format.require_output) return format.require_output(path);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
-  if (!format.require_output) io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
+  io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
 }
 
 /// A volume mesh that is taken for a wall is one of wall, planes and farfield: the aircraft becomes a cavity of a body as large as the domain.
@@ -147,7 +147,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
                       .quality = mesh.check ? to_json(*mesh.check) : std::string()},
                      path, part);
   } else {
-    io::write_volume_file(mesh.mesh, path, part);
+    io::write_volume_file(mesh.mesh, given, part);  // its slash tells a folder that is still to be made
   }
   write_manifest(mesh, path, context);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "geom/base/schema.h"
 #include "io/field/point_field.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/values/verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/geometry_verbs.h"
 
@@ -72,6 +74,9 @@ constexpr std::array<KindOfSource, 6> k_source_kinds = {{
     {SourceKind::wake, "wake", 2, " size size_end length height spread ",
      "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }"},
 }};
+constexpr std::string_view k_wake_usage =
+    "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }  or, behind a surface,  wake{ wall, length "
+    "= 2 }";
 constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name = \"size\" }";
 
 /// "line takes two points, size, radius"
@@ -170,6 +175,48 @@ ScriptValue make_cylinder_or_source(const ScriptCall& call) {
   return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_cylinder(call) : make_cylinder_model(call);
 }
 
+ScriptValue point_value(const Vec3& p) { return std::make_shared<const ScriptTable>(ScriptTable{.items = {p.x, p.y, p.z}, .fields = {}, .other_keys = {}}); }
+
+/// wake{ wall, length = 2 }: the numbers follow from the surface, which is why it becomes the table of an ordinary wake.
+ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) {
+  const ScriptTable table = source_table(call);
+  TableReader reader(table, call.attempted());
+  BodyWake wake;
+  if (reader.items().size() > 1) reader.add_problem("takes one surface, or two points");
+  reader.read_options(sterna::options_of(wake));
+  Vec3 direction{1.0, 0.0, 0.0};
+  if (const auto given = read_point(reader, "direction")) direction = *given;
+  reader.finish();
+  SizeSource source;
+  try {
+    source = wake_behind(wall->mesh, wake, direction);
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.attempted = call.attempted();
+    throw Error(std::move(info));
+  }
+  ScriptTable made;
+  made.items = {point_value(source.from), point_value(source.to)};
+  made.fields["direction"] = point_value(source.direction);
+  for (const auto& [name, value] :
+       {std::pair{"length", source.length}, {"height", source.height}, {"spread", source.spread}, {"size", source.size}, {"size_end", source.size_end}})
+    made.fields[name] = value;
+  made.fields["shape"] = std::string("wake");
+  return std::make_shared<const ScriptTable>(std::move(made));
+}
+
+ScriptValue make_wake(const ScriptCall& call) {
+  const auto* table = call.arguments.empty() ? nullptr : std::get_if<TableHandle>(&call.arguments.front());
+  const auto* wall = table && !(*table)->items.empty() ? std::get_if<SurfaceHandle>(&(*table)->items.front()) : nullptr;
+  return wall ? make_wake_behind(call, *wall) : make_source_of_verb(call);
+}
+
+std::string wake_help() {
+  SourceNumbers numbers;
+  BodyWake wake;
+  return options_help(options_of(numbers, k_source_kinds[5])) + "behind a surface, wake{ wall, length = 2 }:\n" + options_help(sterna::options_of(wake));
+}
+
 /// Checked here, read by the verb that uses it.
 ScriptValue make_samples(const ScriptCall& call) {
   ScriptTable table;
@@ -213,8 +260,8 @@ constexpr std::array<ScriptVerb, 6> k_source_verbs = {{
     {"cylinder", k_source_kinds[4].usage,
      "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid cylinder.",
      make_cylinder_or_source, numbers_help<4>, false, "model"},
-    {"wake", k_source_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb,
-     numbers_help<5>, false, "source"},
+    {"wake", k_wake_usage, "Short edges behind a trailing edge, or behind a whole surface, for the sources of volume_mesh and surface_mesh.", make_wake,
+     wake_help, false, "source"},
     {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples,
      nullptr, false, "source"},
 }};
@@ -252,6 +299,11 @@ SizeSource source_of_text(const std::string& text) {
     std::vector<double> values;
     std::istringstream list(word.substr(equals + 1));
     for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value, unit_of_key(key)));
+    if (key == "from" || key == "to" || key == "center") {
+      if (values.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three coordinates"});
+      numbers.insert(key == "to" ? numbers.end() : numbers.begin(), values.begin(), values.end());
+      continue;
+    }
     ScriptValue& field = table.fields[key];
     if (values.size() == 1) field = values.front();
     else if (values.size() == 3) field = point_at(values[0], values[1], values[2]);
@@ -261,6 +313,67 @@ SizeSource source_of_text(const std::string& text) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "coordinates come in threes, not " + std::to_string(numbers.size())});
   for (std::size_t i = 0; i < numbers.size(); i += 3) table.items.push_back(point_at(numbers[i], numbers[i + 1], numbers[i + 2]));
   return source_of(table, *kind, attempted);
+}
+
+SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction) {
+  const std::string attempted = "placing a wake";
+  Box box;
+  for (const TriangleId t : wall.triangles.ids()) {
+    const PatchKind kind = wall.patches[wall.triangle_patch[t]].kind;
+    if (kind == PatchKind::inflow || kind == PatchKind::farfield)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = attempted,
+                   .problem = "the surface has a patch of kind " + std::string(to_string(kind)) + ", so it is more than a body",
+                   .hint = "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }"});
+    if (kind != PatchKind::wall) continue;
+    for (const VertexId v : wall.triangles[t]) box.add(wall.points[v]);
+  }
+  if (box.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the surface has no walls"});
+  if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "its direction has no length"});
+  // Across the flow: sideways, which of a flow straight up is along y, and upwards.
+  const Vec3 along = normalized(direction), sideways = cross(Vec3{0.0, 0.0, 1.0}, along);
+  const Vec3 across = norm(sideways) > 0.0 ? normalized(sideways) : Vec3{0.0, 1.0, 0.0}, up = cross(along, across);
+  const auto extent = [&](const Vec3& axis) {
+    const Vec3 half = 0.5 * (box.max - box.min);
+    return std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+  };
+  const double height = 2.0 * extent(up), body = box.longest_side();
+  constexpr double k_cells_over_height = 8.0, k_cells_over_length = 50.0;
+  SizeSource source{.kind = SourceKind::wake};
+  source.from = box.center() - extent(across) * across;
+  source.to = box.center() + extent(across) * across;
+  source.direction = along;
+  source.length = extent(along) + wake.length * body;
+  source.height = height;
+  source.spread = wake.spread;
+  source.size = is_automatic(wake.size) ? std::max(height / k_cells_over_height, body / k_cells_over_length) : wake.size;
+  source.size_end = is_automatic(wake.size_end) ? 2.0 * source.size : wake.size_end;
+  return source;
+}
+
+SizeSource wake_of_text(const std::string& text, const TriMesh& wall) {
+  const std::string attempted = "wake \"" + text + "\"";
+  BodyWake wake;
+  Vec3 direction{1.0, 0.0, 0.0};
+  const OptionTable table = sterna::options_of(wake);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos)
+      throw Error(
+          {.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + " is not NAME=VALUE", .hint = "such as --wake \"length=2 size=5cm\""});
+    const std::string value = word.substr(equals + 1);
+    if (word.substr(0, equals) != "direction") {
+      set_option_from_text(find_option(table, word.substr(0, equals), attempted), value);
+      continue;
+    }
+    std::vector<double> numbers;
+    std::istringstream list(value);
+    for (std::string number; std::getline(list, number, ',');) numbers.push_back(parse_number_with_unit(number, Unit::none));
+    if (numbers.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three numbers"});
+    direction = {numbers[0], numbers[1], numbers[2]};
+  }
+  return wake_behind(wall, wake, direction);
 }
 
 ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call, *kind_named("sphere")); }

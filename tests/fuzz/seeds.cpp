@@ -98,7 +98,7 @@ int write_seeds(const Target& target, const std::filesystem::path& folder, std::
     seeds.add(target.is_folder() ? scratch / "constant" / "polyMesh" : scratch / name);
     std::filesystem::remove_all(scratch);
   };
-  for (const std::string_view extension : words(target.is_folder() ? ".foam .bin.foam" : std::string_view(target.extensions))) {
+  for (const std::string_view extension : words(target.is_folder() ? ".text.foam .foam" : std::string_view(target.extensions))) {
     const std::string name = "x" + std::string(extension);
     if (target.model) break;
     for (const io::Format& format : io::formats()) {

@@ -280,7 +280,7 @@ TEST(Su2Config, half_models_count_half_the_area) {
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   std::string log;
   const RunContext context({.log = [&](LogLevel, std::string_view line) { log += line; }});
-  const std::string text = su2_config(mesh, {.mesh = "a.cgns"}, flow, {.area = 30.0}, {}, context);
+  const std::string text = su2_config(mesh, {.mesh = "a.cgns"}, {}, flow, {.area = 30.0}, {}, context);
   const auto keys = keys_of(text);
   EXPECT_EQ(keys.at("REF_AREA"), "15");
   EXPECT_EQ(keys.at("MARKER_SYM"), "( plane )");
@@ -290,20 +290,20 @@ TEST(Su2Config, half_models_count_half_the_area) {
   EXPECT_FALSE(keys.contains("MARKER_HEATFLUX"));
   EXPECT_THAT(log, HasSubstr("half of 30"));
   test::expect_error(ErrorCode::bad_argument, "a half model has no sideslip (beta)",
-                     [&] { (void)su2_config(mesh, {.mesh = "a.su2", .beta = 0.1}, flow, {.area = 30.0}, {}, context); });
+                     [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {.beta = 0.1}, flow, {.area = 30.0}, {}, context); });
 }
 
 TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
   const HybridMesh mesh = box_mesh({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
-  const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2", .solver = "RANS", .monitor = "floor"}, flow, {.area = 1.0}, {}, RunContext()));
+  const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, {.monitor = "floor"}, flow, {.area = 1.0}, {}, RunContext()));
   EXPECT_EQ(keys.at("MARKER_OUTLET"), "( outlet, 100000 )");
   const std::string inlet = keys.at("MARKER_INLET");
   EXPECT_THAT(inlet, AllOf(HasSubstr("( inlet, 294.79"), HasSubstr(", 1, 0, 0 )")));  // into the box; T0 = T + V^2 / (2 cp)
   EXPECT_EQ(keys.at("INIT_OPTION"), "TD_CONDITIONS");
   EXPECT_EQ(keys.at("MARKER_HEATFLUX"), "( floor, 0.0 )");
   test::expect_error(ErrorCode::bad_argument, "no wall is left whose forces count: name some with monitor", [&] {
-    (void)su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, flow, {.area = 1.0}, {}, RunContext());
+    (void)su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, {}, flow, {.area = 1.0}, {}, RunContext());
   });  // all walls are the tunnel's
 }
 
@@ -312,8 +312,8 @@ TEST(Su2Config, discs_need_what_they_do) {
       box_mesh({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
-                     [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {}, RunContext()); });
-  const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {{"prop", {.thrust = 50.0}}}, RunContext()));
+                     [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {}, RunContext()); });
+  const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 50.0}}}, RunContext()));
   EXPECT_EQ(keys.at("MARKER_ACTDISK"), "( prop, prop.back, 50, 0, 0, 50, 0, 0 )");
 }
 

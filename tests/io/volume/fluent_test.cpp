@@ -5,11 +5,11 @@
 
 #include "io/file/surface_file.h"
 #include "io/file/volume_file.h"
-#include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
+#include "tests/support/openfoam_tools.h"
 
 namespace sterna::io {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/io/volume/openfoam_tools.h"
 #include "tests/support/data.h"
+#include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
 
 namespace sterna::io {

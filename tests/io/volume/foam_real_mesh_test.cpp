@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "io/volume/sterna_file.h"
-#include "tests/io/volume/openfoam_tools.h"
 #include "tests/support/data.h"
+#include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
 #include "volmesh/envelope/classify.h"
 #include "volmesh/envelope/feature_angle.h"

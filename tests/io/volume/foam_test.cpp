@@ -3,11 +3,11 @@
 #include <fstream>
 
 #include "io/file/volume_file.h"
-#include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
+#include "tests/support/openfoam_tools.h"
 
 namespace sterna::io {
 namespace {
@@ -19,7 +19,7 @@ using test::write;
 
 TEST(Foam, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();
-  for (const std::string name : {"text.foam", "binary.bin.foam"}) {
+  for (const std::string name : {"text.foam", "binary.foam"}) {
     SCOPED_TRACE(name);
     std::filesystem::create_directories(folder / name);  // named as a file in it is
     for (const HybridMesh& mesh :
@@ -41,15 +41,16 @@ TEST(Foam, SamplesByteForByte) {
     EXPECT_EQ(mesh.patches[PatchId(0)], (Patch{"wall", PatchKind::wall}));
     EXPECT_EQ(read(samples / (body + ".foam") / "constant" / "polyMesh/").points, mesh.points);
     if (body == "mix4") continue;  // its cells are numbered by the generator: hexahedron, prism, pyramid, tetrahedron
-    write(mesh, folder / "out.foam");
-    EXPECT_EQ(test::all_bytes(folder / "constant"), test::all_bytes(samples / "pt.foam" / "constant"));
+    write(mesh, folder / "out.text.foam");
+    for (const char* const name : {"points", "faces", "owner", "neighbour"})
+      EXPECT_EQ(test::bytes_of(folder / "constant" / "polyMesh" / name), test::bytes_of(samples / "pt.foam" / "constant" / "polyMesh" / name));
   }
 }
 
 TEST(Foam, CheckMeshFindsNothing) {
   const auto folder = test::scratch();
   const HybridMesh mesh = test::six_patch_mesh();
-  for (const std::string name : {"text.foam", "binary.bin.foam"}) {
+  for (const std::string name : {"text.foam", "binary.foam"}) {
     test::make_foam_case(folder / name);
     write(mesh, folder / name);
     const auto output = test::run_openfoam("checkMesh", {"-case", name, "-allTopology", "-allGeometry"}, folder);
@@ -64,7 +65,7 @@ TEST(Foam, CheckMeshFindsNothing) {
 }
 
 TEST(Foam, HostileFiles) {
-  const auto scratch = test::scratch(), folder = scratch / "case.foam", poly = scratch / "constant" / "polyMesh";
+  const auto scratch = test::scratch(), folder = scratch / "case.text.foam", poly = scratch / "constant" / "polyMesh";
   write(test::hexahedron_with_roof(), folder);
   const auto wrong = [&](const std::string& file, const std::string& from, const std::string& to, const std::string& message,
                          ErrorCode code = ErrorCode::file_malformed) {
@@ -101,7 +102,7 @@ TEST(Foam, HostileFiles) {
 }
 
 TEST(Foam, NeverCrashesOnDamagedFiles) {
-  for (const std::string name : {"case.foam", "case.bin.foam"}) {
+  for (const std::string name : {"case.text.foam", "case.foam"}) {
     const auto scratch = test::scratch(), folder = scratch / name;
     write(test::hexahedron_with_roof(), folder);
     for (const std::string file : {"points", "faces", "owner", "neighbour", "boundary"}) {
@@ -127,7 +128,7 @@ TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
   const auto scratch = test::scratch();
   const auto poly_of = [](const std::filesystem::path& folder) { return folder / "constant" / "polyMesh"; };
   write(test::hexahedra_block(2), scratch / "case.foam");
-  EXPECT_THAT(test::files_in(scratch), testing::ElementsAre("case.foam", "constant"));
+  EXPECT_THAT(test::files_in(scratch), testing::ElementsAre("case.foam", "constant", "system"));
   EXPECT_EQ(std::filesystem::file_size(scratch / "case.foam"), 0u);
   EXPECT_EQ(read(scratch / "case.foam").points, read(poly_of(scratch)).points);
   test::expect_error(ErrorCode::file_not_found, "other.foam: there is no such file", [&] { read(scratch / "other.foam"); });
@@ -140,10 +141,29 @@ TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
   // A folder is a case whatever its name.
   std::filesystem::create_directories(scratch / "old.foam");
   write(test::hexahedra_block(2), scratch / "old.foam");
-  EXPECT_THAT(test::files_in(scratch / "old.foam"), testing::ElementsAre("constant"));
+  EXPECT_THAT(test::files_in(scratch / "old.foam"), testing::ElementsAre("constant", "system"));
   EXPECT_EQ(read(scratch / "old.foam").points, read(poly_of(scratch / "old.foam")).points);
   write_volume_file(test::hexahedra_block(2), scratch / "plain", RunContext({.threads = 2}), "OpenFOAM");
-  EXPECT_THAT(test::files_in(scratch / "plain"), testing::ElementsAre("constant"));
+  EXPECT_THAT(test::files_in(scratch / "plain"), testing::ElementsAre("constant", "system"));
+}
+
+/// What is written can be looked at by checkMesh at once; settings that are there stay, and a polyMesh alone is no case.
+TEST(Foam, FoldersOfCasesAreMade) {
+  const auto scratch = test::scratch();
+  for (const std::string name : {"case/", "case", "case"}) write(test::hexahedra_block(2), scratch / name);
+  EXPECT_THAT(test::files_in(scratch / "case"), testing::ElementsAre("constant", "system"));
+  EXPECT_EQ(read(scratch / "case").points, read(scratch / "case" / "").points);
+  std::ofstream(scratch / "case" / "system" / "controlDict") << "of the user";
+  write(test::hexahedra_block(2), scratch / "case" / "constant" / "polyMesh");
+  write(test::hexahedra_block(2), scratch / "case");
+  EXPECT_EQ(test::bytes_of(scratch / "case" / "system" / "controlDict"), "of the user");
+  write(test::hexahedra_block(2), scratch / "mesh" / "constant" / "polyMesh");
+  EXPECT_THAT(test::files_in(scratch / "mesh"), testing::ElementsAre("constant"));
+  test::expect_error(ErrorCode::unsupported_format, "its extension is not known", [&] { write(test::hexahedra_block(2), scratch / "nocase"); });
+  write(test::six_patch_mesh(), scratch / "looked_at/");
+  const auto output = test::run_openfoam("checkMesh", {"-case", "looked_at"}, scratch);
+  STERNA_NEEDS(output, "the Debian package openfoam");
+  EXPECT_THAT(*output, testing::HasSubstr("Mesh OK."));
 }
 
 TEST(Foam, TheOldFolderStaysUntilTheNewOneIsComplete) {

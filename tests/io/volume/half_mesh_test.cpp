@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "io/file/volume_file.h"
-#include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/half_shapes.h"
+#include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
 
 namespace sterna::io {

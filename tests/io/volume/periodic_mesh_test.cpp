@@ -5,12 +5,12 @@
 #include "geom/mesh/check.h"
 #include "geom/mesh/periodic.h"
 #include "io/file/volume_file.h"
-#include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
+#include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
 
 namespace sterna::io {

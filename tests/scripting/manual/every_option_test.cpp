@@ -62,8 +62,9 @@ const std::map<std::string, std::string> k_statements = {
     {"envelope.initial.total_height", "envelope.initial{ wall, class, layers = 5, first_height = 0.01, total_height = 0.3 }"},
     {"jobs.tasks", "jobs{ tasks = 3 }"},  // or as the one number without a name
     {"y_plus.y_plus", "y_plus{ y_plus = 2, reynolds = 5e6, length = 7 }"},
-    {"mesh:su2_config.mesh", "mesh:su2_config{ 'case.cfg', mesh = 'other.su2', reynolds = 5e6, length = 7, reference_area = 1 }"},
-    {"mesh:su2_config.wing", "mesh:su2_config{ 'case.cfg', wing = 'wing', reynolds = 5e6, length = 7, reference = main_wing }"},
+    {"mesh:su2_config.mesh", "mesh:su2_config{ 'case.cfg', mesh = 'other.su2', mach = 0.5, reynolds = 5e6, length = 7, reference_area = 1 }"},
+    {"mesh:su2_config.wing", "mesh:su2_config{ 'case.cfg', wing = 'wing', mach = 0.5, reynolds = 5e6, length = 7, reference = main_wing }"},
+    {"mesh:foam_case.wing", "mesh:foam_case{ 'case', wing = 'wing', reynolds = 5e6, length = 7, reference = main_wing }"},
     {"airfoil.points", "airfoil{ 'naca0012', points = 90 }"},
     {"surface.periodic_u", "surface{ function(u, v) return math.cos(2*math.pi*u), math.sin(2*math.pi*u), v end, u = {0, 1}, v = {0, 1}, periodic_u = true }"},
     {"surface.periodic_v", "surface{ function(u, v) return math.cos(2*math.pi*v), math.sin(2*math.pi*v), u end, u = {0, 1}, v = {0, 1}, periodic_v = true }"},
@@ -80,13 +81,14 @@ const std::map<std::string, std::string> k_statements = {
 };
 
 /// Flow conditions that go together.
-const std::vector<std::string> k_flows = {"mach = 0.5, altitude = 1000, temperature_offset = 10, length = 2",
-                                          "speed = 60, temperature = 293, pressure = 101325, length = 0.3",
-                                          "speed = 60, density = 1.2, viscosity = 1.8e-5, length = 0.3", "reynolds = 5e6, length = 7"};
+const std::vector<std::string> k_flows = {
+    "mach = 0.5, altitude = 1000, temperature_offset = 10, length = 2", "speed = 60, temperature = 293, pressure = 101325, length = 0.3",
+    "speed = 60, temperature = 293, density = 1.2, viscosity = 1.8e-5, length = 0.3", "reynolds = 5e6, temperature = 293, mach = 0.2, length = 7"};
 const std::map<std::string_view, std::string> k_flow_verbs = {{"flow", "flow{ "},
                                                               {"y_plus", "y_plus{ 1, "},
                                                               {"boundary_layer", "boundary_layer{ "},
-                                                              {"mesh:su2_config", "mesh:su2_config{ 'case.cfg', reference_area = 1, "}};
+                                                              {"mesh:su2_config", "mesh:su2_config{ 'case.cfg', reference_area = 1, "},
+                                                              {"mesh:foam_case", "mesh:foam_case{ 'case', reference_area = 1, "}};
 
 /// The statements in which an option may be set: the examples with it in their table.
 std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGroup& group, const OptionDoc& option) {

@@ -1,4 +1,4 @@
-#include "tests/io/volume/openfoam_tools.h"
+#include "tests/support/openfoam_tools.h"
 
 #include <algorithm>
 #include <cstdlib>

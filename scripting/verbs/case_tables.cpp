@@ -1,0 +1,96 @@
+#include "scripting/verbs/case_tables.h"
+
+#include <vector>
+
+#include "geom/base/error.h"
+#include "scripting/lua/component_value.h"
+#include "scripting/lua/script_check.h"
+#include "scripting/values/flow_verbs.h"
+#include "scripting/values/geometry_tools.h"
+#include "scripting/values/models.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// Area, mean chord and quarter-chord point of the wing called `name`, or of the largest.
+void take_wing(const std::vector<WingReference>& wings, const std::string& name, const std::string& why_none, CaseReference& reference, TableReader& reader) {
+  const WingReference* chosen = nullptr;
+  std::string names;
+  for (const WingReference& wing : wings) {
+    names += (names.empty() ? "" : ", ") + wing.name;
+    if (name.empty() ? !chosen || wing.area > chosen->area : wing.name == name) chosen = &wing;
+  }
+  if (!chosen) {
+    reader.add_problem(wings.empty() ? "reference: no reference data of wings" + (why_none.empty() ? std::string() : ": " + why_none) + "; give reference_area"
+                                     : "wing: there is no wing \"" + name + "\" (" + names + ")");
+    return;
+  }
+  reference.area = chosen->area;
+  reference.length = chosen->mean_aerodynamic_chord;
+  reference.moment_origin = chosen->aerodynamic_chord_start + Vec3{0.25 * chosen->mean_aerodynamic_chord, 0.0, 0.0};
+  reference.source = "wing \"" + chosen->name + "\"";
+}
+
+}  // namespace
+
+CaseReference read_case_reference(const ScriptCall& call, TableReader& reader, const CaseOptions& options) {
+  CaseReference reference;
+  if (const ScriptValue* value = reader.field("reference")) {
+    if (const auto* component = std::get_if<ComponentHandle>(value); component && std::holds_alternative<Wing>((*component)->shape)) {
+      take_wing({wing_reference(std::get<Wing>((*component)->shape))}, options.wing, {}, reference, reader);
+    } else if (is_stand_in(call, *value) && std::holds_alternative<ModelHandle>(*value)) {
+      reference.area = 1.0;  // its wings are not known yet
+    } else if (const auto* model = std::get_if<ModelHandle>(value)) {
+      const ModelReport report = measure_model(**model, call.session.context.part("reference", 0.0, 0.1));
+      take_wing(report.wings, options.wing, report.no_wings, reference, reader);
+    } else {
+      reader.add_problem("reference: expected an aircraft or a wing, not " + std::string(type_text(*value)));
+    }
+  }
+  if (!is_automatic(options.reference_area)) {
+    reference.area = options.reference_area;
+    reference.source.clear();
+  }
+  if (!is_automatic(options.reference_length)) reference.length = options.reference_length;
+  const auto origin = read_point(reader, "moment_origin");
+  if (origin) reference.moment_origin = *origin;
+  return reference;
+}
+
+CaseBoundaries read_case_boundaries(TableReader& reader) {
+  CaseBoundaries boundaries;
+  const ScriptValue* value = reader.field("boundaries");
+  if (!value) return boundaries;
+  const auto* table = std::get_if<TableHandle>(value);
+  if (!table || !(*table)->items.empty()) {
+    reader.add_problem("boundaries: expected a table by names of patches, { prop = { thrust = 800 } }");
+    return boundaries;
+  }
+  for (const auto& [name, entry] : (*table)->fields) {
+    const auto* of_patch = std::get_if<TableHandle>(&entry);
+    if (!of_patch) {
+      reader.add_problem("boundaries[\"" + name + "\"]: expected a table, not " + std::string(type_text(entry)));
+      continue;
+    }
+    TableReader entries(**of_patch, "boundaries");
+    entries.read_options(sterna::options_of(boundaries[name]));
+    try {
+      entries.finish();
+    } catch (const Error& error) {
+      reader.add_problem("boundaries[\"" + name + "\"]: " + error.info().problem);
+    }
+  }
+  return boundaries;
+}
+
+std::string solver_case_help() {
+  CaseOptions options;
+  CaseBoundary boundary;
+  volmesh::FlowConditions conditions;
+  return options_help(sterna::options_of(options)) + "the flow, by name or as the second entry, flow{...}:\n" + options_help(flow_options(conditions)) +
+         "reference = aircraft or wing: reference area, length and moment_origin (its quarter-chord point); moment_origin = {x, y, z}\nboundaries = { "
+         "[\"prop\"] = { ... } }, by names of inflows, outflows and actuator discs:\n" +
+         options_help(sterna::options_of(boundary));
+}
+
+}  // namespace sterna::scripting

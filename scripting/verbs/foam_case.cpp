@@ -1,0 +1,128 @@
+// Steps of foam_case: what flows (flow_of), what is solved (physics), what turbulence comes with it (free_stream), then fields and settings as text.
+#include "scripting/verbs/foam_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "geom/math/constants.h"
+#include "io/volume/volume_foam.h"
+#include "scripting/verbs/foam_setup.h"
+#include "volmesh/flow/standard_atmosphere.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_compressible_mach = 0.3;    ///< below, density changes by less than 5 %
+constexpr double k_supersonic_advice = 1.3;    ///< above, shocks are far from what a pressure-based steady solver converges with
+constexpr double k_viscosity_ratio_sst = 1.0;  ///< NASA's Turbulence Modeling Resource advises 0.01 to 10 for free streams
+constexpr double k_chi_of_free_stream = 3.0;   ///< nuTilda over nu: 3 to 5 by Spalart and Rumsey (2007), so that boundary layers are turbulent from the start
+constexpr double k_cv1 = 7.1;                  ///< of Spalart and Allmaras: nut = nuTilda chi^3 / (chi^3 + cv1^3)
+
+/// nuTilda over nu that gives this ratio of viscosities: the root of chi^4 = ratio (chi^3 + cv1^3), by Newton's method from above, where it is convex.
+double chi_of_ratio(double ratio) {
+  const double c = k_cv1 * k_cv1 * k_cv1;
+  double chi = ratio + k_cv1 + std::sqrt(std::sqrt(ratio * c));
+  for (int i = 0; i < 100; ++i) chi -= (chi * chi * chi * chi - ratio * (chi * chi * chi + c)) / (4.0 * chi * chi * chi - 3.0 * ratio * chi * chi);
+  return chi;
+}
+
+bool is_compressible(const FoamOptions& options, const volmesh::FlowState& flow) {
+  if (options.compressible != "automatic") return options.compressible == "yes";
+  return !is_automatic(flow.mach) && flow.mach >= k_compressible_mach;
+}
+
+/// Of a flow of which only the Reynolds number is known all speeds give the same coefficients.
+void complete_flow(FoamSetup& setup, const RunContext& context) {
+  volmesh::FlowState& flow = setup.flow;
+  if (is_automatic(flow.speed)) {
+    flow.speed = 1.0;
+    context.info("OpenFOAM: of the flow the Reynolds number is known alone, so its speed is taken as 1 m/s; coefficients do not depend on it");
+  }
+  setup.is_density_known = !is_automatic(flow.density);
+  setup.density = setup.is_density_known ? flow.density : 1.0;
+  setup.nu = flow.speed * flow.length / flow.reynolds;
+}
+
+void set_turbulence(FoamSetup& setup) {
+  const double given = setup.options.viscosity_ratio;
+  if (setup.model == "SpalartAllmaras") {
+    setup.nu_tilda = setup.nu * (is_automatic(given) ? k_chi_of_free_stream : chi_of_ratio(given));
+  } else if (setup.model == "kOmegaSST") {
+    setup.k = 1.5 * std::pow(setup.options.turbulence_intensity * setup.flow.speed, 2);
+    setup.omega = setup.k / (setup.nu * (is_automatic(given) ? k_viscosity_ratio_sst : given));
+  }
+}
+
+/// Of a tunnel along the inflow, else by the angles: x aft, z up.
+Vec3 direction_of(const HybridMesh& mesh, const CaseSite& site, const CaseOptions& common) {
+  if (site.is_tunnel)
+    for (const PatchId p : mesh.patches.ids())
+      if (mesh.patches[p].kind == PatchKind::inflow && site.facts[p].n_faces > 0) return inward_normal(site.facts[p]);
+  const double a = common.alpha, b = common.beta;
+  return {std::cos(a) * std::cos(b), clean_component(std::sin(b), 1.0), clean_component(std::sin(a) * std::cos(b), 1.0)};
+}
+
+void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& reference, const RunContext& context) {
+  std::string text = fmt::format("OpenFOAM: {}, {}, {} patches whose forces count", setup.application, setup.model, setup.monitored.size());
+  if (is_automatic(setup.area)) {
+    text += "; no reference area, so forces in N and no coefficients";
+  } else {
+    text +=
+        fmt::format(", reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", setup.area,
+                    site.is_half ? fmt::format(" (half of {:.6g}: half model)", reference.area) : "", reference.source.empty() ? "" : " of " + reference.source,
+                    setup.length, setup.moment_origin.x, setup.moment_origin.y, setup.moment_origin.z);
+  }
+  context.info(text);
+  if (!setup.is_density_known && !setup.is_compressible)
+    context.info("OpenFOAM: the density of the flow is not known, so forces are told for 1 kg/m^3; coefficients do not depend on it");
+  if (!is_automatic(setup.flow.mach) && setup.flow.mach > k_supersonic_advice)
+    context.warn(
+        fmt::format("OpenFOAM: Mach {:.3g} is above {}: {} solves for the pressure and may not converge with strong shocks; rhoCentralFoam runs in time",
+                    setup.flow.mach, k_supersonic_advice, setup.application));
+}
+
+}  // namespace
+
+void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flow, CaseProblems& problems) {
+  if (!is_compressible(options, flow)) return;
+  if (is_automatic(flow.temperature) || is_automatic(flow.pressure) || is_automatic(flow.speed))
+    problems.add(
+        std::string("the state of the gas cannot be known, which a compressible flow needs: give altitude, or temperature and pressure, with mach or speed") +
+        (options.compressible == "automatic" ? fmt::format(" (or compressible = \"no\"; from Mach {} on it is)", k_compressible_mach) : ""));
+}
+
+FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
+                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context) {
+  CaseProblems problems;
+  const CaseSite site = case_site(mesh, common, problems);
+  FoamSetup setup{.options = options, .common = common, .flow = flow};
+  setup.model = options.model != "automatic" ? options.model : site.has_layers ? "SpalartAllmaras" : "euler";
+  setup.is_viscous = setup.model != "euler";
+  setup.is_turbulent = setup.is_viscous && setup.model != "laminar";
+  setup.is_compressible = is_compressible(options, flow);
+  setup.application = std::string(setup.is_compressible ? "rho" : "") +
+                      (setup.is_compressible ? (options.steady ? "SimpleFoam" : "PimpleFoam") : (options.steady ? "simpleFoam" : "pimpleFoam"));
+  require_foam_flow(options, flow, problems);
+  complete_flow(setup, context);
+  set_turbulence(setup);
+  setup.velocity = setup.flow.speed * direction_of(mesh, site, common);
+  setup.area = reference_area(reference, site);
+  setup.length = reference_length(reference, setup.flow);
+  setup.moment_origin = moment_origin(reference, setup.flow);
+  const std::vector<std::string> names = io::foam_patch_names(mesh.patches, RunContext());
+  for (const PatchId p : site.monitored) setup.monitored.push_back(names[p.index()]);
+
+  FoamCase result{.application = setup.application, .files = {}, .joined = {}};
+  UsedBoundaries used(boundaries);
+  result.files = foam_fields(mesh, site, names, setup, used, result.joined, problems);
+  used.require_used(problems);
+  problems.require_none("making a case of OpenFOAM");
+  for (CaseFile& file : foam_settings(setup)) result.files.push_back(std::move(file));
+  tell(setup, site, reference, context);
+  return result;
+}
+
+}  // namespace sterna::scripting

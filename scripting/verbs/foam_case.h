@@ -1,0 +1,108 @@
+// A case of OpenFOAM (1912 and newer) for a mesh: fields with their conditions by the kinds of patches, models, schemes, reference values and what to run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/hybrid_mesh.h"
+#include "scripting/verbs/solver_case.h"
+#include "volmesh/flow/flow_state.h"
+
+namespace sterna::scripting {
+
+struct FoamOptions {
+  std::string model = "automatic";
+  bool steady = true;
+  std::string compressible = "automatic";
+  double turbulence_intensity = 0.001;
+  double viscosity_ratio = k_automatic;
+  double residual = 1e-6;
+  double end_time = k_automatic;
+  double courant = 2.0;
+  int tasks = 1;
+  int write_interval = 500;
+  std::string format = "binary";
+  std::string numbering = "both";
+};
+
+struct CaseFile {
+  std::filesystem::path path;  ///< in the case's folder
+  std::string text;
+  bool is_program = false;
+};
+
+/// All of a case but its polyMesh.
+struct FoamCase {
+  std::string application;  ///< "simpleFoam"
+  std::vector<CaseFile> files;
+  std::vector<PeriodicSides> joined;  ///< sides of actuator discs, which are to be cyclic patches
+};
+
+/// Solvers: simpleFoam, pimpleFoam, and where compressible rhoSimpleFoam, rhoPimpleFoam. Walls: no slip, without viscosity (euler) slip; slip and symmetry by
+/// their kinds; farfield: free stream or extrapolation by the direction of the flow through each face; inflow and outflow of tunnels (no farfield): speed and
+/// pressure of the flow, along the patch's normal; of bodies in a farfield, and actuator discs: as `boundaries` says. Forces are counted on all walls but those
+/// of tunnels; half models: half the area; without a reference area only forces, no coefficients. A flow of which only the Reynolds number is known gets a
+/// speed of 1 m/s. What was decided goes to the log.
+/// \throws Error(bad_argument) with everything that cannot be known from the mesh and what was given
+FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
+                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context);
+
+/// What a case needs of the flow, whatever the mesh is: problems for the reader of a table, before meshing.
+void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flow, CaseProblems& problems);
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::FoamOptions> {
+  using O = scripting::FoamOptions;
+  static constexpr std::string_view stage = "foam_case";
+  static constexpr std::array fields = {
+      Field<O>{.name = "model",
+               .member = &O::model,
+               .help = "of turbulence; automatic: SpalartAllmaras where the mesh has layers, else euler (no viscosity)",
+               .choices = "automatic laminar euler SpalartAllmaras kOmegaSST"},
+      Field<O>{.name = "steady", .member = &O::steady, .help = "false: in time, second order, with steps by `courant`"},
+      Field<O>{.name = "compressible",
+               .member = &O::compressible,
+               .help = "rhoSimpleFoam instead of simpleFoam; automatic: from Mach 0.3 on",
+               .choices = "automatic yes no"},
+      Field<O>{.name = "turbulence_intensity",
+               .member = &O::turbulence_intensity,
+               .min = 1e-6,
+               .max = 1.0,
+               .help = "of the free stream, over its speed (kOmegaSST)"},
+      Field<O>{.name = "viscosity_ratio",
+               .member = &O::viscosity_ratio,
+               .min = 1e-6,
+               .max = 1e5,
+               .help = "of the free stream: turbulent over molecular viscosity",
+               .automatic = "0.21 with SpalartAllmaras, which is nuTilda 3 nu; 1 with kOmegaSST"},
+      Field<O>{.name = "residual", .member = &O::residual, .min = 1e-14, .max = 1.0, .help = "a steady run ends when all initial residuals are below"},
+      Field<O>{.name = "end_time",
+               .member = &O::end_time,
+               .unit = Unit::second,
+               .min = 1e-9,
+               .max = 1e9,
+               .help = "of a run in time",
+               .automatic = "20 lengths of the flow at its speed"},
+      Field<O>{.name = "courant", .member = &O::courant, .min = 0.01, .max = 1000.0, .help = "largest Courant number of a run in time"},
+      Field<O>{.name = "tasks",
+               .member = &O::tasks,
+               .min = 1,
+               .max = 1000000,
+               .help = "processes: decomposeParDict, and Allrun decomposes, runs with mpirun and reconstructs; 1: none of it"},
+      Field<O>{.name = "write_interval", .member = &O::write_interval, .min = 1, .max = 100000000, .help = "iterations or steps from one result to the next"},
+      Field<O>{.name = "format", .member = &O::format, .help = "of mesh and results", .choices = "binary text"},
+      Field<O>{.name = "numbering",
+               .member = &O::numbering,
+               .help = "of cells and nodes: columns and lines first, as they are made; neighbours near each other; or both, lines whole in such an order",
+               .choices = "lines bandwidth both"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,223 @@
+// constant/, system/ and Allrun of a case of OpenFOAM. Every scheme has its reason beside it in the file: docs/verification.md has the figures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/volume/volume_foam.h"
+#include "scripting/verbs/foam_setup.h"
+#include "volmesh/flow/standard_atmosphere.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_prandtl = 0.72;          ///< of air
+constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
+constexpr double k_first_step = 1e-3;       ///< of a run in time, over length and speed; afterwards steps follow from the Courant number
+constexpr double k_transonic = 0.6;         ///< from here on the pressure equation has its convective part
+
+std::string dictionary(std::string_view object, std::string_view location, const std::string& text) {
+  return io::foam_header(object, "dictionary", location) + text;
+}
+
+std::string words(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& word : list) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+/// The factors of a number of tasks in three directions, as equal as they can be, the largest first.
+std::array<int, 3> split_tasks(int n) {
+  std::array<int, 3> best = {n, 1, 1};
+  for (int a = 1; a * a * a <= n; ++a) {
+    if (n % a != 0) continue;
+    for (int b = a; a * b * b <= n; ++b)
+      if ((n / a) % b == 0) best = {n / a / b, b, a};
+  }
+  return best;
+}
+
+class FoamSettings {
+ public:
+  explicit FoamSettings(const FoamSetup& setup) : s_(setup), is_steady_(setup.options.steady) {}
+
+  std::vector<CaseFile> files() const {
+    std::vector<CaseFile> all;
+    const auto add = [&](const std::string& folder, const std::string& name, const std::string& text) {
+      all.push_back({.path = folder + "/" + name, .text = dictionary(name, folder, text)});
+    };
+    if (s_.is_compressible) add("constant", "thermophysicalProperties", gas());
+    else add("constant", "transportProperties", "transportModel Newtonian;\nnu " + case_number(s_.is_viscous ? s_.nu : 0.0) + ";\n");
+    add("constant", "turbulenceProperties", turbulence());
+    add("system", "controlDict", control());
+    add("system", "fvSchemes", schemes());
+    add("system", "fvSolution", solution());
+    add("system", "decomposeParDict", decomposition());
+    all.push_back({.path = "Allrun", .text = run_script(), .is_program = true});
+    all.push_back({.path = "Allclean", .text = clean_script(), .is_program = true});
+    return all;
+  }
+
+ private:
+  std::string turbulence() const {
+    if (!s_.is_turbulent) return "simulationType laminar;\n";
+    return "simulationType RAS;\nRAS\n{\n    RASModel " + s_.model + ";\n    turbulence on;\n    printCoeffs on;\n}\n";
+  }
+
+  std::string gas() const {
+    const double cp = volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0) * volmesh::k_gas_constant;
+    const double mu = s_.nu * s_.density;
+    // A viscosity of the user's own is constant; air's follows Sutherland.
+    constexpr double k_same = 1e-3;
+    const bool is_air = std::abs(mu - volmesh::viscosity_of_air(s_.flow.temperature)) <= k_same * mu;
+    const bool is_sutherland = s_.is_viscous && is_air;
+    return std::string("thermoType\n{\n    type hePsiThermo;\n    mixture pureMixture;\n    transport ") + (is_sutherland ? "sutherland" : "const") +
+           ";\n    thermo hConst;\n    equationOfState perfectGas;\n    specie specie;\n    energy sensibleInternalEnergy;\n}\n\nmixture\n{\n    specie { "
+           "molWeight 28.9644; }\n    thermodynamics { Cp " +
+           case_number(cp) + "; Hf 0; }\n    transport { " +
+           (is_sutherland ? "As 1.458e-06; Ts 110.4; Pr " : "mu " + case_number(s_.is_viscous ? mu : 0.0) + "; Pr ") + case_number(k_prandtl) + "; }\n}\n";
+  }
+
+  std::string forces(const std::string& name, const std::string& type, const std::string& more) const {
+    return "    " + name + "\n    {\n        type " + type +
+           ";\n        libs (forces);\n        writeControl timeStep;\n        writeInterval 1;\n        log no;\n" + "        patches (" +
+           words(s_.monitored) + ");\n        rho " + (s_.is_compressible ? "rho" : "rhoInf") + ";\n        rhoInf " + case_number(s_.density) +
+           ";\n        CofR " + foam_vector(s_.moment_origin) + ";\n" + more + "    }\n";
+  }
+
+  std::string control() const {
+    const double step = k_first_step * s_.flow.length / s_.flow.speed;
+    const double end = is_automatic(s_.options.end_time) ? k_lengths_in_time * s_.flow.length / s_.flow.speed : s_.options.end_time;
+    std::string text = "application " + s_.application + ";\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime " +
+                       (is_steady_ ? std::to_string(s_.common.iterations) : case_number(end)) + ";\ndeltaT " + (is_steady_ ? "1" : case_number(step)) +
+                       ";\nwriteControl timeStep;\nwriteInterval " +
+                       std::to_string(std::min(s_.options.write_interval, is_steady_ ? s_.common.iterations : s_.options.write_interval)) +
+                       ";\npurgeWrite 2;\nwriteFormat " + (s_.options.format == "binary" ? "binary" : "ascii") +
+                       ";\nwritePrecision 12;\ntimePrecision 12;\nrunTimeModifiable true;\n";
+    if (!is_steady_) text += "adjustTimeStep yes;\nmaxCo " + case_number(s_.options.courant) + ";\n";
+    text += "\nfunctions\n{\n" + forces("forces", "forces", "");
+    if (!is_automatic(s_.area)) {
+      const Vec3 drag = normalized(s_.velocity);
+      // Lift stands on the flow, in the plane of x and z; moments nose-up.
+      const Vec3 lift = std::hypot(drag.x, drag.z) > 0.0 ? normalized(Vec3{-drag.z, 0.0, drag.x}) : Vec3{0.0, 0.0, 1.0};
+      text += forces("forceCoeffs", "forceCoeffs",
+                     "        dragDir " + foam_vector({clean_component(drag.x, 1.0), clean_component(drag.y, 1.0), clean_component(drag.z, 1.0)}) +
+                         ";\n        liftDir " + foam_vector({clean_component(lift.x, 1.0), 0.0, clean_component(lift.z, 1.0)}) +
+                         ";\n        pitchAxis (0 1 0);\n        magUInf " + case_number(s_.flow.speed) + ";\n        lRef " + case_number(s_.length) +
+                         ";\n        Aref " + case_number(s_.area) + ";\n");
+    }
+    if (s_.is_viscous)
+      text +=
+          "    yPlus\n    {\n        type yPlus;\n        libs (fieldFunctionObjects);\n        writeControl writeTime;\n    }\n    wallShearStress\n    {\n   "
+          "     type "
+          "wallShearStress;\n        libs (fieldFunctionObjects);\n        writeControl writeTime;\n    }\n";
+    text += "    residuals\n    {\n        type solverInfo;\n        libs (utilityFunctionObjects);\n        fields (" + solved() + ");\n    }\n";
+    return text + "}\n";
+  }
+
+  /// The fields with an equation.
+  std::string solved() const {
+    std::string text = "p U";
+    if (s_.is_compressible) text += " e";
+    if (s_.model == "SpalartAllmaras") text += " nuTilda";
+    if (s_.model == "kOmegaSST") text += " k omega";
+    return text;
+  }
+
+  std::string schemes() const {
+    const std::string bounded = is_steady_ ? "bounded " : "";
+    std::string text =
+        std::string("ddtSchemes { default ") + (is_steady_ ? "steadyState" : "backward") + "; }\n\n" +
+        "// Least squares over all cells that share a point. Gauss linear is not exact for linear fields on tetrahedra and on prisms over curved walls:\n"
+        "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n"
+        "gradSchemes { default pointCellsLeastSquares; }\n\n";
+    text +=
+        "// Second order upwind for the velocity; of compressible flow along its steepest direction, without which a start from uniform flow diverges. "
+        "Turbulence is limited, so that it stays positive, as first order is only where it has to be.\n"
+        "divSchemes\n{\n    default none;\n    div(phi,U) " +
+        bounded + (s_.is_compressible ? "Gauss linearUpwindV grad(U);\n" : "Gauss linearUpwind grad(U);\n");
+    if (s_.is_compressible) {
+      text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
+              "Gauss limitedLinear 1;\n    div(phid,p) Gauss upwind;\n    div((phi|interpolate(rho)),p) " + bounded +
+              "Gauss upwind;\n    div(phiv,p) Gauss limitedLinear 1;\n    div(((rho*nuEff)*dev2(T(grad(U))))) Gauss linear;\n";
+    } else {
+      text += "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n    div(div(phi,U)) Gauss linear;\n";
+    }
+    for (const char* const name : {"nuTilda", "k", "omega"})
+      if (solved().find(name) != std::string::npos) text += std::string("    div(phi,") + name + ") " + bounded + "Gauss limitedLinear 1;\n";
+    text +=
+        "}\n\n// Corrected in full: where faces lean by more than 80 degrees and a run diverges, \"limited corrected 0.5\" holds the correction below the "
+        "rest.\n"
+        "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }\n";
+    if (s_.is_turbulent) text += "wallDist { method meshWave; }\n";
+    return text;
+  }
+
+  std::string solution() const {
+    const std::string tolerance = case_number(std::min(1e-8, 0.01 * s_.options.residual));
+    const std::string smooth = "{ solver smoothSolver; smoother symGaussSeidel; tolerance " + tolerance + "; relTol 0.1; maxIter 20; }\n";
+    const std::string multigrid = "{ solver GAMG; smoother GaussSeidel; tolerance " + tolerance + "; relTol 0.05; }\n";
+    const std::string krylov = "{ solver PBiCGStab; preconditioner DILU; tolerance " + tolerance + "; relTol 0.1; }\n";
+    const bool is_transonic = s_.is_compressible && s_.flow.mach >= k_transonic;
+    std::string text = "solvers\n{\n    p " + (is_transonic ? krylov : multigrid) + "    Phi " + multigrid + "    \"(U|e|nuTilda|k|omega)\" " +
+                       (s_.is_compressible ? krylov : smooth);
+    if (!is_steady_) {
+      text += "    pFinal { $p; relTol 0; }\n    \"(U|e|nuTilda|k|omega)Final\" { $U; relTol 0; }\n";
+      if (s_.is_compressible) text += "    \"rho.*\" { solver diagonal; }\n";
+    }
+    text += "}\n\npotentialFlow { nNonOrthogonalCorrectors 20; PhiRefCell 0; PhiRefValue 0; }\n\n";
+    const std::string limits =
+        s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (is_transonic ? "yes" : "no") + ";\n" : "";
+    const std::string reference = "    pRefCell 0;\n    pRefValue " + (s_.is_compressible ? case_number(s_.flow.pressure) : std::string("0")) + ";\n";
+    if (!is_steady_)
+      return text + "PIMPLE\n{\n    nOuterCorrectors 2;\n    nCorrectors 2;\n    nNonOrthogonalCorrectors 1;\n    consistent yes;\n" + limits + reference +
+             "}\n";
+    std::string controls;
+    std::string fields = solved() + " ";
+    for (std::size_t at = 0, end = fields.find(' '); end != std::string::npos; at = end + 1, end = fields.find(' ', at))
+      controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.options.residual) + ";\n";
+    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") + ";\n    nNonOrthogonalCorrectors 0;\n" + limits + reference +
+            "    residualControl\n    {\n" + controls + "    }\n}\n\n";
+    return text + (s_.is_compressible
+                       ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
+                       : "relaxationFactors\n{\n    equations { p 1; U 0.8; \"(nuTilda|k|omega)\" 0.7; }\n}\n");
+  }
+
+  std::string decomposition() const {
+    const auto n = split_tasks(s_.options.tasks);
+    return "numberOfSubdomains " + std::to_string(s_.options.tasks) +
+           ";\n// By coordinates, because not every OpenFOAM has scotch (Debian's has not); where it is there, \"method scotch;\" has the smaller interfaces.\n"
+           "method hierarchical;\nhierarchicalCoeffs { n (" +
+           std::to_string(n[0]) + " " + std::to_string(n[1]) + " " + std::to_string(n[2]) + "); order xyz; }\ncoeffs { n (" + std::to_string(n[0]) + " " +
+           std::to_string(n[1]) + " " + std::to_string(n[2]) + "); order xyz; }\n";
+  }
+
+  std::string run_script() const {
+    const bool is_parallel = s_.options.tasks > 1;
+    std::string text = "#!/bin/sh\n# Written by sterna " STERNA_VERSION ". Flow: " + describe(s_.flow) +
+                       "\ncd \"$(dirname \"$0\")\" || exit 1\n"
+                       "# Packages of Debian have no script that sets it.\n[ -n \"$WM_PROJECT_DIR\" ] || { [ -d /usr/share/openfoam ] && export "
+                       "WM_PROJECT_DIR=/usr/share/openfoam; }\n"
+                       "run() { name=$1; shift; echo \"running $name\"; \"$@\" > \"log.$name\" 2>&1 || { tail -n 30 \"log.$name\"; echo \"$name failed, see "
+                       "log.$name\"; exit 1; }; "
+                       "}\n\n# From uniform flow. potentialFoam runs, too, but what fvc::reconstruct makes of its fluxes is wrong in Debian's OpenFOAM 1912.\n";
+    if (!is_parallel) return text + "run " + s_.application + " " + s_.application + "\n";
+    return text + "run decomposePar decomposePar -force\nrun " + s_.application + " mpirun -np " + std::to_string(s_.options.tasks) + " " + s_.application +
+           " -parallel\nrun reconstructPar reconstructPar -latestTime\n";
+  }
+
+  std::string clean_script() const {
+    return "#!/bin/sh\n# Results and logs; 0/, constant/ and system/ stay.\ncd \"$(dirname \"$0\")\" || exit 1\nrm -rf log.* postProcessing processor[0-9]* "
+           "[1-9]* 0.[0-9]* [0-9]*e-[0-9]*\n";
+  }
+
+  const FoamSetup& s_;
+  bool is_steady_;
+};
+
+}  // namespace
+
+std::vector<CaseFile> foam_settings(const FoamSetup& setup) { return FoamSettings(setup).files(); }
+
+}  // namespace sterna::scripting

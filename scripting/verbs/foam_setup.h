@@ -1,0 +1,42 @@
+// What foam_case has decided before it writes: shared by its fields (foam_fields.cpp) and its settings (foam_settings.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scripting/verbs/foam_case.h"
+
+namespace sterna::scripting {
+
+struct FoamSetup {
+  FoamOptions options;
+  CaseOptions common;
+  volmesh::FlowState flow;  ///< with speed and viscosity
+  std::string model;        ///< "euler", "laminar", "SpalartAllmaras", "kOmegaSST"
+  bool is_compressible = false;
+  bool is_viscous = false;
+  bool is_turbulent = false;
+  double nu = 0.0;       ///< m^2/s, kinematic viscosity
+  double density = 1.0;  ///< kg/m^3, that forces are told with
+  bool is_density_known = false;
+  Vec3 velocity;                       ///< m/s, of the free stream
+  double nu_tilda = 0.0;               ///< m^2/s
+  double k = 0.0;                      ///< m^2/s^2
+  double omega = 0.0;                  ///< 1/s
+  double area = k_automatic;           ///< m^2, reference; automatic: no coefficients
+  double length = 0.0;                 ///< m, reference
+  Point moment_origin;                 ///< m
+  std::vector<std::string> monitored;  ///< names of patches
+  std::string application;
+};
+
+/// The files of 0/: one for each field that the solver reads. \p used notes which conditions were asked for.
+std::vector<CaseFile> foam_fields(const HybridMesh& mesh, const CaseSite& site, const std::vector<std::string>& names, const FoamSetup& setup,
+                                  UsedBoundaries& boundaries, std::vector<PeriodicSides>& joined, CaseProblems& problems);
+/// constant/ but the mesh, system/, Allrun, Allclean.
+std::vector<CaseFile> foam_settings(const FoamSetup& setup);
+
+/// "(1 0 0)"
+std::string foam_vector(const Vec3& v);
+
+}  // namespace sterna::scripting

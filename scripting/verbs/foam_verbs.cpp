@@ -1,0 +1,130 @@
+#include "scripting/verbs/foam_verbs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "geom/base/error.h"
+#include "geom/mesh/numbering.h"
+#include "io/output/atomic_file.h"
+#include "io/output/atomic_folder.h"
+#include "io/volume/volume_foam.h"
+#include "scripting/lua/script_check.h"
+#include "scripting/lua/verb_tools.h"
+#include "scripting/values/flow_verbs.h"
+#include "scripting/values/manifest.h"
+#include "scripting/values/verbs.h"
+#include "scripting/verbs/case_tables.h"
+#include "scripting/verbs/foam_case.h"
+#include "volmesh/case/size_sources.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::string_view k_proof = "system/controlDict";  ///< of a case
+
+/// A case that was run holds what took hours: it is not replaced.
+void require_no_results(const std::filesystem::path& folder, const std::string& attempted) {
+  std::vector<std::string> results;
+  std::error_code status;  // of a folder that is not there: there are no results
+  for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_time = name != "0" && std::ranges::all_of(name, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == 'e' || c == '-'; });
+    if (entry.is_directory(status) && (is_time || name == "postProcessing" || name.starts_with("processor"))) results.push_back(name);
+  }
+  if (results.empty()) return;
+  throw Error({.code = ErrorCode::write_failed,
+               .attempted = attempted,
+               .problem = "the case " + folder.string() + " has results (" + *std::ranges::min_element(results) + "), which a new one would replace",
+               .hint = "remove them with its Allclean, or choose another name"});
+}
+
+/// Cells whose middle lies in a region of short edges: for cellZones, as sources of momentum and for pictures.
+std::vector<io::FoamZone> zones_of(const HybridMesh& mesh, const std::vector<volmesh::SizeSource>& sources) {
+  std::vector<io::FoamZone> zones;
+  for (const volmesh::SizeSource& source : sources) {
+    if (volmesh::volume_of(source) <= 0.0) continue;
+    // The size at a place is that of the region inside of it only, where sizes grow so fast that everything outside is larger.
+    constexpr double k_steep = 1e6;
+    io::FoamZone zone{.name = "source_" + std::to_string(zones.size() + 1) + "_" + std::string(to_string(source.kind)), .cells = {}};
+    const double largest = std::max(source.size, source.size_end) * (1.0 + 1e-9);
+    std::uint32_t number = 0;
+    for_each_cell(mesh, [&](const Cell& cell) {
+      Vec3 middle;
+      for (const NodeId node : cell.span()) middle += mesh.points[node];
+      middle = (1.0 / static_cast<double>(cell.span().size())) * middle;
+      if (volmesh::size_of(source, middle, k_steep) <= largest) zone.cells.push_back(number);
+      ++number;
+    });
+    zones.push_back(std::move(zone));
+  }
+  return zones;
+}
+
+void write_case(const MeshValue& mesh, const FoamCase& files, const FoamOptions& options, const std::filesystem::path& path, const RunContext& context) {
+  const Numbering numbering = numbering_of(options.numbering);
+  // Nodes by lines also where cells are not: what the mesh knows of its columns stays, and solvers with values in cells hardly feel the nodes.
+  const HybridMesh numbered = renumbered(mesh.mesh, numbering == Numbering::lines ? numbering : Numbering::both, context);
+  const auto zones = zones_of(numbered, mesh.origin ? mesh.origin->options.sources : std::vector<volmesh::SizeSource>{});
+  io::AtomicFolder folder(path, k_proof);
+  const std::filesystem::path polymesh = folder.path() / "constant" / "polyMesh";
+  std::filesystem::create_directories(polymesh);
+  io::write_polymesh(numbered, polymesh, {.is_binary = options.format == "binary", .numbering = numbering, .zones = zones, .joined = files.joined}, context);
+  for (const CaseFile& file : files.files) {
+    std::filesystem::create_directories((folder.path() / file.path).parent_path());
+    io::write_whole(folder.path() / file.path, file.text);
+    if (file.is_program)
+      std::filesystem::permissions(folder.path() / file.path,
+                                   std::filesystem::perms::owner_exec | std::filesystem::perms::group_exec | std::filesystem::perms::others_exec,
+                                   std::filesystem::perm_options::add);
+  }
+  io::write_whole(folder.path() / (path.filename().string() + ".foam"), "");  // by which ParaView opens it
+  io::write_whole(folder.path() / "mesh.json", manifest_json(mesh, path, context.seed()));
+  folder.commit();
+}
+
+}  // namespace
+
+ScriptValue write_foam_case(const ScriptCall& call) {
+  const MeshHandle& mesh = self<MeshHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_foam_case_usage);
+  TableReader reader(table, call.attempted());
+  FoamOptions options;
+  CaseOptions common;
+  reader.read_options(sterna::options_of(options));
+  reader.read_options(sterna::options_of(common));
+  const auto flow = read_flow(reader, 1);
+  const auto* name = reader.items().empty() ? nullptr : std::get_if<std::string>(&reader.items().front());
+  if (!name) reader.add_problem("entry 1: expected the name of the folder of the case, \"case\"");
+  const CaseReference reference = read_case_reference(call, reader, common);
+  const CaseBoundaries boundaries = read_case_boundaries(reader);
+  CaseProblems of_flow;
+  if (flow) require_foam_flow(options, *flow, of_flow);
+  for (const std::string& problem : of_flow.all()) reader.add_problem(problem);
+  std::filesystem::path path;
+  if (name) {
+    path = output_path(call, *name);
+    if (!path.has_filename()) path = path.parent_path();  // a folder may end in a slash
+    note_output(call, path);
+    require_no_results(path, call.attempted());
+  }
+  reader.finish();
+  const RunContext part = call.session.context.part("foam_case", 0.0, 1.0);
+  FoamCase files;
+  try {
+    files = foam_case(mesh->mesh, options, common, *flow, reference, boundaries, part);
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.attempted = call.attempted();
+    throw Error(std::move(info));
+  }
+  write_case(*mesh, files, options, path, part);
+  part.info("wrote the case " + path.string() + " for " + files.application + ": run " + (path / "Allrun").string());
+  return mesh;
+}
+
+std::string foam_case_help() {
+  FoamOptions options;
+  return options_help(sterna::options_of(options)) + solver_case_help();
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,168 @@
+#include "scripting/verbs/solver_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_straight = 1e-9;  ///< rad: smaller angles of the flow are zero
+
+Column<PatchId, PatchFacts> facts_of(const HybridMesh& mesh) {
+  Column<PatchId, PatchFacts> facts(mesh.patches.size());
+  const auto add = [&](PatchId patch, const Vec3& area) {
+    ++facts[patch].n_faces;
+    facts[patch].area = facts[patch].area + area;
+    facts[patch].size += norm(area);
+  };
+  for (const BoundaryTriangle& f : mesh.boundary_triangles) {
+    const Point &a = mesh.points[f.nodes[0]], &b = mesh.points[f.nodes[1]], &c = mesh.points[f.nodes[2]];
+    add(f.patch, 0.5 * cross(b - a, c - a));
+  }
+  for (const BoundaryQuad& f : mesh.boundary_quads) {
+    const Point &a = mesh.points[f.nodes[0]], &b = mesh.points[f.nodes[1]], &c = mesh.points[f.nodes[2]], &d = mesh.points[f.nodes[3]];
+    add(f.patch, 0.5 * cross(c - a, d - b));
+  }
+  return facts;
+}
+
+/// Patches with a node on an inflow or outflow.
+std::set<PatchId> beside_openings(const HybridMesh& mesh) {
+  const auto is_opening = [&](PatchId p) { return mesh.patches[p].kind == PatchKind::inflow || mesh.patches[p].kind == PatchKind::outflow; };
+  std::vector<std::uint8_t> is_on(mesh.points.size(), 0);
+  const auto for_each_face = [&](const auto& f) {
+    for (const BoundaryTriangle& face : mesh.boundary_triangles) f(face.patch, std::span<const NodeId>(face.nodes));
+    for (const BoundaryQuad& face : mesh.boundary_quads) f(face.patch, std::span<const NodeId>(face.nodes));
+  };
+  for_each_face([&](PatchId patch, std::span<const NodeId> nodes) {
+    if (is_opening(patch))
+      for (const NodeId node : nodes) is_on[node.index()] = 1;
+  });
+  std::set<PatchId> result;
+  for_each_face([&](PatchId patch, std::span<const NodeId> nodes) {
+    if (!is_opening(patch) && std::ranges::any_of(nodes, [&](NodeId node) { return is_on[node.index()] != 0; })) result.insert(patch);
+  });
+  return result;
+}
+
+void find_half(const CaseOptions& options, int n_symmetry, CaseSite& site, CaseProblems& problems) {
+  site.is_half = options.half == "yes" || (options.half == "automatic" && n_symmetry > 0);
+  if (options.half == "automatic" && n_symmetry > 1)
+    problems.add(
+        fmt::format("the mesh has {} symmetry planes: is it a half model? give half = \"yes\" or \"no\", and the reference area accordingly", n_symmetry));
+  if (site.is_half && std::abs(options.beta) > k_straight) problems.add("a half model has no sideslip (beta)");
+  if (site.is_tunnel && (std::abs(options.alpha) > k_straight || std::abs(options.beta) > k_straight))
+    problems.add("in a tunnel the model is turned, not the flow: leave alpha and beta out");
+}
+
+void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite& site, CaseProblems& problems) {
+  const std::set<PatchId> of_tunnel = site.is_tunnel ? beside_openings(mesh) : std::set<PatchId>{};
+  std::vector<std::string> patterns;
+  std::istringstream words(options.monitor);
+  for (std::string word; words >> word;) patterns.push_back(word);
+  for (const PatchId p : mesh.patches.ids()) {
+    if (site.facts[p].n_faces == 0 || is_periodic(mesh, p)) continue;
+    if (patterns.empty() && mesh.patches[p].kind == PatchKind::wall) (of_tunnel.contains(p) ? site.unmonitored : site.monitored).push_back(p);
+    if (std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches_glob(mesh.patches[p].name, pattern); })) site.monitored.push_back(p);
+  }
+  if (site.monitored.empty())
+    problems.add(patterns.empty() ? "no wall is left whose forces count: name some with monitor"
+                                  : "no patch has a name like \"" + options.monitor + "\" (monitor)");
+}
+
+}  // namespace
+
+void CaseProblems::require_none(const std::string& attempted) const {
+  std::string text;
+  for (const std::string& problem : all_) text += (text.empty() ? "" : "; ") + problem;
+  if (!text.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = text});
+}
+
+CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems) {
+  CaseSite site;
+  site.facts = facts_of(mesh);
+  site.has_layers = mesh.layers.n_columns() > 0 || !mesh.prisms.empty();
+  bool has_farfield = false, has_opening = false;
+  int n_symmetry = 0;
+  for (const PatchId p : mesh.patches.ids()) {
+    if (site.facts[p].n_faces == 0) continue;
+    const PatchKind kind = mesh.patches[p].kind;
+    has_farfield = has_farfield || kind == PatchKind::farfield;
+    has_opening = has_opening || kind == PatchKind::inflow || kind == PatchKind::outflow;
+    n_symmetry += kind == PatchKind::symmetry && !is_periodic(mesh, p) ? 1 : 0;
+  }
+  site.is_tunnel = has_opening && !has_farfield;
+  find_half(options, n_symmetry, site, problems);
+  find_monitored(mesh, options, site, problems);
+  return site;
+}
+
+bool is_periodic(const HybridMesh& mesh, PatchId patch) {
+  return std::ranges::any_of(mesh.periodic, [&](const PeriodicSides& sides) { return sides.first == patch || sides.second == patch; });
+}
+
+std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch) {
+  for (const PatchId back : mesh.patches.ids())
+    if (site.facts[back].n_faces > 0 && mesh.patches[back].name == mesh.patches[patch].name + ".back") return back;
+  return std::nullopt;
+}
+
+std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch) {
+  for (const PatchId front : mesh.patches.ids())
+    if (mesh.patches[front].kind == PatchKind::interface && site.facts[front].n_faces > 0 && mesh.patches[patch].name == mesh.patches[front].name + ".back")
+      return front;
+  return std::nullopt;
+}
+
+CaseBoundary UsedBoundaries::of(const Patch& patch) {
+  const auto found = boundaries_.find(patch.name);
+  if (found == boundaries_.end()) return {};
+  used_.insert(found->first);
+  return found->second;
+}
+
+std::optional<double> UsedBoundaries::pressure_jump(const Patch& disc, double area, CaseProblems& problems) {
+  const CaseBoundary given = of(disc);
+  if (!is_automatic(given.pressure_jump)) return given.pressure_jump;
+  if (!is_automatic(given.thrust)) return given.thrust / area;
+  problems.add("what the actuator disc \"" + disc.name + "\" does cannot be known: give boundaries = { [\"" + disc.name +
+               "\"] = { thrust = ... } } (N), or pressure_jump (Pa)");
+  return std::nullopt;
+}
+
+void UsedBoundaries::require_used(CaseProblems& problems) const {
+  for (const auto& [name, boundary] : boundaries_)
+    if (!used_.contains(name)) problems.add("boundaries: no inflow, outflow or actuator disc of the mesh is called \"" + name + "\"");
+}
+
+double reference_area(const CaseReference& reference, const CaseSite& site) { return site.is_half ? 0.5 * reference.area : reference.area; }
+
+double reference_length(const CaseReference& reference, const volmesh::FlowState& flow) {
+  return is_automatic(reference.length) ? flow.length : reference.length;
+}
+
+Point moment_origin(const CaseReference& reference, const volmesh::FlowState& flow) {
+  const Point& o = reference.moment_origin;
+  const double length = reference_length(reference, flow);
+  return {clean_component(o.x, length), clean_component(o.y, length), clean_component(o.z, length)};
+}
+
+double clean_component(double x, double length) {
+  constexpr double k_rounding = 1e-14;
+  return std::abs(x) <= k_rounding * length ? 0.0 : x;
+}
+
+Vec3 inward_normal(const PatchFacts& facts) {
+  const Vec3 inward = -1.0 * normalized(facts.area);
+  return {clean_component(inward.x, 1.0), clean_component(inward.y, 1.0), clean_component(inward.z, 1.0)};
+}
+
+std::string case_number(double x) { return fmt::format("{:.10g}", std::abs(x) < 1e-300 ? 0.0 : x); }
+
+}  // namespace sterna::scripting

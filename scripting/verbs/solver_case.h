@@ -1,0 +1,175 @@
+// What mesh:su2_config and mesh:foam_case have in common: options, reference values, conditions at openings, and what the patches of a mesh are to a solver.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geom/base/schema.h"
+#include "geom/mesh/hybrid_mesh.h"
+#include "volmesh/flow/flow_state.h"
+
+namespace sterna::scripting {
+
+struct CaseOptions {
+  double alpha = 0.0;
+  double beta = 0.0;
+  double reference_area = k_automatic;
+  double reference_length = k_automatic;
+  std::string wing;
+  std::string half = "automatic";
+  double wall_temperature = k_automatic;
+  std::string monitor;
+  int iterations = 5000;
+};
+
+/// What happens at an opening or an actuator disc.
+struct CaseBoundary {
+  double pressure = k_automatic;
+  double total_pressure = k_automatic;
+  double total_temperature = k_automatic;
+  double thrust = k_automatic;
+  double pressure_jump = k_automatic;
+  double temperature_jump = 0.0;
+};
+using CaseBoundaries = std::map<std::string, CaseBoundary>;  ///< by names of patches
+
+/// Reference values of the whole aircraft.
+struct CaseReference {
+  double area = k_automatic;    ///< m^2
+  double length = k_automatic;  ///< m; automatic: that of the flow
+  Point moment_origin{};        ///< m
+  std::string source;           ///< "wing "main"": for the file and the log
+};
+
+struct PatchFacts {
+  std::size_t n_faces = 0;
+  Vec3 area;          ///< m^2, sum of the faces' normals, out of the fluid
+  double size = 0.0;  ///< m^2
+};
+
+/// What cannot be known from the mesh and what was given: all of it is told at once.
+class CaseProblems {
+ public:
+  void add(std::string text) { all_.push_back(std::move(text)); }
+  const std::vector<std::string>& all() const { return all_; }
+  /// \throws Error(bad_argument)
+  void require_none(const std::string& attempted) const;
+
+ private:
+  std::vector<std::string> all_;
+};
+
+/// The patches of a mesh as solvers see them.
+struct CaseSite {
+  Column<PatchId, PatchFacts> facts;
+  std::vector<PatchId> monitored;    ///< whose forces count: those that `monitor` names, else all walls but those of tunnels
+  std::vector<PatchId> unmonitored;  ///< walls of a tunnel: they touch an inflow or outflow
+  bool has_layers = false;
+  bool is_tunnel = false;  ///< openings and no farfield
+  bool is_half = false;
+};
+
+/// \param mesh of which a plane of symmetry makes a half model
+CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);
+
+/// Whether the patch is one of two periodic sides.
+bool is_periodic(const HybridMesh& mesh, PatchId patch);
+/// A disc has two sides: <name>, upstream, and <name>.back. The other side of the one, and of the other; nothing where the patch is not that one.
+std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
+std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
+
+/// Conditions by names of patches, which notes what was used.
+class UsedBoundaries {
+ public:
+  explicit UsedBoundaries(const CaseBoundaries& boundaries) : boundaries_(boundaries) {}
+  /// Of no such name: nothing is given.
+  CaseBoundary of(const Patch& patch);
+  /// Pa, over an actuator disc; nothing, and a problem, where it cannot be known.
+  std::optional<double> pressure_jump(const Patch& disc, double area, CaseProblems& problems);
+  /// A problem for every name that no patch asked for.
+  void require_used(CaseProblems& problems) const;
+
+ private:
+  const CaseBoundaries& boundaries_;
+  std::set<std::string> used_;
+};
+
+/// m^2 and m, as the solver is to count.
+double reference_area(const CaseReference& reference, const CaseSite& site);
+double reference_length(const CaseReference& reference, const volmesh::FlowState& flow);
+/// The point without what rounding has left of zeros.
+Point moment_origin(const CaseReference& reference, const volmesh::FlowState& flow);
+
+/// A component of a vector of this length: what rounding has left of a zero is one, so no "-3.3e-16" stands in a file that people read.
+double clean_component(double x, double length);
+/// Into the fluid, unit length.
+Vec3 inward_normal(const PatchFacts& facts);
+std::string case_number(double x);
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::CaseOptions> {
+  using O = scripting::CaseOptions;
+  static constexpr std::string_view stage = "solver_case";
+  static constexpr std::array fields = {
+      Field<O>{.name = "alpha", .member = &O::alpha, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "angle of attack: the flow comes from below"},
+      Field<O>{.name = "beta", .member = &O::beta, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "sideslip: above zero the flow goes towards y > 0"},
+      Field<O>{.name = "reference_area",
+               .member = &O::reference_area,
+               .min = 1e-12,
+               .max = 1e9,
+               .help = "m^2, of the whole aircraft, also for half models",
+               .automatic = "of the wing of `reference`"},
+      Field<O>{.name = "reference_length",
+               .member = &O::reference_length,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "of pitching moments",
+               .automatic = "mean aerodynamic chord of `reference`, or the flow's length"},
+      Field<O>{.name = "wing", .member = &O::wing, .help = "name of the wing of `reference`; empty: the largest"},
+      Field<O>{.name = "half",
+               .member = &O::half,
+               .help = "half model: the solver's area is half of the reference area; automatic: where one patch is a symmetry plane",
+               .choices = "automatic yes no"},
+      Field<O>{.name = "wall_temperature", .member = &O::wall_temperature, .min = 50.0, .max = 5000.0, .help = "K", .automatic = "adiabatic walls"},
+      Field<O>{.name = "monitor",
+               .member = &O::monitor,
+               .help = "patterns of the names of patches whose forces count, separated by blanks; empty: all walls but those of tunnels"},
+      Field<O>{.name = "iterations", .member = &O::iterations, .min = 1, .max = 100000000, .help = "at most"},
+  };
+};
+
+template <>
+struct Schema<scripting::CaseBoundary> {
+  using O = scripting::CaseBoundary;
+  static constexpr std::string_view stage = "boundaries";
+  static constexpr std::array fields = {
+      Field<O>{
+          .name = "pressure", .member = &O::pressure, .min = 1e-6, .max = 1e10, .help = "Pa, static, of an outflow", .automatic = "of the flow, in tunnels"},
+      Field<O>{
+          .name = "total_pressure", .member = &O::total_pressure, .min = 1e-6, .max = 1e10, .help = "Pa, of an inflow", .automatic = "of the flow, in tunnels"},
+      Field<O>{.name = "total_temperature",
+               .member = &O::total_temperature,
+               .min = 1.0,
+               .max = 1e4,
+               .help = "K, of an inflow",
+               .automatic = "of the flow, in tunnels"},
+      Field<O>{.name = "thrust",
+               .member = &O::thrust,
+               .min = -1e9,
+               .max = 1e9,
+               .help = "N, of an actuator disc: its pressure jump is this over its area",
+               .automatic = "not given"},
+      Field<O>{
+          .name = "pressure_jump", .member = &O::pressure_jump, .min = -1e9, .max = 1e9, .help = "Pa, over an actuator disc", .automatic = "thrust over area"},
+      Field<O>{.name = "temperature_jump", .member = &O::temperature_jump, .min = -1e4, .max = 1e4, .help = "K, total, over an actuator disc"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,225 @@
+// Cases of OpenFOAM as mesh:foam_case writes them, run by its solvers with no edit by hand.
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
+#include "scripting/verbs/foam_case.h"
+#include "tests/scripting/script_fixture.h"
+#include "tests/support/error_of.h"
+#include "tests/support/openfoam_tools.h"
+#include "tests/support/process.h"
+#include "tests/support/shapes.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class FoamCases : public ScriptFixture {
+ protected:
+  FoamCases() { io::write_surface_file(test::sphere(4), folder_ / "ball.off", RunContext()); }
+
+  /// The script with a small mesh `m` around a ball.
+  std::string with_mesh(const std::string& text) const {
+    return "local m = volume_mesh{ read_surface 'ball.off', layers = 4, first_height = 0.02, farfield = sphere{ radius = 8 }, sources = { sphere{ {1.5, 0, 0}, "
+           "radius = 0.5, size = 0.3 } } }\n" +
+           text;
+  }
+  std::string at(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+
+  /// Runs the case to its end; its log.
+  std::string run_case(const std::string& name) {
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);  // tests may run as root; mpirun asks twice
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    const test::ProcessResult result = test::run_process(folder_ / name / "Allrun", {}, folder_);
+    EXPECT_EQ(result.status, 0) << name << ":\n" << result.output << result.errors;
+    return result.output;
+  }
+};
+
+bool has_openfoam() { return std::filesystem::exists("/usr/bin/simpleFoam"); }
+
+TEST_F(FoamCases, EveryModelRunsAsItIsWritten) {
+  if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
+  struct Kind {
+    std::string name, options, solver, solved;
+  };
+  const std::string slow = "flow{ reynolds = 1e5, length = 2 }, ", fast = "flow{ mach = 0.4, altitude = 0, length = 2 }, ";
+  const std::vector<Kind> kinds = {{"laminar", "flow{ reynolds = 100, length = 2 }, model = 'laminar'", "simpleFoam", "Solving for p"},
+                                   {"automatic", slow + "alpha = 2*deg", "simpleFoam", "Solving for nuTilda"},
+                                   {"sst", slow + "model = 'kOmegaSST', tasks = 2", "simpleFoam", "Solving for omega"},
+                                   {"euler", slow + "model = 'euler', format = 'text'", "simpleFoam", "Solving for Ux"},
+                                   {"in_time", slow + "steady = false, end_time = 0.004", "pimpleFoam", "Solving for nuTilda"},
+                                   {"gas", fast + "alpha = 2*deg", "rhoSimpleFoam", "Solving for e"},
+                                   {"gas_sst", fast + "model = 'kOmegaSST'", "rhoSimpleFoam", "Solving for k"},
+                                   {"gas_in_time", fast + "steady = false, end_time = 1e-5", "rhoPimpleFoam", "Solving for e"}};
+  std::string script = with_mesh("");
+  for (const Kind& kind : kinds) script += "m:foam_case{ " + at(kind.name) + ", " + kind.options + ", iterations = 5, reference_area = math.pi }\n";
+  run(script);
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    run_case(kind.name);
+    const std::string log = text_of(kind.name + "/log." + kind.solver);
+    EXPECT_THAT(log, AllOf(HasSubstr(kind.solved), HasSubstr("End"), Not(HasSubstr("FATAL"))));
+    EXPECT_THAT(log, AllOf(Not(HasSubstr("printStack")), Not(HasSubstr("residual = nan"))));
+    EXPECT_THAT(text_of(kind.name + "/postProcessing/forceCoeffs/0/coefficient.dat"), HasSubstr("Aref"));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "sst" / "5" / "U")) << "parts are joined";
+  for (const std::string name : {"laminar", "euler", "gas"}) {
+    const auto log = test::run_openfoam("potentialFoam", {"-case", name, "-noFunctionObjects"}, folder_);
+    EXPECT_THAT(*log, HasSubstr("End"));
+    const auto checked = test::run_openfoam("checkMesh", {"-case", name, "-constant"}, folder_);
+    EXPECT_THAT(*checked, AllOf(HasSubstr("layers"), HasSubstr("Mesh OK.")));
+  }
+  // What has results is kept; Allclean removes them.
+  const std::string again = with_mesh("m:foam_case{ " + at("laminar") + ", flow{ reynolds = 100, length = 2 } }");
+  EXPECT_THAT(error(again), AllOf(HasSubstr("has results"), HasSubstr("Allclean")));
+  EXPECT_EQ(test::run_process(folder_ / "laminar" / "Allclean", {}, folder_).status, 0);
+  EXPECT_EQ(error(again), "no error");
+}
+
+/// Where columns and tetrahedra follow one order, neighbours are near each other; the flow is the same.
+TEST_F(FoamCases, NumbersOfCellsChangeNoFlow) {
+  if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
+  std::string script = with_mesh("");
+  for (const std::string name : {"lines", "bandwidth", "both"})
+    script += "m:foam_case{ " + at(name) + ", flow{ reynolds = 100, length = 2 }, model = 'laminar', reference_area = math.pi, iterations = 40, numbering = '" +
+              name + "' }\n";
+  run(script);
+  std::vector<double> drags;
+  for (const std::string name : {"lines", "bandwidth", "both"}) {
+    run_case(name);
+    std::istringstream lines(text_of(name + "/postProcessing/forceCoeffs/0/coefficient.dat"));
+    std::string last;
+    for (std::string line; std::getline(lines, line);) last = line;
+    std::istringstream words(last);
+    double time = 0.0, drag = 0.0;
+    words >> time >> drag;
+    drags.push_back(drag);
+    const auto checked = test::run_openfoam("checkMesh", {"-case", name, "-constant"}, folder_);
+    EXPECT_THAT(*checked, AllOf(HasSubstr("Upper triangular ordering OK"), HasSubstr("Mesh OK.")));
+  }
+  EXPECT_NEAR(drags[1], drags[0], 0.02 * drags[0]);  // linear solvers stop by their residuals, in their own order
+  EXPECT_NEAR(drags[2], drags[0], 0.02 * drags[0]);
+}
+
+TEST_F(FoamCases, ForcesAreThoseOfTheFlow) {
+  if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
+  run(with_mesh("m:foam_case{ " + at("case") +
+                ", flow{ reynolds = 100, length = 2 }, model = 'laminar', reference_area = math.pi, iterations = 60, alpha = 90*deg }"));
+  run_case("case");
+  std::istringstream lines(text_of("case/postProcessing/forceCoeffs/0/coefficient.dat"));
+  std::string last;
+  for (std::string line; std::getline(lines, line);) last = line;
+  std::istringstream words(last);
+  double time = 0.0, drag = 0.0;
+  words >> time >> drag;
+  EXPECT_EQ(time, 60.0);
+  EXPECT_NEAR(drag, 1.09, 0.15);  // a ball of 320 triangles; literature 1.087 to 1.096 for a sphere
+}
+
+TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
+  run(with_mesh("m:foam_case{ " + at("case/") + ", flow{ mach = 0.2, altitude = 0, length = 2 }, alpha = 5*deg, model = 'kOmegaSST', tasks = 12 }"));
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / "case"))
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder_ / "case").string());
+  std::ranges::sort(files);
+  EXPECT_THAT(files, testing::ElementsAre("0/Phi", "0/U", "0/k", "0/nut", "0/omega", "0/p", "Allclean", "Allrun", "case.foam", "constant/polyMesh/boundary",
+                                          "constant/polyMesh/cellZones", "constant/polyMesh/faces", "constant/polyMesh/neighbour", "constant/polyMesh/owner",
+                                          "constant/polyMesh/points", "constant/transportProperties", "constant/turbulenceProperties", "mesh.json",
+                                          "system/controlDict", "system/decomposeParDict", "system/fvSchemes", "system/fvSolution"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) EXPECT_FALSE(entry.path().filename().string().starts_with(".sterna")) << entry.path();
+  EXPECT_THAT(text_of("case/constant/polyMesh/boundary"), AllOf(HasSubstr("inGroups 1(farfield)"), HasSubstr("type wall")));
+  EXPECT_THAT(text_of("case/constant/polyMesh/cellZones"), AllOf(HasSubstr("layers"), HasSubstr("source_1_sphere"), HasSubstr("format binary")));
+  EXPECT_THAT(text_of("case/0/U"), HasSubstr("internalField uniform (67.7998"));  // 68.0588 cos 5 deg
+  EXPECT_THAT(text_of("case/system/decomposeParDict"), AllOf(HasSubstr("numberOfSubdomains 12"), HasSubstr("n (3 2 2)")));
+  EXPECT_THAT(text_of("case/system/fvSchemes"), AllOf(HasSubstr("pointCellsLeastSquares"), HasSubstr("3 % of the drag")));
+  EXPECT_THAT(text_of("case/system/controlDict"), AllOf(Not(HasSubstr("forceCoeffs")), HasSubstr("type yPlus")));
+  EXPECT_THAT(log_, HasSubstr("no reference area, so forces in N and no coefficients"));
+  // Without results it is replaced; what is no case is not.
+  EXPECT_EQ(error(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 } }")), "no error");
+  std::filesystem::create_directories(folder_ / "photos" / "holiday");
+  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("photos") + ", flow{ reynolds = 100, length = 2 } }")), HasSubstr("something else"));
+}
+
+TEST_F(FoamCases, MistakesAreToldTogetherAtTheirLine) {
+  const std::string told = error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, model = 'kEpsilon', taks = 3 }"));
+  EXPECT_THAT(told, AllOf(HasSubstr("case.lua:2: mesh:foam_case"), HasSubstr("kOmegaSST"), HasSubstr("did you mean \"tasks\"?")));
+  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, compressible = 'yes' }")), HasSubstr("state of the gas"));
+  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, boundaries = { prop = { thrust = 3 } } }")),
+              HasSubstr("is called \"prop\""));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
+}
+
+/// A box of which only the boundary counts.
+HybridMesh room(const std::vector<std::pair<std::string, PatchKind>>& kinds) {
+  HybridMesh mesh;
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 0, 1}, Point{1, 1, 1}, Point{0, 1, 1}})
+    mesh.points.push_back(p);
+  for (const auto& [name, kind] : kinds) mesh.patches.push_back({name, kind});
+  const std::array<std::array<std::uint32_t, 4>, 6> faces = {
+      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};  // x-, x+, y-, y+, z-, z+
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    mesh.boundary_quads.push_back(
+        {{NodeId(faces[f][0]), NodeId(faces[f][1]), NodeId(faces[f][2]), NodeId(faces[f][3])}, PatchId(std::min(f, kinds.size() - 1))});
+  return mesh;
+}
+
+std::string file_of(const FoamCase& made, const std::string& path) {
+  for (const CaseFile& file : made.files)
+    if (file.path == path) return file.text;
+  return "no " + path;
+}
+
+TEST(FoamConditions, TunnelsHaveTheConditionsOfTheirFlow) {
+  const HybridMesh mesh = room({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
+  const FoamCase made = foam_case(mesh, {.model = "SpalartAllmaras"}, {.monitor = "floor"}, flow, {.area = 1.0}, {}, RunContext());
+  EXPECT_THAT(file_of(made, "0/U"), AllOf(HasSubstr("value uniform (60 0 0)"), HasSubstr("type slip"), HasSubstr("type noSlip")));
+  EXPECT_THAT(file_of(made, "0/p"), HasSubstr("outlet\n    {\n        type fixedValue;\n        value uniform 0;"));
+  EXPECT_THAT(file_of(made, "0/nut"), HasSubstr("nutUSpaldingWallFunction"));
+  const FoamCase gas = foam_case(mesh, {.compressible = "yes"}, {.monitor = "floor"}, flow, {.area = 1.0}, {}, RunContext());
+  EXPECT_EQ(gas.application, "rhoSimpleFoam");
+  EXPECT_THAT(file_of(gas, "0/p"), HasSubstr("value uniform 100000"));
+  EXPECT_THAT(file_of(gas, "0/T"), HasSubstr("internalField uniform 293"));
+}
+
+TEST(FoamConditions, FansAndNozzlesNeedTheirPressures) {
+  const HybridMesh mesh = room({{"nozzle", PatchKind::inflow}, {"fan", PatchKind::outflow}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
+  test::expect_error(ErrorCode::bad_argument, "what goes into the outflow \"fan\" cannot be known",
+                     [&] { (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
+  const CaseBoundaries boundaries = {{"nozzle", {.total_pressure = 1.5e5, .total_temperature = 600.0}}, {"fan", {.pressure = 9e4}}};
+  const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 1.0}, boundaries, RunContext());
+  EXPECT_THAT(file_of(made, "0/p"), AllOf(HasSubstr("type totalPressure"), HasSubstr("p0 uniform 150000"), HasSubstr("value uniform 90000")));
+  EXPECT_THAT(file_of(made, "0/T"), HasSubstr("T0 uniform 600"));
+}
+
+TEST(FoamConditions, DiscsBecomeCyclicWithAJump) {
+  const HybridMesh mesh = room({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
+                     [&] { (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
+  const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 1225.0}}}, RunContext());
+  ASSERT_EQ(made.joined.size(), 1u);
+  EXPECT_EQ(made.joined.front().second, PatchId(1));
+  EXPECT_THAT(file_of(made, "0/p"),
+              AllOf(HasSubstr("jump uniform 999.9"), HasSubstr("jump uniform -999.9"), HasSubstr("patchType cyclic")));  // over 1.225 kg/m^3
+  EXPECT_THAT(file_of(made, "0/U"), HasSubstr("prop.back\n    {\n        type cyclic;"));
+}
+
+TEST(FoamConditions, HalfModelsCountHalfTheArea) {
+  const HybridMesh mesh = room({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 30.0}, {}, RunContext());
+  EXPECT_THAT(file_of(made, "system/controlDict"), HasSubstr("Aref 15;"));
+  EXPECT_THAT(file_of(made, "0/U"), HasSubstr("type symmetryPlane"));
+  EXPECT_THAT(file_of(made, "constant/turbulenceProperties"), HasSubstr("laminar"));  // no layers: no viscosity
+}
+
+}  // namespace
+}  // namespace sterna::scripting
