@@ -254,6 +254,7 @@ mesh:su2_config{ "every_option.cfg", cruise,
   monitor = "",                     -- patches whose forces count; empty: walls
   iterations = 5000,
   cfl = 10,
+  restart = false,                  -- true: from restart_flow of an earlier run
   boundaries = {},                  -- by patches: { prop = { thrust = 800 } }, or pressure_jump = 120, temperature_jump = 0; of openings pressure = 1e5, total_pressure = 1.1e5, total_temperature = 300
 }
 

@@ -147,7 +147,7 @@ class Configuration {
   std::string physics() const {
     std::string text = title("Problem") + "SOLVER= " + solver_ + "\n";
     if (solver_ == "RANS") text += "KIND_TURB_MODEL= " + options_.turbulence + "\n";
-    text += "MATH_PROBLEM= DIRECT\nRESTART_SOL= NO\nSYSTEM_MEASUREMENTS= SI\n";
+    text += std::string("MATH_PROBLEM= DIRECT\nRESTART_SOL= ") + (options_.restart ? "YES" : "NO") + "\nSYSTEM_MEASUREMENTS= SI\n";
     text += title("Free stream") + "MACH_NUMBER= " + case_number(flow_.mach) + "\nAOA= " + case_number(common_.alpha * k_degrees) +
             "\nSIDESLIP_ANGLE= " + case_number(common_.beta * k_degrees) + "\n";
     const bool has_state = !is_automatic(flow_.pressure) && !is_automatic(flow_.temperature);
@@ -207,7 +207,8 @@ class Configuration {
   std::string files() const {
     const bool is_cgns = options_.mesh.ends_with(".cgns");
     return title("Files") + "MESH_FILENAME= " + options_.mesh + "\nMESH_FORMAT= " + (is_cgns ? "CGNS" : "SU2") +
-           "\nTABULAR_FORMAT= CSV\nCONV_FILENAME= history\nRESTART_FILENAME= restart_flow\nVOLUME_FILENAME= flow\nSURFACE_FILENAME= "
+           "\nTABULAR_FORMAT= CSV\nCONV_FILENAME= history\nRESTART_FILENAME= restart_flow\nSOLUTION_FILENAME= restart_flow\nVOLUME_FILENAME= "
+           "flow\nSURFACE_FILENAME= "
            "surface_flow\nOUTPUT_FILES= ( RESTART, PARAVIEW, SURFACE_PARAVIEW )\n" +
            "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, LIFT, DRAG )\nHISTORY_OUTPUT= ( ITER, RMS_RES, AERO_COEFF )\n";
   }

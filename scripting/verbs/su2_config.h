@@ -17,6 +17,7 @@ struct Su2Options {
   std::string solver = "automatic";
   std::string turbulence = "SA";
   double cfl = 10.0;
+  bool restart = false;
 };
 
 /// The text of the configuration. Walls: MARKER_HEATFLUX (adiabatic) or MARKER_ISOTHERMAL, without viscosity MARKER_EULER; slip: MARKER_EULER; symmetry:
@@ -47,6 +48,7 @@ struct Schema<scripting::Su2Options> {
                .choices = "automatic EULER NAVIER_STOKES RANS"},
       Field<O>{.name = "turbulence", .member = &O::turbulence, .help = "turbulence model of RANS", .choices = "SA SST"},
       Field<O>{.name = "cfl", .member = &O::cfl, .min = 0.01, .max = 1e6, .help = "CFL number at the start; SU2 adapts it"},
+      Field<O>{.name = "restart", .member = &O::restart, .help = "go on from restart_flow, which an earlier run has written"},
   };
 };
 

@@ -221,6 +221,7 @@ const std::set<std::string> k_su2_keys = {"SOLVER",
                                           "TABULAR_FORMAT",
                                           "CONV_FILENAME",
                                           "RESTART_FILENAME",
+                                          "SOLUTION_FILENAME",
                                           "VOLUME_FILENAME",
                                           "SURFACE_FILENAME",
                                           "OUTPUT_FILES",
@@ -245,6 +246,8 @@ TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
   for (const char* key : {"REF_ORIGIN_MOMENT_Y", "REF_ORIGIN_MOMENT_Z"}) EXPECT_EQ(at(key), "0") << key << ": what rounding leaves of zero is told as zero";
   EXPECT_NEAR(std::stod(at("REF_LENGTH")), 2.0 / 3.0 * 2.0 * (1 + 0.5 + 0.25) / 1.5, 1e-9);
   EXPECT_EQ(at("MESH_FILENAME"), "case.su2");
+  EXPECT_EQ(at("RESTART_SOL"), "NO");
+  EXPECT_EQ(at("SOLUTION_FILENAME"), at("RESTART_FILENAME"));
   EXPECT_EQ(at("REYNOLDS_LENGTH"), "2");
   EXPECT_EQ(at("FREESTREAM_TEMPERATURE"), "288.15");
   EXPECT_THAT(log_, HasSubstr("case.su2, which is not there yet"));
