@@ -98,6 +98,11 @@ local mesh = volume_mesh{ wall,
     needle_budget = 0.0,            -- triangles that splitting adds at most, over those of the walls; 0: flips only
     flip_angle = 1*deg,             -- edges at which the wall turns by less may be flipped for it
   },
+  ridges = {                          -- several normals along sharp convex edges: see docs/ridges.md
+    open_ridges = "never",          -- or always
+    open_angle = 100*deg,           -- edges at which the wall turns by more
+    fan_angle = 30*deg,             -- between two normals of an edge, at most
+  },
   envelope = {
     max_growth = 1.4,
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows

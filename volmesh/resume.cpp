@@ -5,6 +5,7 @@
 
 #include "geom/base/error.h"
 #include "volmesh/domain/disc_sheets.h"
+#include "volmesh/layer/close_fans.h"
 #include "volmesh/layer/lay_out.h"
 #include "volmesh/rims/slits.h"
 #include "volmesh/stages.h"
@@ -98,6 +99,7 @@ VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const M
   Domain domain;
   if (filled.split_wall) domain.wall = *filled.split_wall;
   else domain = domain_around(surface, options, context);
+  if (!domain.ridges.is_empty() || has_fans(filled.layers)) boundary_of(filled.layers);  // throws: its cells are no columns
   require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
   require_layers_on(domain, filled.layers);
   if (!domain.has_rims()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);

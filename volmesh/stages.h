@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "volmesh/envelope/envelope.h"
+#include "volmesh/layer/assemble.h"
 #include "volmesh/site/site.h"
 #include "volmesh/tetra/tetra.h"
 #include "volmesh/volume_mesh.h"
@@ -64,6 +65,7 @@ struct LayerKnowledge {
   LayerReport report;
   EnvelopeCertificate certificate;
   std::optional<LayerCheck> check;
+  FillBoundary boundary;  ///< that the tetrahedra fill, where ridges are opened; else empty, and boundary_of() says it
 };
 
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context);

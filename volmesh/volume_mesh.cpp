@@ -14,6 +14,7 @@
 #include "geom/mesh/check_moved.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/periodic.h"
+#include "volmesh/layer/close_fans.h"
 #include "volmesh/layer/lay_out.h"
 #include "volmesh/layer/repair_envelope.h"
 #include "volmesh/layer/slide_lines.h"
@@ -109,8 +110,8 @@ void climb(const MeshingSite& site, const Envelope& envelope, const Makers& make
 Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
-  // Where layers end on other patches, and where sides are periodic, the boundary stays as it is.
-  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty();
+  // Where layers end on other patches, sides are periodic, and ridges are opened, the boundary stays as it is.
+  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty() && site.domain.ridges.is_empty();
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
@@ -151,6 +152,7 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 }
 
 constexpr int k_slide_rounds = 4;
+constexpr int k_fan_rounds = 5;  ///< then all ridges stay closed
 
 /// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them. \p slid gets these
 /// lines, ascending.
@@ -174,6 +176,44 @@ ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, Te
   return report;
 }
 
+/// Some feet, and those that are up to so many edges away along their ridges; ascending.
+std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<VertexId> feet, int n_edges) {
+  sort_unique(feet);
+  for (int i = 0; i < n_edges; ++i) {
+    std::vector<VertexId> more = feet;
+    for (const auto& quad : ridges.quads) {
+      const VertexId a = ridges.foot[quad[0]], b = ridges.foot[quad[1]];
+      if (std::ranges::binary_search(feet, a)) more.push_back(b);
+      if (std::ranges::binary_search(feet, b)) more.push_back(a);
+    }
+    sort_unique(more);
+    feet.swap(more);
+  }
+  return feet;
+}
+
+/// The first two steps. Where fans of opened ridges have no valid cells, they stay closed and both are done again, without what else is known of the envelope.
+FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, LayerKnowledge& knowledge,
+                        const RunContext& context) {
+  std::vector<VertexId> closed;
+  for (int round = 0;; ++round) {
+    MeshCase now = options;
+    if (round == k_fan_rounds) now.ridges.open_ridges = "never";
+    MeshingSite site(wall, now, context, closed);
+    try {
+      const auto make = [&] { return make_envelope(site, makers, context); };
+      EnvelopeStage envelope = watch.envelope && round == 0 ? watch.envelope(make) : make();
+      if (watch.enveloped) watch.enveloped(envelope);
+      return make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
+    } catch (const FanError& error) {
+      const std::vector<VertexId> more = with_feet_beside(site.domain.ridges, error.feet(), 1 << round);
+      context.warn("ridges stay closed at " + std::to_string(more.size()) + " vertices of the wall: " + error.info().problem +
+                   (error.info().places.empty() ? "" : ", the first at " + format_point(error.info().places.front().position)));
+      closed.insert(closed.end(), more.begin(), more.end());
+    }
+  }
+}
+
 void require_valid(const CheckReport& report) {
   if (report.is_valid()) return;
   ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = "checking the finished mesh", .hint = "report this surface"};
@@ -190,12 +230,8 @@ void require_valid(const CheckReport& report) {
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const RunContext& context) { return volume_mesh(wall, options, {}, {}, context); }
 
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context) {
-  MeshingSite site(wall, options, context);
-  const auto make = [&] { return make_envelope(site, makers, context); };
-  EnvelopeStage envelope = watch.envelope ? watch.envelope(make) : make();
-  if (watch.enveloped) watch.enveloped(envelope);
   LayerKnowledge knowledge;
-  FilledStage filled = make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
+  FilledStage filled = make_filled(wall, options, makers, watch, knowledge, context);
   if (watch.filled) watch.filled(filled);
   return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);
 }
@@ -204,8 +240,9 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
   tell_needles(site.domain.needles, site.options.needles, context);
-  const std::vector<WholePart> parts =
-      site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
+  const std::vector<WholePart> parts = site.domain.slits.empty() && site.domain.ridges.is_empty()
+                                           ? whole_parts(site.domain, site.options.parts, context)
+                                           : std::vector<WholePart>{};  // cut and opened walls are no parts' any more
   const auto of_wall = [&] {
     const WallEnvelopeMaker& make = makers.wall_envelope;
     return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
@@ -248,7 +285,8 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   tell_warnings();  // of a layer that is not the first one any more
   require_proved_cells(filling.proof->cells, layer.certificate);
 
-  knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check)};
+  knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}};
+  if (has_fans(layer.mesh)) knowledge.boundary = std::move(layer.boundary);
   filled.envelope = std::move(stage);
   filled.layers = std::move(layer.mesh);
   filled.curving_shares = layer.curving_shares;
@@ -271,7 +309,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
-  FillBoundary boundary = boundary_of(result.mesh);
+  FillBoundary boundary = has_fans(result.mesh) ? std::move(knowledge.boundary) : boundary_of(result.mesh);
   std::vector<std::uint32_t> slid;
   {
     const StageTimer timer(context, "improve");

@@ -140,6 +140,7 @@ LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, cons
   Findings unused(0);
   const CellNumbers cells(mesh);
   if (!check_indices(mesh, cells, context, unused)) return LayerCheck(nullptr);
+  if (!mesh.prisms.empty() || !mesh.pyramids.empty() || !mesh.hexahedra.empty()) return LayerCheck(nullptr);  // scans of columns alone would miss them
   const std::size_t n_columns = mesh.layers.n_columns();
   auto parts =
       std::make_unique<LayerCheck::Parts>(LayerCheck::Parts{{n_columns, k_column_chunk}, {mesh.layers.n_lines(), k_line_chunk}, std::nullopt, std::nullopt});

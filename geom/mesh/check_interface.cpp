@@ -1,4 +1,5 @@
 // G9: does the last prism fit the tet above it? The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its volume.
+#include <algorithm>
 #include <cmath>
 
 #include "geom/math/measures.h"
@@ -22,6 +23,12 @@ struct InterfaceScan {
 
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
                      const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report) {
+  std::vector<std::uint8_t> wall_nodes(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
+  if (!mesh.prisms.empty())
+    for (const BoundaryTriangle& triangle : mesh.boundary_triangles)
+      if (mesh.patches[triangle.patch].kind == PatchKind::wall)
+        for (const NodeId node : triangle.nodes) wall_nodes[node.index()] = 1;
+  const auto is_on_wall = [&](NodeId node) { return wall_nodes[node.index()] != 0; };
   const InterfaceScan scan = parallel_reduce(
       context, match.interface.size(), InterfaceScan(limits),
       [&](std::size_t begin, std::size_t end) {
@@ -31,6 +38,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const Face face = slots.face(slot);
           const Cell cell = cells.cell(slots.owner(slot));
           if (face.size != 3 || cell.kind != CellKind::prism) continue;
+          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_on_wall)) continue;  // a fan's, beside its first cells
           WedgePoints p;
           for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
           const auto f = [&](std::size_t k) { return mesh.points[face.nodes[k]]; };

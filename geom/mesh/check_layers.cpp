@@ -54,6 +54,7 @@ class LineScanner {
 
   void add(std::uint32_t line) {
     const int n = lines_.n_layers(line);
+    if (fans_.around(line).empty()) return;  // its cells are no columns
     read_fan(line, n);
     if (lines_.are_columns() && is_request_usable_) read_height(line, n);
     if (n == 0) return;

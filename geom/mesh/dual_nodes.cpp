@@ -125,7 +125,9 @@ void NodeDual::add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint6
       add_sub_volume(six_times);
       Edge& edge = edge_to(nodes[other].value());
       edge.normal += normal;
-      edge.is_stack = edge.is_stack || (kind == CellKind::prism && (other + 3 == corner || corner + 3 == other));
+      const bool is_growth_edge = kind == CellKind::prism && (other + 3 == corner || corner + 3 == other);
+      edge.is_stack = edge.is_stack || is_growth_edge;
+      edge.is_flat = edge.is_flat || (kind == CellKind::prism && !is_growth_edge);
     };
     add_piece(face.previous, 1.0);
     add_piece(face.next, -1.0);
@@ -202,7 +204,9 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
   metrics.orthogonality = edge_area > 0.0 ? weighted / edge_area : -0.5 * std::numbers::pi;
   metrics.face_area_ratio = smallest > 0.0 ? largest / smallest : k_infinity;
   metrics.sub_volume_ratio = least_ > 0.0 ? most_ / least_ : k_infinity;
-  metrics.edge_ratio = has_hexahedron_ || longest == 0.0 ? k_nan : shortest > 0.0 ? longest / shortest : k_infinity;
+  // Around fans of opened ridges prisms stand in more than one direction: no edge is across the stack there.
+  const bool is_turned = std::ranges::any_of(edges_, [&](const Edge& edge) { return is_stack(edge) && edge.is_flat; });
+  metrics.edge_ratio = has_hexahedron_ || is_turned || longest == 0.0 ? k_nan : shortest > 0.0 ? longest / shortest : k_infinity;
   metrics.closure = all_area > 0.0 ? norm(closure) / all_area : k_infinity;
   const double rounding = k_face_rounding * static_cast<double>(edges_.size()) * longest_of_all * longest_of_all;
   if (all_area > 0.0 && norm(closure) <= rounding) metrics.closure = std::min(metrics.closure, k_rounding_closure);

@@ -80,6 +80,7 @@ class NodeDual {
     std::uint32_t other;
     bool is_stack;
     Vec3 normal;
+    bool is_flat = false;  ///< of a triangle of a prism
   };
   struct BoundaryPiece {
     PatchId patch;

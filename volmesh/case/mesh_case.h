@@ -18,6 +18,7 @@
 #include "volmesh/case/periodic_names.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/case/prism_options.h"
+#include "volmesh/case/ridge_options.h"
 #include "volmesh/case/size_options.h"
 #include "volmesh/case/size_sources.h"
 #include "volmesh/case/tetra_options.h"
@@ -28,6 +29,7 @@ namespace sterna::volmesh {
 struct MeshOptions {
   FamilyOptions family;
   NeedleOptions needles;
+  RidgeOptions ridges;
   EnvelopeOptions envelope;
   PrismOptions prisms;
   FarfieldOptions farfield;

@@ -66,7 +66,7 @@ Classification classify_vertices(const LayerBase& base, const EnvelopeOptions& o
   parallel_for(context, base.topology.n_halfedges(), [&](std::size_t i) {
     const HalfedgeId h(i);
     deviation[h] = dihedral_deviation(base, h);
-    result.is_feature[h] = std::abs(deviation[h]) > result.feature_angle ? 1 : 0;
+    result.is_feature[h] = std::abs(deviation[h]) > result.feature_angle && !base.is_in_gap(h) ? 1 : 0;
   });
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);

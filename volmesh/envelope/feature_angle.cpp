@@ -32,7 +32,7 @@ Histogram histogram_of(const LayerBase& base, const RunContext& context) {
         for (std::size_t i = begin; i < end; ++i) {
           const HalfedgeId h(i);
           const HalfedgeId twin = base.topology.twin(h);
-          if (twin.is_valid() && twin < h) continue;
+          if ((twin.is_valid() && twin < h) || base.is_in_gap(h)) continue;
           ++counts[static_cast<std::size_t>(std::abs(dihedral_deviation(base, h)) / k_degree)];
         }
         return counts;

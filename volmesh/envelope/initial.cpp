@@ -5,6 +5,7 @@
 
 #include "geom/base/parallel.h"
 #include "volmesh/case/growth_law.h"
+#include "volmesh/envelope/fan_taper.h"
 #include "volmesh/envelope/wall_distance.h"
 
 namespace sterna::volmesh {
@@ -42,8 +43,28 @@ Vec3 pull_towards_visible(const LayerBase& base, VertexId v, const Vec3& wanted,
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine) {
   const Vec3 allowed = constrained(base.constraint[v], wanted);
   if (norm2(allowed) == 0.0) return base.visible_direction[v];
-  return pull_towards_visible(base, v, allowed, std::min(cosine, k_cone_share * base.visibility[v]));
+  return pull_towards_visible(base, v, allowed, std::min(cosine, k_cone_share * base.cone_visibility(v)));
 }
+
+namespace {
+
+constexpr double k_taper_cosine = 0.2;  ///< at which lines of a fan that is not open yet see their faces, where there is such a direction
+
+void taper_fans(const LayerBase& base, Envelope& envelope) {
+  if (base.ridges == nullptr) return;
+  for (const VertexId v : base.wall.points.ids()) {
+    const OpenedRidges::Foot* const fan = base.fan_of(v);
+    if (fan == nullptr) continue;
+    const double share = fan_opening(*fan, envelope.target[v]);
+    const Vec3& open = envelope.direction[v];
+    const double angle = angle_between(fan->middle, open);
+    const Vec3 across = normalized(open - dot(open, fan->middle) * fan->middle);
+    if (share < 1.0 && norm2(across) > 0.0)
+      envelope.direction[v] = pull_into_cone(base, v, std::cos(share * angle) * fan->middle + std::sin(share * angle) * across, k_taper_cosine);
+  }
+}
+
+}  // namespace
 
 Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
   const std::size_t n_vertices = base.wall.n_vertices();
@@ -63,6 +84,7 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
     envelope.direction[v] = pull_towards_visible(base, v, base.vertex_normal[v], k_start_cosine * base.visibility[v]);
   });
   limit_gradient(base, options.height_gradient, envelope.target);
+  taper_fans(base, envelope);
   envelope.height = envelope.target;
   envelope.cap = envelope.target;
   for (const VertexId v : envelope.height.ids()) {

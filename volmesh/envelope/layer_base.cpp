@@ -69,7 +69,7 @@ Cap smallest_cap(std::span<const Vec3> normals) {
   return {axis, worst_cosine_of(normals, axis)};
 }
 
-LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints constraints)
+LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints constraints, const OpenedRidges* opened)
     : wall(mesh),
       topology(mesh, context),
       body_length(sterna::body_length(mesh)),
@@ -83,7 +83,8 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
       visibility(mesh.n_vertices()),
       mean_edge(mesh.n_vertices()),
       layer_edge(mesh.n_vertices()),
-      vertex_area(mesh.n_vertices()) {
+      vertex_area(mesh.n_vertices()),
+      ridges(opened != nullptr && !opened->is_empty() ? opened : nullptr) {
   if (constraint.empty()) constraint.resize(mesh.n_vertices());
   parallel_for(context, mesh.n_triangles(), [&](std::size_t i) {
     const TriangleId t(i);
@@ -108,6 +109,7 @@ void LayerBase::set_layer_edges(const RunContext& context) {
     const double equal_area = std::sqrt(k_equilateral * 3.0 * vertex_area[v] / n_triangles);
     layer_edge[v] = std::clamp(equal_area, k_least_edge_share * mean_edge[v], mean_edge[v]);
   });
+  if (ridges != nullptr) even_out_fans();
   std::vector<double> own(n), next(n);
   for (std::size_t i = 0; i < n; ++i) own[i] = std::log(std::max(layer_edge[VertexId(i)], std::numeric_limits<double>::min()));
   for (int sweep = 0; sweep < k_edge_sweeps; ++sweep) {
@@ -115,6 +117,7 @@ void LayerBase::set_layer_edges(const RunContext& context) {
       const VertexId v(i);
       double sum = 0.0, weights = 0.0;
       for (const VertexId other : topology.neighbours(v)) {
+        if (have_one_foot(v, other)) continue;
         const double weight = mirror_weight(v, other);
         sum += weight * own[other.index()];
         weights += weight;
@@ -124,6 +127,31 @@ void LayerBase::set_layer_edges(const RunContext& context) {
     own.swap(next);
   }
   parallel_for(context, n, [&](std::size_t i) { layer_edge[VertexId(i)] = std::exp(own[i]); });
+}
+
+/// Lines of one foot have the edges of the given triangles around it.
+void LayerBase::even_out_fans() {
+  struct Sums {
+    double area = 0.0, n_triangles = 0.0, edges = 0.0, n_lines = 0.0;
+  };
+  Column<VertexId, Sums> of_foot(ridges->n_given_vertices);
+  for (const VertexId v : wall.points.ids()) {
+    Sums& sums = of_foot[ridges->foot[v]];
+    for (const HalfedgeId h : topology.outgoing(v)) {
+      if (is_virtual(triangle_of(h))) continue;
+      sums.area += area[triangle_of(h)];
+      sums.n_triangles += 1.0;
+    }
+    sums.edges += mean_edge[v];
+    sums.n_lines += 1.0;
+  }
+  for (const VertexId v : wall.points.ids()) {
+    const Sums& sums = of_foot[ridges->foot[v]];
+    const bool is_end = std::ranges::binary_search(ridges->end_vertices, v);
+    if ((sums.n_lines == 1.0 && !is_end) || sums.n_triangles == 0.0) continue;
+    mean_edge[v] = sums.edges / sums.n_lines;
+    layer_edge[v] = std::clamp(std::sqrt(k_equilateral * sums.area / sums.n_triangles), k_least_edge_share * mean_edge[v], mean_edge[v]);
+  }
 }
 
 /// What depends on the triangles at a vertex, or at all vertices of a group, which get the same; of areas each its own.
@@ -143,6 +171,7 @@ void LayerBase::derive(std::span<const VertexId> alike) {
     }
     vertex_area[v] = third;
     for (const VertexId other : topology.neighbours(v)) {
+      if (have_one_foot(v, other)) continue;
       const double weight = mirror_weight(v, other);
       length += weight * distance(p, wall.points[other]);
       weights += weight;
@@ -200,6 +229,17 @@ void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partn
     for (const VertexId v : groups.back()) least = std::min(least, layer_edge[v]);
     for (const VertexId v : groups.back()) layer_edge[v] = least;
   }
+}
+
+const OpenedRidges::Foot* LayerBase::fan_of(VertexId v) const {
+  if (ridges == nullptr) return nullptr;
+  const auto fan = std::ranges::lower_bound(ridges->feet, ridges->foot[v], {}, &OpenedRidges::Foot::vertex);
+  return fan != ridges->feet.end() && fan->vertex == ridges->foot[v] ? &*fan : nullptr;
+}
+
+double LayerBase::cone_visibility(VertexId v) const {
+  const OpenedRidges::Foot* const fan = fan_of(v);
+  return fan != nullptr && std::isfinite(fan->to_end) ? std::min(visibility[v], fan->visibility) : visibility[v];
 }
 
 double LayerBase::mirror_weight(VertexId v, VertexId other) const {

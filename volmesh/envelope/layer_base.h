@@ -1,4 +1,4 @@
-// What the layer grows from: the wall with its derived geometry. Later also opened ridges and doubled sheets.
+// What the layer grows from: the wall with its derived geometry, opened ridges included.
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/envelope/constraint.h"
 #include "volmesh/envelope/layer_demand.h"
+#include "volmesh/envelope/opened_ridges.h"
 
 namespace sterna::volmesh {
 
 struct LayerBase {
   /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its rims if it has a boundary.
-  /// `wall` must outlive this.
-  LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {});
+  /// `wall` and `ridges` (those of the wall; null: none) must outlive this.
+  LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {}, const OpenedRidges* ridges = nullptr);
 
   const TriMesh& wall;
   Topology topology;
@@ -45,6 +46,22 @@ struct LayerBase {
 
   LayerDemand demand;  ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
 
+  const OpenedRidges* ridges;  ///< null where nothing is open
+  /// Triangles between lines of one foot: no part of the given wall.
+  bool is_virtual(TriangleId t) const { return ridges != nullptr && t.index() >= ridges->n_given_triangles; }
+  /// Edges between lines of one foot have next to no length: no mean takes them.
+  bool have_one_foot(VertexId a, VertexId b) const { return ridges != nullptr && ridges->foot[a] == ridges->foot[b]; }
+  /// The fan that a vertex is part of; null: none.
+  const OpenedRidges::Foot* fan_of(VertexId v) const;
+  /// How well a growth direction may be asked to see the faces at a vertex: lines of a fan must be able to close up towards the end of their ridge, and see no
+  /// more than one line for all would there.
+  double cone_visibility(VertexId v) const;
+  /// Whether an edge of the wall is beside a virtual triangle: such edges are no features.
+  bool is_in_gap(HalfedgeId h) const {
+    const HalfedgeId twin = topology.twin(h);
+    return is_virtual(triangle_of(h)) || (twin.is_valid() && is_virtual(triangle_of(twin)));
+  }
+
   bool concerns(std::size_t surface, VertexId v) const { return near.empty() || (surface < 64 && (near[v] >> surface & 1u) != 0); }
 
   /// Smallest cosine between d and the normals of v's triangles.
@@ -59,6 +76,7 @@ struct LayerBase {
   /// (stretched triangles: at least a third of the mean edge); its logarithm smoothed over some rings, because a layer several edges thick does not follow the
   /// chance of single triangles, whose steps would tilt the tops of all its prisms.
   void set_layer_edges(const RunContext& context);
+  void even_out_fans();
 };
 
 /// Calls f(w) for v and all that must grow like it, ascending.

@@ -80,6 +80,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
     if (!is_element_[t.index()]) continue;
     LayerElement& e = elements[n];
     e.margins = margins_of(t.index());
+    e.is_virtual = base_.is_virtual(t);
     e.n_wall = base_.unit_normal[t];
     e.wall_area2 = 2.0 * base_.area[t];
     const auto corner = static_cast<std::size_t>(corner_of(h));

@@ -132,7 +132,7 @@ double LayerElement::measure(double least_quality) {
     middle[k] = dot(n_middle, unit[k]) / wall_area2 + std::sqrt(wall_cosine[k] * top_cosine[k] * top_area2 / wall_area2);
     slack = std::min({slack, wall_cosine[k], above, middle[k] - margins->middle});
   }
-  if (slack < k_quality_onset && least_quality > 0.0 && scaled_jacobian() < least_quality) return -1.0;
+  if (slack < k_quality_onset && least_quality > 0.0 && !is_virtual && scaled_jacobian() < least_quality) return -1.0;
   return slack > 0.0 ? slack : -1.0;
 }
 

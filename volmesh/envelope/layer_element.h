@@ -55,6 +55,7 @@ struct ElementWeights {
 
 struct LayerElement {
   const ElementMargins* margins = &k_least_margins;
+  bool is_virtual = false;     ///< its wall triangle is next to nothing (LayerBase::is_virtual): no quality is asked of it
   Vec3 n_wall;                 ///< unit
   double wall_area2 = 0.0;     ///< twice the area
   std::array<Vec3, 2> e, top;  ///< edges 0-1 and 0-2 at wall and envelope

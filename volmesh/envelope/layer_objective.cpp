@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geom/base/parallel.h"
+#include "volmesh/envelope/fan_taper.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -67,7 +68,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     const VertexId v(i);
     normal_[i] = base.vertex_normal[v];
     mirror_share_[i] = mirror_share(base, v);
-    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed) return;
+    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) return;
     const double h = dot(start.height[v] * start.direction[v], normal_[i]);
     h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds
     if (!(h > 0.0) || h_u_[i] < k_min_bound_ratio * h_l) return;
@@ -158,6 +159,7 @@ bool LayerObjective::load(std::size_t t, const Vec3Field& y, LayerElement& e) co
   const TriangleVertices& v = base_.wall.triangles[id];
   const Point& p = base_.wall.points[v[0]];
   e.margins = margins_of(t);
+  e.is_virtual = base_.is_virtual(id);
   e.n_wall = base_.unit_normal[id];
   e.wall_area2 = 2.0 * base_.area[id];
   std::array<Vec3, 3> g;
@@ -220,7 +222,7 @@ LayerObjective::Membrane LayerObjective::membrane(std::size_t v, double height, 
   if (weights_.membrane == 0.0) return sum;
   for (const VertexId w : base_.topology.neighbours(VertexId(v))) {
     const std::size_t other = w.index();
-    if (y[other] == Vec3{}) continue;  // collapsed
+    if (y[other] == Vec3{} || base_.have_one_foot(VertexId(v), w)) continue;  // collapsed, or beside each other
     const double length = distance(base_.wall.points[VertexId(v)], base_.wall.points[w]), weight = membrane_weight(v, other) / (length * length);
     const double rise = height - normal_height(other, y[other]), energy = 0.5 * weight * rise * rise;
     sum.energy += energy;

@@ -132,7 +132,7 @@ double smallest_scaled_jacobian(const LayerBase& base, const Envelope& envelope,
         double least = 1.0;
         for (std::size_t i = begin; i < end; ++i) {
           const MacroElement e = macro_element(base, envelope, TriangleId(i));
-          if (is_prism(e)) least = std::min(least, scaled_jacobian(e));
+          if (is_prism(e) && !base.is_virtual(TriangleId(i))) least = std::min(least, scaled_jacobian(e));
         }
         return least;
       },

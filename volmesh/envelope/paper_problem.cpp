@@ -7,6 +7,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "volmesh/envelope/fan_taper.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -34,7 +35,7 @@ PaperProblem::PaperProblem(const LayerBase& base, const Envelope& start, const C
     : base_(base), g1_min_(g1_min), vertex2place_(base.wall.n_vertices(), k_none), upper_(h_u), growth_(base.wall.n_vertices()) {
   parallel_for(context, growth_.size(), [&](std::size_t i) { growth_[VertexId(i)] = start.height[VertexId(i)] * start.direction[VertexId(i)]; });
   for (const VertexId v : start.height.ids()) {
-    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed) continue;
+    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) continue;
     const auto around = base.topology.outgoing(v);
     if (std::all_of(around.begin(), around.end(), [&](HalfedgeId h) { return is_standing(start, base.wall.triangles[triangle_of(h)]); }))
       add_place(v, h_u[v], h_l);

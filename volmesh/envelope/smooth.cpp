@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geom/base/parallel.h"
+#include "volmesh/envelope/fan_taper.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/validity.h"
 
@@ -35,6 +36,7 @@ void for_each_partner(const LayerBase& base, const Classification& classes, Vert
     return;
   }
   for (const VertexId other : base.topology.neighbours(v)) {
+    if (base.have_one_foot(v, other)) continue;
     const VertexClass& flags = classes.vertex[other];
     const bool is_convex_feature = !flags.is_smooth() && flags.is_convex && !flags.is_concave;
     f(other, base.mirror_weight(v, other) * (is_convex_feature ? k_convex_feature_weight : 1.0) / distance(base.wall.points[v], base.wall.points[other]));
@@ -85,7 +87,7 @@ void smooth_directions(const LayerBase& base, const Classification& classes, int
                        const Column<VertexId, std::uint8_t>* region) {
   std::vector<VertexId> moving;
   for (const VertexId v : envelope.direction.ids())
-    if ((!region || (*region)[v]) && !classes.vertex[v].is_corner && base.visibility[v] > 0.0) moving.push_back(v);
+    if ((!region || (*region)[v]) && !classes.vertex[v].is_corner && base.visibility[v] > 0.0 && !is_tapered(base, envelope, v)) moving.push_back(v);
   std::vector<Vec3> next(moving.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     parallel_for(context, moving.size(), [&](std::size_t i) {
@@ -131,7 +133,7 @@ Envelope relaxed(const LayerBase& base, const Classification& classes, const Col
   Envelope proposal = envelope;
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
-    if (!region[v] || envelope.is_collapsed(v) || !classes.vertex[v].is_smooth()) return;
+    if (!region[v] || envelope.is_collapsed(v) || !classes.vertex[v].is_smooth() || is_tapered(base, envelope, v)) return;
     Vec3 sum;
     double weights = 0.0;
     for_each_partner(base, classes, v, [&](VertexId other, double weight) {

@@ -126,7 +126,8 @@ std::vector<TriangleId> low_quality_elements(const LayerBase& base, const Envelo
           const TriangleVertices& v = base.wall.triangles[t];
           if (!marked[v[0]] && !marked[v[1]] && !marked[v[2]]) continue;
           const MacroElement e = macro_element(base, shape, t);
-          if (!is_macro_valid(e) || !has_open_folds(base, shape, t) || (is_prism(e) && scaled_jacobian(e) < least_quality)) list.push_back(t);
+          if (!is_macro_valid(e) || !has_open_folds(base, shape, t) || (is_prism(e) && !base.is_virtual(t) && scaled_jacobian(e) < least_quality))
+            list.push_back(t);
         }
         return list;
       },

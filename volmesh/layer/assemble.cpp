@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 
@@ -138,6 +139,9 @@ ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches) {
 }
 
 FillBoundary boundary_of(const HybridMesh& layers) {
+  if (!layers.prisms.empty())
+    throw_bad_argument("using a layer with tetrahedra around it", "it has opened ridges, whose cells are no columns", {},
+                       "continue from the envelope, or set open_ridges = \"never\"");
   FillBoundary boundary;
   const LayerBlock& block = layers.layers;
   const std::size_t first_node = n_layer_nodes(block), n_columns = block.n_columns();
@@ -197,11 +201,12 @@ void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, Hybri
   const std::size_t n_before = mesh.points.size();
   std::vector<Point>& points = mesh.points.raw();
   points.insert(points.end(), tets.new_points.begin(), tets.new_points.end());
-  mesh.tetrahedra.resize(tets.tetrahedra.size());
+  const std::size_t n_of_fans = mesh.tetrahedra.size();
+  mesh.tetrahedra.resize(n_of_fans + tets.tetrahedra.size());
   parallel_for(context, tets.tetrahedra.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t p = tets.tetrahedra[i][k];
-      mesh.tetrahedra[i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_before + (p - n_boundary));
+      mesh.tetrahedra[n_of_fans + i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_before + (p - n_boundary));
     }
   });
 }

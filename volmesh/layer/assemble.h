@@ -25,6 +25,7 @@ struct FillBoundary {
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
+/// \throws Error(bad_argument) for a layer with opened ridges (close_fans.h)
 FillBoundary boundary_of(const HybridMesh& layers);
 /// The outer boundary that assemble_layers() got, up to the numbering of its vertices. \p n_wall_patches: how many patches carry layers
 ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
@@ -33,7 +34,7 @@ ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 /// outer ones, sides of cells beside a collapsed line; quadrilaterals: sides of cells.
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
 /// \pre mesh of assemble_layers(), `boundary` of the same.
-/// \post Steiner points follow its nodes.
+/// \post Steiner points follow its nodes, tetrahedra those that it has (close_fans.h).
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -8,6 +8,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/base/sort_unique.h"
+#include "geom/math/measures.h"
 #include "volmesh/case/growth_law.h"
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/untangle.h"
@@ -42,6 +43,17 @@ double largest_share(const IsGood& is_good) {
     (is_good(middle) ? low : high) = middle;
   }
   return low;
+}
+
+/// Whether all cells of a column are valid. On a virtual triangle the first cell is not made, and the others are mostly parts of hexahedra: close_fans.h proves
+/// what is there; no height is given up for it.
+bool is_certain(const LayerBase& base, std::size_t column, const ColumnLines& lines, int n_layers) {
+  if (!base.is_virtual(TriangleId(column)) || std::ranges::find(lines.is_collapsed, true) != lines.is_collapsed.end())
+    return is_column_certain(lines, n_layers);
+  const auto& [a, b, c] = lines.nodes;
+  for (int j = 1; j < n_layers; ++j)
+    if (!is_wedge_valid({a[j], b[j], c[j], a[j + 1], b[j + 1], c[j + 1]})) return false;
+  return true;
 }
 
 }  // namespace
@@ -108,7 +120,7 @@ Extruder::Columns Extruder::invalid_among(const Columns* some) const {
       [&](std::size_t begin, std::size_t end, Columns& bad) {
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
-          if (!is_column_certain(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
+          if (!is_certain(base_, column, column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
         }
       },
       k_column_chunk);
@@ -171,7 +183,7 @@ double Extruder::valid_share(const Envelope& envelope, std::size_t column) const
       lines.nodes[k] = nodes.data() + k * per_line;
       lines.is_collapsed[k] = envelope.is_collapsed(v);
     }
-    return is_column_certain(lines, n);
+    return is_certain(base_, column, lines, n);
   };
   return is_valid(0.0) ? largest_share(is_valid) : k_hopeless;
 }

@@ -8,6 +8,7 @@
 #include "volmesh/envelope/periodic.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
+#include "volmesh/layer/close_fans.h"
 #include "volmesh/layer/extrude.h"
 #include "volmesh/rims/close_ends.h"
 #include "volmesh/rims/slits.h"
@@ -70,6 +71,7 @@ LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& conte
   laid.mesh = assemble_layers(site.base, std::move(extrusion), outer, layer_sides(site.domain));
   laid.mesh.request = layer_request(site.base, site.options.envelope, envelope);
   open_slits(site.domain, laid.mesh.request);
+  close_fans(site.domain.ridges, laid.mesh, laid.boundary);
   const std::size_t n_wall_patches = site.base.wall.patches.size();
   for (const PeriodicEnds& sides : site.domain.periodic)
     laid.mesh.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});

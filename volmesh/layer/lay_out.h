@@ -27,7 +27,7 @@ struct LaidLayer {
 
 /// The layer under the envelope as it is now, which may get lower.
 /// \pre, \post envelope valid and clear
-/// \throws Error of the stages; envelope_failed where the certificate fails
+/// \throws Error of the stages; envelope_failed where the certificate fails; FanError where opened ridges get no valid cells
 LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context);
 
 /// What can be found out about a layer while an engine makes the tetrahedra.

@@ -16,6 +16,7 @@ constexpr double k_min_normal_share = 0.1;
 }  // namespace
 
 double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  if (base.fan_of(v) != nullptr) return envelope.height[v];
   return envelope.height[v] * std::max(dot(envelope.direction[v], base.vertex_normal[v]), k_min_normal_share);
 }
 
@@ -30,7 +31,7 @@ void LinePlacer::place(const Envelope& envelope, VertexId v, double c_t, Point* 
   layer_parameters(scale_.h0(v), h_n, n, t_.data());
   const Vec3 along = envelope.height[v] * envelope.direction[v];
   const Vec3 aside = h_n * base_.vertex_normal[v] - along;
-  const bool is_curved = c_t >= k_straight;
+  const bool is_curved = c_t >= k_straight && base_.fan_of(v) == nullptr;
   const double end = is_curved ? std::exp(-1.0 / c_t) : 0.0;
   const double scale = 1.0 / (1.0 - end);
   for (int j = 1; j < n; ++j) {

@@ -22,7 +22,10 @@ Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBou
   for (const PreflightFinding& finding : preflight(top, {.is_clear = true}, context).findings)
     for (const std::uint32_t t : finding.triangles)
       if (t < base.wall.n_triangles())
-        for (const VertexId v : base.wall.triangles[TriangleId(t)]) ring[v] = 0;
+        for (std::size_t k = 0; k < 3; ++k) {  // opened ridges have another order of triangles, slits lines of their own
+          const std::uint32_t p = boundary.triangles[t][k];
+          ring[p < ring.size() ? VertexId(p) : base.wall.triangles[TriangleId(t)][k]] = 0;
+        }
   for (const ErrorPlace& place : places) {
     const auto end = boundary.points.begin() + static_cast<std::ptrdiff_t>(base.wall.n_vertices());
     const auto nearest =

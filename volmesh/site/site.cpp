@@ -12,6 +12,7 @@
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/cut_discs.h"
 #include "volmesh/domain/disc_sheets.h"
+#include "volmesh/domain/open_ridges.h"
 #include "volmesh/domain/periodic_sides.h"
 #include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/certificate.h"
@@ -49,7 +50,19 @@ std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, con
   return free;
 }
 
-Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context) {
+namespace {
+
+/// Of all walls, m.
+double least_first_height(const MeshCase& options) {
+  double least = options.envelope.first_height;
+  for (const PatchRule& rule : options.patches)
+    if (!is_automatic(rule.first_height)) least = is_automatic(least) ? rule.first_height : std::min(least, rule.first_height);
+  return least;
+}
+
+}  // namespace
+
+Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
   std::vector<PatchRule> of_given;  // the others are meant for what is added
@@ -88,20 +101,22 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
       for (const TriangleId t : domain.wall2surface) domain.wall_weights.push_back(needles.weights[t]);
     for (TriangleId& t : domain.wall2surface) t = needles.sources[t];
   }
+  if (!domain.slits.empty() && options.ridges.is_on()) context.warn("ridges stay closed: an actuator disc ends on the wall");
+  else open_ridges(options.ridges, least_first_height(options), closed, domain, context);
   return domain;
 }
 
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context) {
-  LayerBase base(domain.wall, context, domain.constraints);
+  LayerBase base(domain.wall, context, domain.constraints, &domain.ridges);
   base.let_grow_alike(domain.partners);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
   return base;
 }
 
-MeshingSite::MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context)
+MeshingSite::MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context, std::span<const VertexId> closed)
     : options(validated(surface, user_options, context)),
       given_envelope(options.envelope),
-      domain(domain_around(surface, options, context)),
+      domain(domain_around(surface, options, context, closed)),
       base([&] {
         const StageTimer timer(context, "topology");
         return base_of(domain, options, context);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "geom/base/run_context.h"
@@ -18,9 +19,10 @@ namespace sterna::volmesh {
 /// \throws Error(bad_argument) for options that are required or do not agree; Error(empty_surface)
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context);
 
-/// The fluid's boundary: completed, its needles split, cut by discs, made periodic, taken apart.
+/// The fluid's boundary: completed, its needles split, cut by discs, made periodic, taken apart, its ridges opened.
+/// \p closed: vertices of the wall that get no fan of lines
 /// \pre options validated
-Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context);
+Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed = {});
 
 /// The walls with layers, and what is asked of the layer on them.
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context);
@@ -34,7 +36,7 @@ std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, con
 /// Wall and outer boundary with what every step needs of them.
 struct MeshingSite {
   /// \throws as volume_mesh() for what no step can repair
-  MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context);
+  MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context, std::span<const VertexId> closed = {});
   MeshingSite(const MeshingSite&) = delete;
   MeshingSite& operator=(const MeshingSite&) = delete;
 

@@ -14,6 +14,7 @@
 #include "tests/support/shapes.h"
 #include "tests/volmesh/domain/long_strips.h"
 #include "tests/volmesh/domain/room.h"
+#include "tests/volmesh/domain/sharp_wing.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/volume_mesh.h"
@@ -84,6 +85,10 @@ Setting setting_of(const std::string& name) {
     far.farfield_to_x = far.farfield_to_y = far.farfield_to_z = 6.0;
     if (name == "cylinder") far.farfield_from_y = far.farfield_from_z = far.farfield_to_y = far.farfield_to_z = 0.5;
   }
+  if (name == "wedge" || name == "fans") {
+    setting.wall = sharp_wing(30.0, 8);
+    if (name == "fans") setting.mesh_case.ridges.open_ridges = "always";
+  }
   if (name == "room") {
     setting.mesh_case.farfield = {};
     setting.wall = room([](const std::string&) { return PatchKind::slip; }, [](int a, int, int c) { return a >= 8 && a < 14 && c >= 5 && c < 7; });
@@ -109,6 +114,9 @@ const std::map<std::string, Change> k_changes = {
     {"needles.split_needles", {"0", "strips"}},
     {"needles.needle_budget", {"0.1", "strips"}},
     {"needles.flip_angle", {"0", "strips"}},
+    {"ridges.open_ridges", {"always", "wedge"}},
+    {"ridges.open_angle", {"1.0", "fans"}},
+    {"ridges.fan_angle", {"1.0", "fans"}},
     {"envelope.layers", {"5"}},
     {"envelope.first_height", {"3e-3"}},
     {"envelope.max_growth", {"1.2"}},

@@ -1,0 +1,123 @@
+// Several normals at a sharp trailing edge: the whole mesh is proved, the wall stays what it was, and steps that cannot have fans refuse them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/domain/room.h"
+#include "tests/volmesh/domain/sharp_wing.h"
+#include "volmesh/domain/open_ridges.h"
+#include "volmesh/stages.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::k_context;
+
+MeshCase wing_case(bool is_open) {
+  MeshCase mesh_case = layers(12, 1e-3);
+  mesh_case.farfield.farfield_radius = 10.0;
+  if (is_open) mesh_case.ridges.open_ridges = "always";
+  return mesh_case;
+}
+
+Domain opened(const TriMesh& wall, const RidgeOptions& options, std::vector<VertexId> closed = {}) {
+  Domain domain;
+  domain.wall = wall;
+  open_ridges(options, 1e-3, closed, domain, k_context);
+  return domain;
+}
+
+/// Wall faces as sorted triples of places.
+std::vector<std::array<std::array<double, 3>, 3>> wall_faces(const HybridMesh& mesh) {
+  std::vector<std::array<std::array<double, 3>, 3>> faces;
+  for (const sterna::BoundaryTriangle& face : mesh.boundary_triangles) {
+    if (mesh.patches[face.patch].name != "wing") continue;
+    auto& places = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) places[k] = std::array{mesh.points[face.nodes[k]].x, mesh.points[face.nodes[k]].y, mesh.points[face.nodes[k]].z};
+    std::ranges::sort(places);
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+TEST(Ridges, OpenWallIsClosedAndHasTheGivenOneInIt) {
+  const TriMesh wall = sharp_wing(30.0, 8);
+  const Domain domain = opened(wall, {.open_ridges = "always"});
+  const OpenedRidges& ridges = domain.ridges;
+  EXPECT_EQ(ridges.feet.size(), 7u);  // the two corners end the ridge
+  EXPECT_EQ(ridges.end_vertices.size(), 2u);
+  EXPECT_EQ(domain.wall.n_vertices(), wall.n_vertices() + 7 * 5);  // 150 degrees in five sectors
+  EXPECT_EQ(ridges.quads.size(), 6u * 5u);
+  EXPECT_EQ(ridges.ends.size(), 2u * 5u);
+  const Topology topology(domain.wall, k_context);
+  EXPECT_EQ(topology.n_boundary_halfedges(), 0u);
+  // Without virtual triangles, and with the lines of each foot as one vertex, it is the wall.
+  ASSERT_EQ(ridges.n_given_triangles, wall.n_triangles());
+  for (const TriangleId t : wall.triangles.ids())
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.foot[domain.wall.triangles[t][k]], wall.triangles[t][k]);
+  for (const OpenedRidges::Foot& foot : ridges.feet) EXPECT_EQ(foot.point, wall.points[foot.vertex]);
+  for (const VertexId v : domain.wall.points.ids()) EXPECT_LE(distance(domain.wall.points[v], wall.points[ridges.foot[v]]), 1.0000001e-5);
+}
+
+TEST(Ridges, ClosedVerticesAndFlatEdgesStayClosed) {
+  const TriMesh wall = sharp_wing(30.0, 8);
+  EXPECT_TRUE(opened(wall, {.open_ridges = "never"}).ridges.is_empty());
+  EXPECT_TRUE(opened(wall, {.open_ridges = "always", .open_angle = 2.8}).ridges.is_empty());  // the edge turns by 2.62
+  const Domain all = opened(wall, {.open_ridges = "always"});
+  const VertexId middle = all.ridges.feet[3].vertex;
+  const Domain parted = opened(wall, {.open_ridges = "always"}, {middle});
+  EXPECT_EQ(parted.ridges.feet.size(), 6u);
+  EXPECT_EQ(parted.ridges.end_vertices.size(), 3u);
+}
+
+TEST(Ridges, TooSmallAFirstHeightIsRefused) {
+  TriMesh wall = sharp_wing(30.0, 8);
+  for (Point& p : wall.points) p.x += 1e9;
+  Domain domain;
+  domain.wall = wall;
+  test::expect_error(ErrorCode::bad_argument, "too small for coordinates", [&] { open_ridges({.open_ridges = "always"}, 1e-3, {}, domain, k_context); });
+}
+
+TEST(Ridges, MeshesOfWedgesAreValidAndKeepTheWall) {
+  for (const double angle : {5.0, 30.0, 70.0}) {
+    const TriMesh wall = sharp_wing(angle, 12);
+    const VolumeMeshResult closed = volume_mesh(wall, wing_case(false), k_context), open = volume_mesh(wall, wing_case(true), k_context);
+    EXPECT_TRUE(open.check.is_valid()) << angle;
+    EXPECT_GT(open.mesh.hexahedra.size(), 0u) << angle;
+    EXPECT_EQ(wall_faces(open.mesh), wall_faces(closed.mesh)) << angle;
+    // Columns beside explicit cells are measured as what they are.
+    const CheckReport all_explicit = check(explicit_cells(open.mesh), {}, k_context);
+    EXPECT_TRUE(all_explicit.is_valid()) << angle;
+    EXPECT_EQ(all_explicit.cells.total(), open.check.cells.total());
+    EXPECT_NEAR(all_explicit.dual_volume, open.check.dual_volume, 1e-11 * open.check.dual_volume);
+  }
+}
+
+TEST(Ridges, EqualForAnyNumberOfThreads) {
+  const TriMesh wall = sharp_wing(30.0, 8);
+  const VolumeMeshResult one = volume_mesh(wall, wing_case(true), RunContext({.threads = 1}));
+  for (const int threads : {2, 7}) {
+    const VolumeMeshResult other = volume_mesh(wall, wing_case(true), RunContext({.threads = threads}));
+    EXPECT_EQ(other.mesh.points, one.mesh.points);
+    EXPECT_EQ(other.mesh.hexahedra, one.mesh.hexahedra);
+    EXPECT_EQ(other.mesh.tetrahedra, one.mesh.tetrahedra);
+  }
+}
+
+TEST(Ridges, StepsBehindTheTetrahedraAreRefused) {
+  const TriMesh wall = sharp_wing(30.0, 8);
+  const EnvelopeStage envelope = make_envelope(wall, wing_case(true), {}, k_context);
+  const FilledStage filled = make_tetrahedra(wall, envelope, wing_case(true), {}, k_context);
+  EXPECT_GT(filled.layers.hexahedra.size(), 0u);
+  test::expect_error(ErrorCode::bad_argument, "opened ridges", [&] { finish_mesh(wall, filled, wing_case(true), k_context); });
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

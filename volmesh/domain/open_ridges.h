@@ -1,0 +1,22 @@
+// Sharp convex edges of walls with layers get several normals: the wall is opened there, and what is open is closed by thin virtual triangles.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "volmesh/case/ridge_options.h"
+#include "volmesh/domain/domain_parts.h"
+
+namespace sterna::volmesh {
+
+/// Opens the ridges of the domain's wall: chains of convex edges that turn by more than open_angle. A vertex inside a chain becomes a fan of lines on one foot,
+/// at equal angles of at most fan_angle from the normal of the wall on one side to that on the other; all vertices of a chain get as many. A chain ends at the
+/// first vertex that cannot be one of a fan: where chains meet or bend by more than 60 degrees, where one side is not seen from one normal, at rims of the
+/// wall, where edges are longer than 1e5 first heights, and at vertices of `closed` (of the given wall). Chains with less than two inner vertices stay closed.
+/// Vertices and triangles of the wall keep their numbers, new ones follow. \pre domain made, no slits
+/// \post wall closed and manifold as before, Domain::ridges says what was done; without ridges nothing has changed
+/// \throws Error(bad_argument) where the first height is too small for the coordinates
+void open_ridges(const RidgeOptions& options, double first_height, std::span<const VertexId> closed, Domain& domain, const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,301 @@
+// Steps: number_nodes, move_lines (ends of ridges with a layer less), fill (columns that stay, explicit cells), reorder the boundary, prove the explicit cells.
+#include "volmesh/layer/close_fans.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "geom/base/columns.h"
+#include "geom/base/sort_unique.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/dual_metrics.h"
+#include "volmesh/case/growth_law.h"
+
+namespace sterna::volmesh {
+namespace {
+
+template <std::size_t N>
+std::array<Vec3, N> points_of(const HybridMesh& mesh, const std::array<NodeId, N>& nodes) {
+  std::array<Vec3, N> points;
+  for (std::size_t k = 0; k < N; ++k) points[k] = mesh.points[nodes[k]];
+  return points;
+}
+
+/// The same curve with one layer less: its first cell as high as before, the others grow a little more. \p nodes: from the wall up; the last stays.
+std::vector<Point> with_layer_less(const std::vector<Point>& nodes) {
+  std::vector<double> along = {0.0};
+  for (std::size_t j = 1; j < nodes.size(); ++j) along.push_back(along.back() + distance(nodes[j - 1], nodes[j]));
+  const std::size_t n = nodes.size() - 2;
+  std::vector<double> t(n + 1);
+  layer_parameters(along[1], along.back(), static_cast<int>(n), t.data());
+  std::vector<Point> result = {nodes[0]};
+  std::size_t k = 0;
+  for (std::size_t j = 1; j < n; ++j) {
+    const double s = t[j] * along.back();
+    while (k + 2 < along.size() && along[k + 1] < s) ++k;
+    result.push_back(nodes[k] + (s - along[k]) / (along[k + 1] - along[k]) * (nodes[k + 1] - nodes[k]));
+  }
+  result.push_back(nodes.back());
+  return result;
+}
+
+class FanCloser {
+ public:
+  FanCloser(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boundary)
+      : ridges_(ridges), mesh_(mesh), boundary_(boundary), given_(mesh.layers), n_lines_(ridges.n_given_vertices), is_end_(ridges.foot.size(), 0) {
+    for (const VertexId v : ridges.end_vertices) is_end_[v.index()] = 1;
+  }
+
+  void close() {
+    require_standing_lines();
+    number_nodes();
+    fill();
+    reorder_boundary();
+    prove();
+  }
+
+ private:
+  using Line = std::uint32_t;
+  bool is_added(Line line) const { return line >= n_lines_; }
+  int n_layers(Line line) const { return given_.layers_of_line(line); }
+  Line foot(Line line) const { return ridges_.foot[VertexId(line)].value(); }
+  bool is_collapsed(Line line) const { return given_.is_collapsed[line] != 0; }
+
+  /// Node j of a line: lines of one foot meet in node 0, lines at ends of ridges start one layer late.
+  NodeId node(Line line, int j) const {
+    if (j == 0 || is_collapsed(line)) return NodeId(first_[foot(line)]);
+    if (is_added(line)) return NodeId(first_[line] + static_cast<std::uint32_t>(j) - 1);
+    if (is_end_[line]) return NodeId(first_[line] + static_cast<std::uint32_t>(j - 1));
+    return NodeId(first_[line] + static_cast<std::uint32_t>(j));
+  }
+  NodeId top(Line line) const { return node(line, n_layers(line)); }
+
+  void require_standing_lines() const {
+    std::vector<VertexId> feet;
+    ErrorInfo info;
+    const auto look_at = [&](VertexId v) {
+      if (!is_collapsed(v.value()) && n_layers(v.value()) > 2) return;
+      info.add_place(mesh_.points.raw()[given_.first_node[v.value()]], "vertex " + std::to_string(v.value()));
+      for (const VertexId f : feet_at(v.value())) feet.push_back(f);
+    };
+    for (const VertexId v : ridges_.foot.ids())
+      if (is_added(v.value()) || ridges_.foot[v] != v || is_end_[v.index()]) look_at(v);
+    for (const OpenedRidges::Foot& f : ridges_.feet) look_at(f.vertex);
+    if (!feet.empty()) fail(std::move(info), "fans have lines without at least three layers", std::move(feet));
+  }
+
+  /// The feet of the fans that a line is part of, or ends.
+  std::vector<VertexId> feet_at(Line line) const {
+    if (!is_end_[line]) return {VertexId(foot(line))};
+    std::vector<VertexId> feet;
+    for (const auto& t : ridges_.ends)
+      if (t[0].value() == line) feet.push_back(ridges_.foot[t[1]]);
+    return feet;
+  }
+
+  [[noreturn]] static void fail(ErrorInfo info, std::string problem, std::vector<VertexId> feet) {
+    sort_unique(feet);
+    info.code = ErrorCode::envelope_failed;
+    info.attempted = "making the cells of opened ridges";
+    info.problem = std::move(problem);
+    info.hint = "open_ridges = \"never\", or a larger open_angle";
+    throw FanError(std::move(info), std::move(feet));
+  }
+
+  void number_nodes() {
+    const std::size_t n_all = ridges_.foot.size(), n_before = given_.first_node.empty() ? 0 : given_.top(static_cast<Line>(n_all - 1)).index() + 1;
+    const std::vector<Point>& old = mesh_.points.raw();
+    std::vector<Point> points;
+    points.reserve(old.size());
+    first_.resize(n_all);
+    for (Line line = 0; line < n_all; ++line) {
+      first_[line] = NodeId(points.size()).value();
+      const auto begin = old.begin() + given_.first_node[line];
+      std::vector<Point> nodes(begin, begin + given_.n_steps(line) + 1);
+      if (is_added(line)) nodes.erase(nodes.begin());
+      else if (is_end_[line]) nodes = with_layer_less(nodes);
+      points.insert(points.end(), nodes.begin(), nodes.end());
+    }
+    for (const OpenedRidges::Foot& f : ridges_.feet) points[first_[f.vertex.index()]] = f.point;
+    outer_shift_ = static_cast<std::int64_t>(points.size()) - static_cast<std::int64_t>(n_before);
+    n_before_ = n_before;
+    points.insert(points.end(), old.begin() + static_cast<std::ptrdiff_t>(n_before), old.end());
+    mesh_.points = Column<NodeId, Point>(std::move(points));
+  }
+
+  /// Where a node of the given mesh is now. Nodes of lines are asked for as ends of lines, or on the wall.
+  NodeId moved(NodeId before) const {
+    if (before.index() >= n_before_) return NodeId(static_cast<std::uint64_t>(static_cast<std::int64_t>(before.index()) + outer_shift_));
+    const auto after = std::ranges::upper_bound(given_.first_node, before.value());
+    const auto line = static_cast<Line>(after - given_.first_node.begin() - 1);
+    return node(line, static_cast<int>(before.value() - given_.first_node[line]));
+  }
+
+  void fill() {
+    LayerBlock block;
+    block.n_layers = given_.n_layers;
+    block.line_layers = given_.line_layers;
+    if (block.line_layers.empty() && !ridges_.end_vertices.empty()) block.line_layers.assign(n_lines_, static_cast<std::uint16_t>(given_.n_layers));
+    if (!block.line_layers.empty()) block.line_layers.resize(n_lines_);
+    for (const VertexId v : ridges_.end_vertices) --block.line_layers[v.index()];
+    block.first_node.assign(first_.begin(), first_.begin() + static_cast<std::ptrdiff_t>(n_lines_));
+    block.is_collapsed.assign(given_.is_collapsed.begin(), given_.is_collapsed.begin() + static_cast<std::ptrdiff_t>(n_lines_));
+
+    std::vector<sterna::BoundaryTriangle> faces;
+    for (std::size_t t = 0; t < mesh_.boundary_triangles.size(); ++t) {
+      if (t >= ridges_.n_given_triangles && t < given_.n_columns()) continue;  // virtual
+      sterna::BoundaryTriangle face = mesh_.boundary_triangles[t];
+      for (NodeId& n : face.nodes) n = moved(n);
+      faces.push_back(face);
+    }
+    mesh_.boundary_triangles = std::move(faces);
+    for (BoundaryQuad& quad : mesh_.boundary_quads)
+      for (NodeId& n : quad.nodes) n = moved(n);
+
+    for (std::size_t column = 0; column < ridges_.n_given_triangles; ++column) {
+      const auto& base = given_.base[column];
+      if (std::ranges::none_of(base, [&](Line line) { return is_added(line) || is_end_[line]; })) {
+        block.base.push_back(base);
+        order_.push_back(static_cast<std::uint32_t>(column));
+        continue;
+      }
+      explicit_columns_.push_back(static_cast<std::uint32_t>(column));
+      for (int j = 0; j < n_layers(base[0]); ++j) add_cell(base, j);
+    }
+    for (const auto& q : ridges_.quads) add_hexahedra({q[0].value(), q[1].value(), q[2].value(), q[3].value()});
+    for (const auto& t : ridges_.ends) add_end({t[0].value(), t[1].value(), t[2].value()});
+    mesh_.layers = std::move(block);
+
+    LayerRequest& request = mesh_.request;
+    for_each_column(
+        [&](auto& column) {
+          if (!column.empty()) column.resize(n_lines_);
+        },
+        request);
+  }
+
+  /// The cell of a wall triangle in one layer, by how many of its lines are collapsed there (LayerBlock::cell).
+  void add_cell(const std::array<Line, 3>& base, int j) {
+    std::array<NodeId, 3> low, high;
+    std::array<bool, 3> is_down;
+    for (std::size_t k = 0; k < 3; ++k) low[k] = node(base[k], j), high[k] = node(base[k], j + 1), is_down[k] = low[k] == high[k];
+    const int n_down = is_down[0] + is_down[1] + is_down[2];
+    if (n_down == 3) return;
+    if (n_down == 0) return add_prism({low[0], low[1], low[2], high[0], high[1], high[2]}, base);
+    std::size_t a = 0;
+    while (is_down[a] != (n_down == 1)) ++a;
+    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+    if (n_down == 1) add_pyramid({low[b], high[b], high[c], low[c], low[a]}, base);
+    else add_tet({low[a], low[b], low[c], high[a]}, base);
+  }
+
+  /// Over a virtual quadrilateral.
+  void add_hexahedra(const std::array<Line, 4>& q) {
+    const int n = n_layers(q[0]);
+    const auto level = [&](int j) { return std::array{node(q[0], j), node(q[1], j), node(q[2], j), node(q[3], j)}; };
+    const std::array<NodeId, 4> first = level(1), foot = level(0);
+    add_prism({foot[0], first[3], first[0], foot[1], first[2], first[1]}, q);
+    for (int j = 1; j + 1 < n; ++j) {
+      const auto low = level(j), high = level(j + 1);
+      mesh_.hexahedra.push_back({low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]});
+      hex_lines_.push_back(q);
+    }
+    const auto low = level(n - 1), high = level(n);
+    Point middle;
+    for (std::size_t k = 0; k < 4; ++k) middle += (mesh_.points[low[k]] + mesh_.points[high[k]]) / 8.0;
+    const NodeId centre = mesh_.points.push_back(middle);
+    add_pyramid({low[0], low[1], low[2], low[3], centre}, q);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t next = (k + 1) % 4;
+      add_pyramid({low[k], high[k], high[next], low[next], centre}, q);
+    }
+    add_tet({high[0], high[2], high[1], centre}, q);
+    add_tet({high[0], high[3], high[2], centre}, q);
+  }
+
+  /// Over the virtual triangle at the end of a ridge; the first line is the end's.
+  void add_end(const std::array<Line, 3>& t) {
+    add_tet({node(t[0], 0), node(t[2], 1), node(t[1], 1), node(t[1], 0)}, t);
+    for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
+  }
+
+  using Lines = std::array<Line, 4>;
+  template <std::size_t N>
+  static Lines lines_of(const std::array<Line, N>& lines) {
+    return {lines[0], lines[1], lines[2], lines[N - 1]};
+  }
+  template <std::size_t N>
+  void add_prism(const std::array<NodeId, 6>& nodes, const std::array<Line, N>& lines) {
+    mesh_.prisms.push_back(nodes);
+    prism_lines_.push_back(lines_of(lines));
+  }
+  template <std::size_t N>
+  void add_pyramid(const std::array<NodeId, 5>& nodes, const std::array<Line, N>& lines) {
+    mesh_.pyramids.push_back(nodes);
+    pyramid_lines_.push_back(lines_of(lines));
+  }
+  template <std::size_t N>
+  void add_tet(const std::array<NodeId, 4>& nodes, const std::array<Line, N>& lines) {
+    mesh_.tetrahedra.push_back(nodes);
+    tet_lines_.push_back(lines_of(lines));
+  }
+
+  void reorder_boundary() {
+    order_.insert(order_.end(), explicit_columns_.begin(), explicit_columns_.end());
+    for (std::size_t t = ridges_.n_given_triangles; t < boundary_.triangles.size(); ++t) order_.push_back(static_cast<std::uint32_t>(t));
+    const auto reorder = [&](auto& column) {
+      auto before = std::move(column);
+      column.clear();
+      for (const std::uint32_t t : order_) column.push_back(before[t]);
+    };
+    reorder(boundary_.triangles);
+    reorder(boundary_.triangle_patch);
+    reorder(boundary_.layer_volumes);
+    for (std::size_t t = order_.size(); t-- > 0;)
+      if (order_[t] >= ridges_.n_given_triangles && order_[t] < given_.n_columns()) boundary_.layer_volumes[t] = 0.0;  // no prism is under it
+    for (std::size_t p = 0; p < boundary_.point2node.size(); ++p)
+      boundary_.point2node[p] = p < ridges_.foot.size() ? top(static_cast<Line>(p)) : moved(boundary_.point2node[p]);
+  }
+
+  void prove() const {
+    ErrorInfo info;
+    std::vector<VertexId> feet;
+    const auto look_at = [&](const auto& cells, const std::vector<Lines>& lines_of_cells, CellKind kind, const auto& is_valid) {
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        Cell cell{kind, {}};
+        std::ranges::copy(cells[i], cell.nodes.begin());
+        if (is_valid(points_of(mesh_, cells[i])) && (kind == CellKind::tetrahedron || are_sub_volumes_positive(mesh_, cell))) continue;
+        info.add_place(mesh_.points[cells[i][0]], std::string(to_string(kind)) + " " + std::to_string(i));
+        for (const Line line : lines_of_cells[i])
+          for (const VertexId foot : feet_at(line)) feet.push_back(foot);
+      }
+    };
+    look_at(mesh_.prisms, prism_lines_, CellKind::prism, [](const WedgePoints& p) { return is_wedge_valid(p); });
+    look_at(mesh_.pyramids, pyramid_lines_, CellKind::pyramid, [](const std::array<Vec3, 5>& p) { return is_pyramid_valid(p); });
+    look_at(mesh_.hexahedra, hex_lines_, CellKind::hexahedron, [](const std::array<Vec3, 8>& p) { return is_hexahedron_valid(p); });
+    look_at(mesh_.tetrahedra, tet_lines_, CellKind::tetrahedron, [](const std::array<Vec3, 4>& p) { return is_tet_valid(p); });
+    if (!feet.empty()) fail(std::move(info), "cells of fans are inverted", std::move(feet));
+  }
+
+  const OpenedRidges& ridges_;
+  HybridMesh& mesh_;
+  FillBoundary& boundary_;
+  const LayerBlock given_;  ///< on the opened wall
+  std::size_t n_lines_;     ///< of the given wall
+  std::vector<std::uint8_t> is_end_;
+  std::vector<std::uint32_t> first_;  ///< of each line: its first own node
+  std::size_t n_before_ = 0;          ///< nodes of lines in the given mesh
+  std::int64_t outer_shift_ = 0;
+  std::vector<std::uint32_t> order_, explicit_columns_;
+  std::vector<Lines> prism_lines_, pyramid_lines_, hex_lines_, tet_lines_;
+};
+
+}  // namespace
+
+void close_fans(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boundary) {
+  if (!ridges.is_empty()) FanCloser(ridges, mesh, boundary).close();
+}
+
+bool has_fans(const HybridMesh& layers) { return !layers.hexahedra.empty() || !layers.prisms.empty(); }
+
+}  // namespace sterna::volmesh
