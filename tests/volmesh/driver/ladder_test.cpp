@@ -57,8 +57,9 @@ TEST_F(DriverLadder, ARepairedLayerFollowsWhenAllElseFails) {
 }
 
 TEST_F(DriverLadder, RepairsCanBeForbiddenAndEnd) {
-  test::expect_error(ErrorCode::tetra_engine_failed, "(HXT): the helper died of signal 11",
-                     [&] { (void)mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .repair_boundary = false, .helper_folder = folder_that_fails(1)}); });
+  test::expect_error(ErrorCode::tetra_engine_failed, "(HXT): the helper died of signal 11", [&] {
+    (void)mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .repair_boundary = false, .helper_folder = folder_that_fails(1)});
+  });
   EXPECT_THAT(log_, testing::Not(HasSubstr("trying again")));
   test::expect_error(ErrorCode::tetra_engine_failed, "(HXT): the helper died of signal 11",
                      [&] { (void)mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .helper_folder = folder_that_fails(100)}); });
