@@ -12,6 +12,8 @@
 namespace sterna::scripting {
 namespace {
 
+constexpr double k_heat_capacity = 1004.5;  // J / (kg K), of air at constant pressure
+
 constexpr double k_prandtl = 0.72;          ///< of air
 constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
 constexpr double k_first_step = 1e-3;       ///< of a run in time, over length and speed; afterwards steps follow from the Courant number
@@ -53,6 +55,7 @@ class FoamSettings {
     add("system", "controlDict", control());
     add("system", "fvSchemes", schemes());
     add("system", "fvSolution", solution());
+    if (s_.is_compressible) add("system", "fvOptions", temperature_limits());
     add("system", "decomposeParDict", decomposition());
     all.push_back({.path = "Allrun", .text = run_script(), .is_program = true});
     all.push_back({.path = "Allclean", .text = clean_script(), .is_program = true});
@@ -182,6 +185,15 @@ class FoamSettings {
     return text + (s_.is_compressible
                        ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
                        : "relaxationFactors\n{\n    equations { p 1; U 0.8; \"(nuTilda|k|omega)\" 0.7; }\n}\n");
+  }
+
+  std::string temperature_limits() const {
+    return "// The start from uniform flow throws single cells far off: below zero the viscosity of air has no value, and the solver dies. Where these limits "
+           "hold\n"
+           "// at the end, the flow is not to be believed: the log says in how many cells.\n"
+           "limit_temperature\n{\n    type limitTemperature;\n    active yes;\n    selectionMode all;\n    min " +
+           case_number(0.3 * s_.flow.temperature) + ";\n    max " +
+           case_number(3.0 * (s_.flow.temperature + 0.5 * s_.flow.speed * s_.flow.speed / k_heat_capacity)) + ";\n}\n";
   }
 
   std::string decomposition() const {

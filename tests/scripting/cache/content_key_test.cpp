@@ -34,7 +34,8 @@ TEST(ContentKeys, EveryOptionOfAVolumeMeshIsInItsKeyAndInTheEnvelopesWhereItBelo
     const OptionTable table = volmesh::options_of(options);
     change(table[i]);
     EXPECT_TRUE(seen.insert(volume_options_key(options)).second) << table[i].stage << "." << table[i].name;
-    const bool is_of_envelope = table[i].stage == "family" || table[i].stage == "needles" || table[i].stage == "envelope" || table[i].stage == "farfield";
+    const bool is_of_envelope =
+        table[i].stage == "family" || table[i].stage == "needles" || table[i].stage == "envelope" || table[i].stage == "farfield" || table[i].stage == "ridges";
     EXPECT_EQ(envelope_options_key(options) != envelope, is_of_envelope) << table[i].stage << "." << table[i].name;
   }
 }
