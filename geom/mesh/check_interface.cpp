@@ -19,16 +19,25 @@ struct InterfaceScan {
   GateScan height, volume;  ///< ids are slots of the prism's face
 };
 
+/// Wall nodes at which fans of opened ridges may begin: those beside triangles only. Where layers end on another wall their sides are quadrilaterals of it.
+/// Empty without explicit prisms.
+std::vector<std::uint8_t> possible_fan_feet(const HybridMesh& mesh) {
+  std::vector<std::uint8_t> is_foot(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
+  if (is_foot.empty()) return is_foot;
+  for (const BoundaryTriangle& triangle : mesh.boundary_triangles)
+    if (mesh.patches[triangle.patch].kind == PatchKind::wall)
+      for (const NodeId node : triangle.nodes) is_foot[node.index()] = 1;
+  for (const BoundaryQuad& quad : mesh.boundary_quads)
+    for (const NodeId node : quad.nodes) is_foot[node.index()] = 0;
+  return is_foot;
+}
+
 }  // namespace
 
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
                      const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report) {
-  std::vector<std::uint8_t> wall_nodes(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
-  if (!mesh.prisms.empty())
-    for (const BoundaryTriangle& triangle : mesh.boundary_triangles)
-      if (mesh.patches[triangle.patch].kind == PatchKind::wall)
-        for (const NodeId node : triangle.nodes) wall_nodes[node.index()] = 1;
-  const auto is_on_wall = [&](NodeId node) { return wall_nodes[node.index()] != 0; };
+  const std::vector<std::uint8_t> fan_feet = possible_fan_feet(mesh);
+  const auto is_foot = [&](NodeId node) { return fan_feet[node.index()] != 0; };
   const InterfaceScan scan = parallel_reduce(
       context, match.interface.size(), InterfaceScan(limits),
       [&](std::size_t begin, std::size_t end) {
@@ -38,7 +47,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const Face face = slots.face(slot);
           const Cell cell = cells.cell(slots.owner(slot));
           if (face.size != 3 || cell.kind != CellKind::prism) continue;
-          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_on_wall)) continue;  // a fan's, beside its first cells
+          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // a fan's, beside its first cells
           WedgePoints p;
           for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
           const auto f = [&](std::size_t k) { return mesh.points[face.nodes[k]]; };

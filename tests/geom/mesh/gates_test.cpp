@@ -405,5 +405,18 @@ TEST(CheckReport, JsonHasEveryMeasureWithItsLimits) {
   EXPECT_NE(json["quality_verdict"], "not checked");
 }
 
+/// Layers that end on another wall (a strut on a tunnel's): the tops of their last prisms touch that wall, and are tops all the same, also in a file that knows
+/// no columns. (They were taken for first cells of fans and left out.)
+TEST(Gates, TopsBesideAnotherWallCountInFilesToo) {
+  HybridMesh mesh = plate_block(1);
+  for (Patch& patch : mesh.patches)
+    if (patch.name == "side") patch.kind = PatchKind::wall;
+  const CheckReport of_columns = check(mesh, {}, RunContext()), of_cells = check(explicit_cells(mesh), {}, RunContext());
+  for (const Measure measure : {Measure::interface_height, Measure::interface_volume}) {
+    EXPECT_TRUE(std::isfinite(of_columns.gate(measure).worst));
+    EXPECT_EQ(of_cells.gate(measure).worst, of_columns.gate(measure).worst);
+  }
+}
+
 }  // namespace
 }  // namespace sterna
