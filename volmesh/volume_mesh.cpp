@@ -198,7 +198,10 @@ FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Make
   std::vector<VertexId> closed;
   for (int round = 0;; ++round) {
     MeshCase now = options;
-    if (round == k_fan_rounds) now.ridges.open_ridges = "never";
+    if (round == k_fan_rounds && !closed.empty()) {
+      context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some fans still had no valid cells");
+      now.ridges.open_ridges = "never";
+    }
     MeshingSite site(wall, now, context, closed);
     try {
       const auto make = [&] { return make_envelope(site, makers, context); };
