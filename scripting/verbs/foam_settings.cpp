@@ -12,7 +12,8 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_heat_capacity = 1004.5;  // J / (kg K), of air at constant pressure
+/// J / (kg K), of air at constant pressure.
+constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0);
 
 constexpr double k_prandtl = 0.72;          ///< of air
 constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
@@ -69,7 +70,6 @@ class FoamSettings {
   }
 
   std::string gas() const {
-    const double cp = volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0) * volmesh::k_gas_constant;
     const double mu = s_.nu * s_.density;
     // A viscosity of the user's own is constant; air's follows Sutherland.
     constexpr double k_same = 1e-3;
@@ -78,7 +78,7 @@ class FoamSettings {
     return std::string("thermoType\n{\n    type hePsiThermo;\n    mixture pureMixture;\n    transport ") + (is_sutherland ? "sutherland" : "const") +
            ";\n    thermo hConst;\n    equationOfState perfectGas;\n    specie specie;\n    energy sensibleInternalEnergy;\n}\n\nmixture\n{\n    specie { "
            "molWeight 28.9644; }\n    thermodynamics { Cp " +
-           case_number(cp) + "; Hf 0; }\n    transport { " +
+           case_number(k_heat_capacity) + "; Hf 0; }\n    transport { " +
            (is_sutherland ? "As 1.458e-06; Ts 110.4; Pr " : "mu " + case_number(s_.is_viscous ? mu : 0.0) + "; Pr ") + case_number(k_prandtl) + "; }\n}\n";
   }
 
@@ -115,6 +115,11 @@ class FoamSettings {
           "    yPlus\n    {\n        type yPlus;\n        libs (fieldFunctionObjects);\n        writeControl writeTime;\n    }\n    wallShearStress\n    {\n   "
           "     type "
           "wallShearStress;\n        libs (fieldFunctionObjects);\n        writeControl writeTime;\n    }\n";
+    if (s_.is_compressible)
+      text +=
+          "    temperature\n    {\n        type fieldMinMax;\n        libs (fieldFunctionObjects);\n        mode magnitude;\n        fields (T);\n        "
+          "writeControl "
+          "timeStep;\n        writeInterval 1;\n        log no;\n    }\n";
     text += "    residuals\n    {\n        type solverInfo;\n        libs (utilityFunctionObjects);\n        fields (" + solved() + ");\n    }\n";
     return text + "}\n";
   }
@@ -188,9 +193,9 @@ class FoamSettings {
   }
 
   std::string temperature_limits() const {
-    return "// The start from uniform flow throws single cells far off: below zero the viscosity of air has no value, and the solver dies. Where these limits "
-           "hold\n"
-           "// at the end, the flow is not to be believed: the log says in how many cells.\n"
+    return "// The start from uniform flow throws single cells far off: below zero the viscosity of air has no value, and the solver dies. Where the "
+           "temperature "
+           "ends at one of these\n// limits (postProcessing/temperature has its range of every step), the flow is not to be believed.\n"
            "limit_temperature\n{\n    type limitTemperature;\n    active yes;\n    selectionMode all;\n    min " +
            case_number(0.3 * s_.flow.temperature) + ";\n    max " +
            case_number(3.0 * (s_.flow.temperature + 0.5 * s_.flow.speed * s_.flow.speed / k_heat_capacity)) + ";\n}\n";

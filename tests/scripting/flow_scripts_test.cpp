@@ -12,6 +12,7 @@
 #include "scripting/verbs/su2_config.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/error_of.h"
+#include "tests/support/hybrid_shapes.h"
 #include "tests/support/process.h"
 #include "tests/support/shapes.h"
 #include "volmesh/volume_mesh.h"
@@ -264,22 +265,8 @@ TEST_F(FlowScripts, su2_configuration_refuses_what_cannot_be_known) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case.cfg"));
 }
 
-/// One cube of tetrahedra would do; only boundary faces and kinds are looked at.
-HybridMesh box_mesh(const std::vector<std::pair<std::string, PatchKind>>& kinds) {
-  HybridMesh mesh;
-  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 0, 1}, Point{1, 1, 1}, Point{0, 1, 1}})
-    mesh.points.push_back(p);
-  for (const auto& [name, kind] : kinds) mesh.patches.push_back({name, kind});
-  const std::array<std::array<std::uint32_t, 4>, 6> faces = {
-      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};  // x-, x+, y-, y+, z-, z+
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    mesh.boundary_quads.push_back(
-        {{NodeId(faces[f][0]), NodeId(faces[f][1]), NodeId(faces[f][2]), NodeId(faces[f][3])}, PatchId(std::min(f, kinds.size() - 1))});
-  return mesh;
-}
-
 TEST(Su2Config, half_models_count_half_the_area) {
-  const HybridMesh mesh = box_mesh({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far field", PatchKind::farfield}});
+  const HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far field", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   std::string log;
   const RunContext context({.log = [&](LogLevel, std::string_view line) { log += line; }});
@@ -297,7 +284,8 @@ TEST(Su2Config, half_models_count_half_the_area) {
 }
 
 TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
-  const HybridMesh mesh = box_mesh({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
+  const HybridMesh mesh =
+      test::box_of_patches({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
   const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, {.monitor = "floor"}, flow, {.area = 1.0}, {}, RunContext()));
   EXPECT_EQ(keys.at("MARKER_OUTLET"), "( outlet, 100000 )");
@@ -312,7 +300,7 @@ TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
 
 TEST(Su2Config, discs_need_what_they_do) {
   const HybridMesh mesh =
-      box_mesh({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+      test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
                      [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {}, RunContext()); });

@@ -194,4 +194,17 @@ HybridMesh hexahedron_with_roof() {
   return mesh;
 }
 
+HybridMesh box_of_patches(const std::vector<std::pair<std::string, PatchKind>>& kinds) {
+  HybridMesh mesh;
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 0, 1}, Point{1, 1, 1}, Point{0, 1, 1}})
+    mesh.points.push_back(p);
+  for (const auto& [name, kind] : kinds) mesh.patches.push_back({name, kind});
+  const std::array<std::array<std::uint32_t, 4>, 6> faces = {
+      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};  // x-, x+, y-, y+, z-, z+
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    mesh.boundary_quads.push_back(
+        {{NodeId(faces[f][0]), NodeId(faces[f][1]), NodeId(faces[f][2]), NodeId(faces[f][3])}, PatchId(std::min(f, kinds.size() - 1))});
+  return mesh;
+}
+
 }  // namespace sterna::test

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "geom/mesh/hybrid_mesh.h"
@@ -39,5 +41,7 @@ HybridMesh plate_block(int n, const ShellOptions& options = {});
 HybridMesh hexahedra_block(int n);
 /// One hexahedron [0, 1]^3 with a pyramid on its top, apex (0.5, 0.5, 1.5); patches "box" and "roof".
 HybridMesh hexahedron_with_roof();
+/// The boundary alone of [0, 1]^3, for what looks at patches only: its sides x-, x+, y-, y+, z-, z+ are these patches, the last one all that are left.
+HybridMesh box_of_patches(const std::vector<std::pair<std::string, PatchKind>>& kinds);
 
 }  // namespace sterna::test

@@ -8,6 +8,7 @@
 #include "scripting/verbs/foam_case.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/error_of.h"
+#include "tests/support/hybrid_shapes.h"
 #include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
 #include "tests/support/shapes.h"
@@ -67,6 +68,8 @@ TEST_F(FoamCases, EveryModelRunsAsItIsWritten) {
     EXPECT_THAT(log, AllOf(HasSubstr(kind.solved), HasSubstr("End"), Not(HasSubstr("FATAL"))));
     EXPECT_THAT(log, AllOf(Not(HasSubstr("printStack")), Not(HasSubstr("residual = nan"))));
     EXPECT_THAT(text_of(kind.name + "/postProcessing/forceCoeffs/0/coefficient.dat"), HasSubstr("Aref"));
+    if (kind.solver.starts_with("rho"))  // whose limits on the temperature show there
+      EXPECT_THAT(text_of(kind.name + "/postProcessing/temperature/0/fieldMinMax.dat"), testing::ContainsRegex("\tT +\t[0-9]"));
   }
   EXPECT_TRUE(std::filesystem::exists(folder_ / "sst" / "5" / "U")) << "parts are joined";
   for (const std::string name : {"laminar", "euler", "gas"}) {
@@ -155,20 +158,6 @@ TEST_F(FoamCases, MistakesAreToldTogetherAtTheirLine) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
 }
 
-/// A box of which only the boundary counts.
-HybridMesh room(const std::vector<std::pair<std::string, PatchKind>>& kinds) {
-  HybridMesh mesh;
-  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 0, 1}, Point{1, 1, 1}, Point{0, 1, 1}})
-    mesh.points.push_back(p);
-  for (const auto& [name, kind] : kinds) mesh.patches.push_back({name, kind});
-  const std::array<std::array<std::uint32_t, 4>, 6> faces = {
-      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};  // x-, x+, y-, y+, z-, z+
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    mesh.boundary_quads.push_back(
-        {{NodeId(faces[f][0]), NodeId(faces[f][1]), NodeId(faces[f][2]), NodeId(faces[f][3])}, PatchId(std::min(f, kinds.size() - 1))});
-  return mesh;
-}
-
 std::string file_of(const FoamCase& made, const std::string& path) {
   for (const CaseFile& file : made.files)
     if (file.path == path) return file.text;
@@ -176,7 +165,8 @@ std::string file_of(const FoamCase& made, const std::string& path) {
 }
 
 TEST(FoamConditions, TunnelsHaveTheConditionsOfTheirFlow) {
-  const HybridMesh mesh = room({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
+  const HybridMesh mesh =
+      test::box_of_patches({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
   const FoamCase made = foam_case(mesh, {.model = "SpalartAllmaras"}, {.monitor = "floor"}, flow, {.area = 1.0}, {}, RunContext());
   EXPECT_THAT(file_of(made, "0/U"), AllOf(HasSubstr("value uniform (60 0 0)"), HasSubstr("type slip"), HasSubstr("type noSlip")));
@@ -189,7 +179,8 @@ TEST(FoamConditions, TunnelsHaveTheConditionsOfTheirFlow) {
 }
 
 TEST(FoamConditions, FansAndNozzlesNeedTheirPressures) {
-  const HybridMesh mesh = room({{"nozzle", PatchKind::inflow}, {"fan", PatchKind::outflow}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const HybridMesh mesh =
+      test::box_of_patches({{"nozzle", PatchKind::inflow}, {"fan", PatchKind::outflow}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   test::expect_error(ErrorCode::bad_argument, "what goes into the outflow \"fan\" cannot be known",
                      [&] { (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
@@ -200,7 +191,8 @@ TEST(FoamConditions, FansAndNozzlesNeedTheirPressures) {
 }
 
 TEST(FoamConditions, DiscsBecomeCyclicWithAJump) {
-  const HybridMesh mesh = room({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const HybridMesh mesh =
+      test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
                      [&] { (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
@@ -213,7 +205,7 @@ TEST(FoamConditions, DiscsBecomeCyclicWithAJump) {
 }
 
 TEST(FoamConditions, HalfModelsCountHalfTheArea) {
-  const HybridMesh mesh = room({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far", PatchKind::farfield}});
+  const HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 30.0}, {}, RunContext());
   EXPECT_THAT(file_of(made, "system/controlDict"), HasSubstr("Aref 15;"));
