@@ -21,18 +21,23 @@ constexpr std::uint64_t spread(std::uint64_t x) {
 
 }  // namespace
 
-Curve::Curve(std::span<const Vec3> points) {
+Extent extent_of(std::span<const Vec3> points) {
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{k_infinity, k_infinity, k_infinity}, high = -low;
+  Extent extent{{k_infinity, k_infinity, k_infinity}, {-k_infinity, -k_infinity, -k_infinity}};
   for (const Vec3& p : points) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
+      extent.low[axis] = std::min(extent.low[axis], p[axis]);
+      extent.high[axis] = std::max(extent.high[axis], p[axis]);
     }
   }
-  const double edge = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  origin_ = low;
-  cells_per_metre_ = edge > 0.0 && edge < k_infinity ? (1 << k_levels) / edge : 0.0;
+  return extent;
+}
+
+Curve::Curve(std::span<const Vec3> points) {
+  const Extent extent = extent_of(points);
+  const double edge = extent.longest_side();
+  origin_ = extent.low;
+  cells_per_metre_ = edge > 0.0 && edge < std::numeric_limits<double>::infinity() ? (1 << k_levels) / edge : 0.0;
 }
 
 /// Level by level: which eighth of the cube in Gray's order, then the cube turned and mirrored so that the next level's path begins where this one's ended

@@ -1,12 +1,20 @@
 // Places along Hilbert's curve in space: what is near on the curve is near in space.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
 #include "geom/base/vec3.h"
 
 namespace sterna::tets {
+
+/// Corners of the box around some points; infinite, the low one above the high one, where there are none.
+struct Extent {
+  Vec3 low, high;
+  double longest_side() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
+};
+Extent extent_of(std::span<const Vec3> points);
 
 /// A cube cut into 2^63 cells, numbered along the curve.
 class Curve {

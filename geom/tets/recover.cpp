@@ -4,13 +4,13 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/tets/bulk_insert.h"
+#include "geom/tets/curve.h"
 #include "geom/tets/flips.h"
 #include "geom/tets/piercing.h"
 
@@ -46,16 +46,9 @@ std::uint64_t shuffled(std::uint64_t i) {
 
 /// The Delaunay mesh of the points and the eight corners of a box, which come behind them. Empty where a point could not be put in, which is told.
 TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const RunContext& context) {
-  constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{k_infinity, k_infinity, k_infinity}, high = -low;
-  for (const Vec3& p : points) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  const Vec3 center = 0.5 * (low + high);
-  const double reach = 0.5 * k_box_factor * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const Extent extent = extent_of(points);
+  const Vec3 center = 0.5 * (extent.low + extent.high);
+  const double reach = 0.5 * k_box_factor * extent.longest_side();
   std::vector<Vec3> corners;
   for (const double z : {-reach, reach})
     for (const double y : {-reach, reach})

@@ -50,7 +50,7 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
     EXPECT_NE(manifest.find(part), std::string::npos) << part;
   EXPECT_EQ(manifest.find("seconds"), std::string::npos) << "wall-clock has no place in a manifest";
   const std::string stats = contents(folder / "stats.json");
-  for (const char* part : {"\"sterna-stats-1\"", "\"engine_seconds\"", "\"rest_seconds\"", "\"peak_memory_bytes\"", "\"coverage\""})
+  for (const char* part : {"\"sterna-stats-1\"", "\"engine_seconds\"", "\"rest_seconds\"", "\"stage_busy_share\"", "\"peak_memory_bytes\"", "\"coverage\""})
     EXPECT_NE(stats.find(part), std::string::npos) << part;
 
   const ProcessResult check = sterna({"check", "box.su2"});

@@ -36,8 +36,7 @@ struct Schema<volmesh::TetraOptions> {
       Field<O>{.name = "engine",
                .member = &O::engine,
                .help = "what makes the tetrahedra; automatic: sterna, our own, in the program itself, where few triangles are needles, else hxt, or tetgen "
-                       "where that is not "
-                       "built in",
+                       "where that is not built in",
                .choices = "automatic tetgen hxt sterna"},
       Field<O>{.name = "radius_edge",
                .member = &O::radius_edge,
@@ -62,7 +61,8 @@ struct Schema<volmesh::TetraOptions> {
                .unit = Unit::second,
                .min = 0.1,
                .help = "the engine is stopped after this time",
-               .automatic = "60 s of processor time and 0.1 ms for each tetrahedron that boundary and sizes ask for, seven times of what is usual"},
+               .automatic = "of a helper 60 s of processor time and 0.1 ms for each tetrahedron that boundary and sizes ask for, seven times of what is usual; "
+                            "of our own no limit"},
       Field<O>{.name = "max_new_points",
                .member = &O::max_new_points,
                .min = 0.0,
