@@ -21,6 +21,8 @@ namespace {
 
 /// Of the needles before: with more left the lines of the surface force them, and layers there are no better for it.
 constexpr double k_fewer_needles = 0.5;
+/// Of the body's length: new triangles further from the given ones have lost something of the shape (a nose, a thin part), and nobody asked for them.
+constexpr double k_largest_distance = 0.02;
 /// without_needles() makes at most so many times the triangles, within these bounds: steps and slivers that look like curvature would ask for millions.
 constexpr std::size_t k_many_times = 5, k_few_triangles = 50'000, k_many_triangles = 200'000;
 
@@ -39,6 +41,7 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
     return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, demand, context);
   });
+  require_near(result.report, demand);  // a cached result was made without a demand, perhaps
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
   made.remesh_options = recipe.options;
@@ -78,7 +81,8 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   try {
     // A cached result was made without a demand, perhaps: it is looked at again.
     const surfmesh::RemeshDemand demand{.most_needles = static_cast<std::int64_t>(std::ceil(k_fewer_needles * static_cast<double>(before.n))) - 1,
-                                        .least_angle = before.least_angle};
+                                        .least_angle = before.least_angle,
+                                        .largest_distance = k_largest_distance};
     SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
     if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle) return made;

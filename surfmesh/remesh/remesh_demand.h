@@ -13,12 +13,17 @@ namespace sterna::surfmesh {
 struct RemeshDemand {
   std::int64_t most_needles = std::numeric_limits<std::int64_t>::max();  ///< triangles with an angle below k_needle_angle
   double least_angle = 0.0;                                              ///< rad
+  double largest_distance = std::numeric_limits<double>::infinity();     ///< of the body's length, between the two surfaces, seen from either
 };
 
 /// remesh_surface that gives up early: before the work, where corners of lines, which stay, force more needles than that (needles whose shortest edge joins two
-/// of them); and after a round that does not meet the demand, whatever crosses: later rounds keep more of the given triangles.
-/// \throws Error as remesh_surface; Error(geometry_failed) with the place of the thinnest triangle where it gives up
+/// of them); and after a round that does not meet the demand, whatever crosses: later rounds keep more of the given triangles. A result that is further
+/// from the given surface than asked is refused at last.
+/// \throws Error as remesh_surface; Error(geometry_failed) with the place of the thinnest triangle, or of the largest distance, where it gives up
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RemeshDemand& demand, const RunContext& context);
+
+/// \throws Error(geometry_failed), with the place of the largest distance, where that is more than the demand's: also for a result that was made without demand
+void require_near(const RemeshReport& report, const RemeshDemand& demand);
 
 }  // namespace sterna::surfmesh

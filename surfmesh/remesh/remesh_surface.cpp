@@ -162,6 +162,19 @@ NeedleCount forced_needles(const Reference& reference) {
 
 }  // namespace
 
+void require_near(const RemeshReport& report, const RemeshDemand& demand) {
+  const SurfaceDistance& further = report.to_input.max >= report.from_input.max ? report.to_input : report.from_input;
+  if (further.max <= demand.largest_distance * report.length) return;
+  ErrorInfo info{.code = ErrorCode::geometry_failed,
+                 .attempted = std::string(k_attempted),
+                 .problem = "the new triangles are up to " + number_text(further.max, k_angle_digits) + " m from the given ones, the limit is " +
+                            number_text(demand.largest_distance * report.length, k_angle_digits) + " m, " +
+                            number_text(demand.largest_distance, k_angle_digits) + " of the length",
+                 .hint = "remesh with a smaller max_edge or curvature_angle, or wrap{}"};
+  info.add_place(further.place, "the largest distance");
+  throw Error(std::move(info));
+}
+
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RunContext& context) {
   return remesh_surface(wall, options, patches, asked, RemeshDemand{}, context);
@@ -246,6 +259,7 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
   measure_angles(result.mesh, report);
   report.to_input = surface_distance(result.mesh, wall, context);
   report.from_input = surface_distance(wall, result.mesh, context);
+  require_near(report, demand);
   context.progress(1.0);
   return result;
 }

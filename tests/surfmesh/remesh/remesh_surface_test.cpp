@@ -287,6 +287,9 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
   EXPECT_EQ(free.mesh.points, met.mesh.points);
   EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
   test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles", [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
+  // A sphere of 8 squares a side is a hundredth of its diameter inside of the one that comes out.
+  test::expect_error(ErrorCode::geometry_failed, "from the given ones, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
+  EXPECT_EQ(free.mesh.points, demanding({.largest_distance = 0.1}).mesh.points);
   // A blunt edge of two corners 1e-4 apart: corners stay, so the needles beside them do.
   TriMesh wedge = test::cube(1);
   for (Point& p : wedge.points)
