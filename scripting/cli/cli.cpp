@@ -281,7 +281,7 @@ void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& s
   add_cache_options(*command, remesh.cache);
   add_patch_option(*command, remesh.patches,
                    "what patches with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
-                   "chord_error; may be given several times");
+                   "chord_error, leading_edge_chordwise, trailing_edge_chordwise ...; may be given several times");
   command
       ->add_option("--source", remesh.sources,
                    "shorter edges in a region, e.g. --source \"line 0 0 0 8 0 0 size=0.02 radius=0.5\"; point, line, box, sphere, cylinder, wake; may be given "

@@ -35,7 +35,7 @@ inline constexpr std::size_t k_members<surfmesh::RepairOptions> = 11;
 template <>
 inline constexpr std::size_t k_members<surfmesh::WrapOptions> = 10;
 template <>
-inline constexpr std::size_t k_members<surfmesh::RemeshOptions> = 12;
+inline constexpr std::size_t k_members<surfmesh::RemeshOptions> = 18;
 template <>
 inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 22;
 template <>
@@ -59,7 +59,9 @@ inline constexpr std::size_t k_members<SurfaceRecipe> = 4;
 template <>
 inline constexpr std::size_t k_members<surfmesh::SurfaceDistance> = 3;
 template <>
-inline constexpr std::size_t k_members<surfmesh::RemeshReport> = 18;
+inline constexpr std::size_t k_members<surfmesh::RowReport> = 6;
+template <>
+inline constexpr std::size_t k_members<surfmesh::RemeshReport> = 19;
 template <>
 inline constexpr std::size_t k_members<surfmesh::RemeshResult> = 2;
 template <>

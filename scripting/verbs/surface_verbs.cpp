@@ -103,7 +103,7 @@ struct RemeshAsked {
 
 RemeshAsked read_remesh(TableReader& reader, const ScriptCall& call) {
   RemeshAsked asked;
-  reader.read_options(sterna::options_of(asked.recipe.options));
+  reader.read_options(with_edge_tables(sterna::options_of(asked.recipe.options)));
   asked.rules = read_rules(reader);
   asked.recipe.patches = asked.rules.sizes;
   asked.recipe.sources = read_sources(reader, call);
@@ -135,8 +135,8 @@ ScriptValue make_remesh(const ScriptCall& call) {
 std::string remesh_help() {
   surfmesh::RemeshOptions options;
   return options_help(sterna::options_of(options)) +
-         "patches, sources and size as surface_mesh has them; of the rules for patches max_edge, min_edge, curvature_angle, chord_error and what volume_mesh "
-         "takes\n";
+         "patches, sources and size as surface_mesh has them; of the rules for patches max_edge, min_edge, curvature_angle, chord_error, rows at "
+         "leading and trailing edges (leading_edge = { chordwise = 0.004 } is leading_edge_chordwise), and what volume_mesh takes\n";
 }
 
 constexpr std::array<ScriptVerb, 2> k_surface_verbs = {{

@@ -82,31 +82,13 @@ Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& 
 /// Meshes of a family are similar: where sizes grow from a fine place, they grow slower in the finer mesh.
 double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
 
-/// What is said of bands: rules overrule the options for all, member by member.
 void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, FaceSizes& sizes) {
-  sizes.leading = {options.leading_edge_chordwise, options.leading_edge_stretch, options.leading_edge_growth, {}};
-  sizes.trailing = {options.trailing_edge_chordwise, options.trailing_edge_stretch, options.trailing_edge_growth, {}};
+  const BandWishes wishes = band_wishes(name, options, patches);
+  sizes.leading = wishes.leading;
+  sizes.trailing = wishes.trailing;
   sizes.trailing_cells = options.trailing_edge_cells;
-  const auto overrule = [](double& value, double said) {
-    if (is_automatic(said)) return false;
-    value = said;
-    return true;
-  };
-  for (const PatchSurfaceOptions& rule : patches) {
-    if (!matches_glob(name, rule.names)) continue;
-    if (overrule(sizes.leading.chordwise, rule.leading_edge_chordwise) | overrule(sizes.leading.stretch, rule.leading_edge_stretch))
-      sizes.leading.rule = rule.names;
-    if (overrule(sizes.trailing.chordwise, rule.trailing_edge_chordwise) | overrule(sizes.trailing.stretch, rule.trailing_edge_stretch))
-      sizes.trailing.rule = rule.names;
-    overrule(sizes.leading.growth, rule.leading_edge_growth);
-    overrule(sizes.trailing.growth, rule.trailing_edge_growth);
-    overrule(sizes.trailing_cells, rule.trailing_edge_cells);
-  }
-  // The next mesh of a family: lengths by the factor, so many more cells, and of the growth the root that belongs to it (quality.md section 1).
-  for (BandWish* wish : {&sizes.leading, &sizes.trailing}) {
-    wish->chordwise /= options.refinement;
-    wish->growth = std::pow(wish->growth, 1.0 / options.refinement);
-  }
+  for (const PatchSurfaceOptions& rule : patches)
+    if (matches_glob(name, rule.names) && !is_automatic(rule.trailing_edge_cells)) sizes.trailing_cells = rule.trailing_edge_cells;
   sizes.trailing_cells *= options.refinement;
 }
 

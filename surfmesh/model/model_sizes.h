@@ -10,21 +10,13 @@
 #include "geom/base/glob.h"
 #include "surfmesh/face/face_sizes.h"
 #include "surfmesh/model/background_sizes.h"
+#include "surfmesh/model/band_wish.h"
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/face_outline.h"
 #include "surfmesh/model/place_sizes.h"
 #include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::surfmesh {
-
-/// What a face asks for along its leading or trailing edges; not a number: not said.
-struct BandWish {
-  double chordwise = k_automatic;  ///< m, first cell
-  double stretch = k_automatic;    ///< longest cell along : first cell across
-  double growth = 1.2;
-  std::string rule;  ///< names that asked; empty: the options for all
-  bool is_any() const { return !is_automatic(chordwise) || !is_automatic(stretch); }
-};
 
 struct FaceSizes {
   double max_edge = 0.0;

@@ -31,8 +31,8 @@ constexpr double k_looks_along = 0.2;
 constexpr double k_nose_radius = 0.125;
 /// A base is this much longer than wide, and narrower than this part of the faces beside it (when its role does not say that it is one).
 constexpr double k_strip_length = 3.0, k_strip_width = 0.1;
-/// What a first cell alone asks for; triangles beyond 50 are of no use even below prisms (recipes.md section 2).
-constexpr double k_default_stretch = 10.0, k_largest_stretch = 50.0;
+/// Triangles beyond that are of no use even below prisms (recipes.md section 2).
+constexpr double k_largest_stretch = 50.0;
 /// Of the distance to the opposite border, what rows of one band may take.
 constexpr double k_share_of_chord = 0.4;
 
@@ -116,13 +116,6 @@ bool may_be_wing(const Model& model, FaceId f) {
   if (!face.component.is_valid()) return true;
   const ComponentKind kind = model.components[face.component].kind;
   return kind == ComponentKind::unknown || kind == ComponentKind::wing || kind == ComponentKind::pylon || kind == ComponentKind::nacelle;
-}
-
-double least_said(double a, double b) { return is_automatic(a) ? b : is_automatic(b) ? a : std::min(a, b); }
-
-BandWish both(const BandWish& a, const BandWish& b) {
-  if (!a.is_any() || !b.is_any()) return a.is_any() ? a : b;
-  return {least_said(a.chordwise, b.chordwise), least_said(a.stretch, b.stretch), std::min(a.growth, b.growth), a.rule};
 }
 
 struct End {
@@ -233,10 +226,7 @@ void find_strips(Finding& finding) {
     }
     if (is_automatic(cells) && !wish.is_any()) continue;
     // Not said: about square beside the first row.
-    if (is_automatic(cells)) {
-      const double stretch = is_automatic(wish.stretch) ? k_default_stretch : wish.stretch;
-      cells = std::max(1.0, strip->width / (is_automatic(wish.chordwise) ? finding.sizes.faces[f].max_edge / stretch : wish.chordwise));
-    }
+    if (is_automatic(cells)) cells = std::max(1.0, strip->width / wish.first_height(finding.sizes.faces[f].max_edge));
     strip->n_cells = static_cast<std::size_t>(std::max(1.0, std::round(cells)));
     for (const EdgeId e : strip->short_edges) finding.bands.n_short[e] = std::max(finding.bands.n_short[e], strip->n_cells);
     finding.bands.strips[f] = std::move(strip);
@@ -298,9 +288,8 @@ void find_edges(Finding& finding) {
     if (!wish.is_any()) continue;
     BandEdge band{.kind = *kind, .growth = wish.growth};
     const double max_edge = std::min(p.max_edge, q.max_edge);
-    const double stretch = is_automatic(wish.stretch) ? k_default_stretch : wish.stretch;
-    band.first = std::min(max_edge, is_automatic(wish.chordwise) ? max_edge / stretch : wish.chordwise);
-    band.longest = std::min(max_edge, stretch * band.first);
+    band.first = std::min(max_edge, wish.first_height(max_edge));
+    band.longest = wish.longest(max_edge);
     for (const Side& side : sides)
       if (const auto& strip = finding.bands.strips[side.place.face])
         band.longest = std::min(band.longest, k_largest_stretch * strip->width / static_cast<double>(strip->n_cells));

@@ -402,7 +402,18 @@ Reference::Reference(const TriMesh& wall, const ReferenceOptions& options, const
   for (const TriangleId t : is_kept.ids())
     if (is_kept[t] != 0)
       for (const VertexId v : wall.triangles[t]) is_corner[v] = 1;
+  std::vector<HalfedgeId> soft;
+  for (const auto& [a, b] : options.noses)
+    for (const HalfedgeId h : topology.outgoing(a)) {
+      if (topology.to(h) != b || marks.is_line[h] != 0) continue;
+      soft.push_back(h);
+      if (const HalfedgeId o = topology.twin(h); o.is_valid()) soft.push_back(o);
+    }
+  for (const HalfedgeId h : soft) marks.is_line[h] = 1;
   LineFinder(*this, marks, options).run();
+  std::sort(soft.begin(), soft.end());
+  for (FeatureLine& l : lines)
+    l.is_nose = std::all_of(l.halfedges.begin(), l.halfedges.end(), [&](HalfedgeId h) { return std::binary_search(soft.begin(), soft.end(), h); });
   find_regions(*this);
   find_normals(*this, marks, context);
   if (options.is_smooth) {

@@ -19,6 +19,7 @@ struct FeatureLine {
   std::vector<HalfedgeId> halfedges;  ///< of each segment one that runs from its first vertex or, where none does, to it
   std::vector<Vec3> bulges;           ///< of each segment: from its middle to the curve's
   std::vector<double> lengths;        ///< along the polyline, at each vertex
+  bool is_nose = false;               ///< of edges that are lines only because they were asked to be: a smooth leading edge
   double length() const { return lengths.back(); }
 };
 
@@ -32,6 +33,7 @@ struct ReferenceOptions {
   double feature_angle = 0.0;  ///< rad
   double line_scale = 0.0;     ///< m: lines' corners are turns seen over this length
   bool is_smooth = true;
+  std::vector<std::array<VertexId, 2>> noses{};  ///< edges that are lines, however flat: the surface is smooth across them
 };
 
 struct Reference {

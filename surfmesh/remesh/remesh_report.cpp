@@ -133,6 +133,10 @@ std::string to_text(const RemeshReport& r) {
     text << "\n" << r.n_needles << " needles (a corner below " << k_needle_angle * k_to_degrees << " degrees) are forced by lines and corners, the worst:";
     for (const ErrorPlace& place : r.needles) text << "\n  " << format_point(place.position) << " " << place.what;
   }
+  if (r.rows.n_triangles > 0)
+    text << "\nrows at leading and trailing edges: " << r.rows.n_triangles << " triangles on " << r.rows.n_columns << " places (" << r.rows.n_without
+         << " without), stretched by at most " << r.rows.max_stretch << ", growth at most " << r.rows.max_growth << "; angles above count them, too";
+  for (const std::string& note : r.rows.notes) text << "\n" << note;
   if (r.n_kept > 0) text << "\n" << r.n_kept << " triangles were kept as given, because new ones would cross";
   return text.str();
 }

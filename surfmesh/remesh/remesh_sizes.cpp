@@ -25,11 +25,6 @@ constexpr double k_opposed_cosine = 0.866;
 /// Hits nearer than this part of the reach are the surface itself.
 constexpr double k_ray_start = 1e-9;
 
-/// What one patch of one connected piece asks for.
-struct Limits {
-  double max_edge, min_edge, curvature_angle, chord_error;
-};
-
 double or_else(double value, double other) { return is_automatic(value) ? other : value; }
 
 std::vector<double> automatic_edges(const TriMesh& wall, const Components& pieces) {
@@ -49,18 +44,17 @@ void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rul
   for (const PatchSurfaceOptions& rule : rules) {
     if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches_glob(name, rule.names); }))
       throw_bad_argument(k_attempted, "no patch is named like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
-    for (const double value :
-         {rule.leading_edge_chordwise, rule.leading_edge_stretch, rule.leading_edge_growth, rule.trailing_edge_chordwise, rule.trailing_edge_stretch,
-          rule.trailing_edge_growth, rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
+    for (const double value : {rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
       if (!is_automatic(value))
-        throw_bad_argument(k_attempted,
-                           "the rule for \"" + rule.names + "\" asks for rows or factors at leading or trailing edges, which a triangulation does not know", {},
-                           "give max_edge, min_edge, curvature_angle or chord_error");
+        throw_bad_argument(
+            k_attempted,
+            "the rule for \"" + rule.names + "\" asks for trailing_edge_cells or factors at leading or trailing edges, which a triangulation does not know", {},
+            "give max_edge, min_edge, curvature_angle, chord_error, or rows: trailing_edge_chordwise, leading_edge_chordwise");
   }
 }
 
-Limits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules) {
-  Limits l{or_else(options.max_edge, automatic_edge), options.min_edge, options.curvature_angle, options.chord_error};
+SurfaceLimits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules) {
+  SurfaceLimits l{or_else(options.max_edge, automatic_edge), options.min_edge, options.curvature_angle, options.chord_error};
   for (const PatchSurfaceOptions& rule : rules) {
     if (!matches_glob(name, rule.names)) continue;
     l = {or_else(rule.max_edge, l.max_edge), or_else(rule.min_edge, l.min_edge), or_else(rule.curvature_angle, l.curvature_angle),
@@ -71,18 +65,7 @@ Limits limits_of(const std::string& name, double automatic_edge, const RemeshOpt
   return l;
 }
 
-/// For each connected piece, then each patch.
-std::vector<std::vector<Limits>> all_limits(const TriMesh& wall, const Components& pieces, const RemeshOptions& options,
-                                            std::span<const PatchSurfaceOptions> rules) {
-  std::vector<std::vector<Limits>> limits;
-  for (const double edge : automatic_edges(wall, pieces)) {
-    limits.emplace_back();
-    for (const Patch& patch : wall.patches) limits.back().push_back(limits_of(patch.name, edge, options, rules));
-  }
-  return limits;
-}
-
-double size_of_curvature(double curvature, const Limits& l) {
+double size_of_curvature(double curvature, const SurfaceLimits& l) {
   if (!(curvature > 0.0)) return l.max_edge;
   double size = std::max(2.0 / curvature * std::sin(0.5 * l.curvature_angle), l.min_edge);
   if (!is_automatic(l.chord_error)) size = std::min(size, std::max(std::sqrt(8.0 * l.chord_error / curvature), k_least_for_chord * l.min_edge));
@@ -124,28 +107,47 @@ void check_options(const RemeshOptions& o) {
 double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
   check_options(options);
   require_rules(wall, patches);
+  return SurfaceLimitTable(wall, Topology(wall, context), options, patches).least();
+}
+
+SurfaceLimitTable::SurfaceLimitTable(const TriMesh& wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules)
+    : wall_(wall), pieces_(connected_components(wall, topology)) {
+  for (const double edge : automatic_edges(wall, pieces_)) {
+    limits_.emplace_back();
+    for (const Patch& patch : wall.patches) limits_.back().push_back(limits_of(patch.name, edge, options, rules));
+  }
+}
+
+double SurfaceLimitTable::least() const {
   double least = k_unbounded;
-  for (const auto& piece : all_limits(wall, connected_components(wall, Topology(wall, context)), options, patches))
-    for (const Limits& l : piece) least = std::min(least, std::max(l.min_edge, 1e-3 * l.max_edge));
+  for (const auto& piece : limits_)
+    for (const SurfaceLimits& l : piece) least = std::min(least, std::max(l.min_edge, 1e-3 * l.max_edge));
   return least;
 }
 
 RemeshSizes::RemeshSizes(const Reference& reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                          const RunContext& context)
     : r_(reference),
+      options_(options),
+      patches_(patches.begin(), patches.end()),
       asked_(asked),
       refinement_(options.refinement),
       slope_((options.growth - 1.0) / options.refinement),
       cap_(reference.mesh->n_triangles()),
       min_edge_(reference.mesh->n_triangles()),
       own_(reference.mesh->n_triangles()),
-      at_(reference.mesh->n_vertices(), k_unbounded) {
+      at_(reference.mesh->n_vertices()) {
+  cover({}, context);
+}
+
+void RemeshSizes::cover(const Column<VertexId, std::uint8_t>& covered, const RunContext& context) {
+  const RemeshOptions& options = options_;
+  at_.assign(at_.size(), k_unbounded);
   const TriMesh& wall = *r_.mesh;
-  const Components pieces = connected_components(wall, r_.topology);
-  const auto limits = all_limits(wall, pieces, options, patches);
-  const auto limits_at = [&](TriangleId t) -> const Limits& { return limits[pieces.component[t]][wall.triangle_patch[t].index()]; };
+  const SurfaceLimitTable limits(wall, r_.topology, options, patches_);
+  const auto is_covered = [&](VertexId v) { return !covered.empty() && covered[v] != 0; };
   for (const TriangleId t : wall.triangles.ids()) {
-    const Limits& l = limits_at(t);
+    const SurfaceLimits& l = limits.of(t);
     cap_[t] = own_[t] = l.max_edge;
     min_edge_[t] = l.min_edge;
     largest_ = std::max(largest_, l.max_edge);
@@ -153,7 +155,9 @@ RemeshSizes::RemeshSizes(const Reference& reference, const RemeshOptions& option
       const HalfedgeId h = halfedge(t, k);
       const VertexId a = r_.topology.from(h), b = r_.topology.to(h);
       double curvature = 0.0;
-      if (r_.line[h] == k_no_line) {
+      if (is_covered(a) && is_covered(b)) {
+        curvature = 0.0;
+      } else if (r_.line[h] == k_no_line) {
         curvature = std::max(edge_curvature(r_, h), bend_curvature(r_, h, l.min_edge));
       } else if (const double length = distance(wall.points[a], wall.points[b]); length > 0.0) {
         curvature = 8.0 * norm(r_.lines[static_cast<std::size_t>(r_.line[h])].bulges[r_.segment[h]]) / (length * length);
@@ -239,6 +243,7 @@ double RemeshSizes::operator()(const Point& p, TriangleId t) const {
       size = std::min(size, std::max(own_[t], (1.0 - b1 - b2) * at_[v[0]] + b1 * at_[v[1]] + b2 * at_[v[2]]));
     }
   }
+  if (sites_) size = sites_->smallest(p, {.cap = size});
   if (asked_.regions) size = std::min(size, asked_.regions(p, slope_ * refinement_) / refinement_);
   if (asked_.function) size = std::min(size, asked_.function(p) / refinement_);
   return size;
@@ -246,6 +251,11 @@ double RemeshSizes::operator()(const Point& p, TriangleId t) const {
 
 void RemeshSizes::lower(TriangleId t, const Point& p, double size) {
   for (const VertexId v : r_.mesh->triangles[t]) at_[v] = std::min(at_[v], size + slope_ * distance(p, r_.mesh->points[v]));
+}
+
+void RemeshSizes::ask_at(std::span<const SizeSite> sites, const RunContext& context) {
+  sites_.reset();
+  if (!sites.empty()) sites_.emplace(sites, slope_, context);
 }
 
 double RemeshSizes::least() const { return *std::min_element(at_.begin(), at_.end()); }

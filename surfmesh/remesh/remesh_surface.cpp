@@ -6,12 +6,16 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
+#include "surfmesh/model/band_wish.h"
+#include "surfmesh/remesh/line_rows.h"
+#include "surfmesh/remesh/nose_lines.h"
 #include "surfmesh/remesh/remesh_demand.h"
 #include "surfmesh/remesh/remesh_report.h"
 #include "surfmesh/remesh/remesh_sizes.h"
@@ -45,6 +49,8 @@ constexpr std::int64_t k_most_crossings = 1;
 /// Triangles made for each one foretold, at most.
 constexpr double k_foretold_share = 1.5;
 constexpr double k_half_turn = std::numbers::pi;
+/// Of the largest height of rows: sizes must be positive.
+constexpr double k_reach_offset = 1e-3;
 constexpr int k_angle_digits = 3;
 
 /// What the rounds before have found.
@@ -69,7 +75,63 @@ void narrow_strips(const Remesher& remesher, const RemeshOptions& options, Remes
   sizes.carry();
 }
 
-void run_passes(Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes, const RunContext& context) {
+/// Vertices of the reference nearer to noses than rows climb there: rows answer for their curvature.
+Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std::span<const RowReach> reaches, const RunContext& context) {
+  Column<VertexId, std::uint8_t> covered;
+  if (reaches.empty()) return covered;
+  covered.assign(reference.mesh->n_vertices(), 0);
+  double largest = 0.0;
+  for (const RowReach& reach : reaches) largest = std::max(largest, reach.height);
+  // Sizes that grow by 1 with the distance, from what is left to the largest height: at most that within the height.
+  std::vector<SizeSite> sites;
+  for (const RowReach& reach : reaches)
+    if (reach.height > 0.0) sites.push_back({reach.point, (largest - reach.height) + k_reach_offset * largest});
+  if (sites.empty()) return covered;
+  const SizeSites tree(sites, 1.0, context);
+  parallel_for(context, covered.size(), [&](std::size_t v) {
+    covered[VertexId(v)] = tree.smallest(reference.mesh->points[VertexId(v)], {.cap = 2.0 * largest}) <= (1.0 + k_reach_offset) * largest ? 1 : 0;
+  });
+  return covered;
+}
+
+/// The same before there are rows: as high as their law makes them.
+std::vector<RowReach> foreseen_reaches(const Reference& reference, const RowLines& rows) {
+  std::vector<RowReach> reaches;
+  RowLines noses;
+  for (const LineRows& l : rows.lines) {
+    if (!l.is_nose) continue;
+    double height = 0.0;
+    for (const SideRows& side : l.sides)
+      if (side.is_any) height = std::max(height, (k_last_row_height * l.longest * side.growth - side.first) / (side.growth - 1.0));
+    noses.lines = {l};
+    for (const SizeSite& site : sites_of_rows(reference, noses)) reaches.push_back({site.point, height * site.size / l.longest});
+  }
+  return reaches;
+}
+
+/// Rows, and sizes that grow from their outer ends.
+void grow_rows(Remesher& remesher, const Reference& reference, const RowLines& rows, const RemeshOptions& options, RemeshSizes& sizes,
+               const RunContext& context) {
+  if (rows.lines.empty()) return;
+  remesher.grow_rows(rows.lines);
+  if (const std::vector<RowReach> reaches = remesher.nose_reaches(); !reaches.empty()) {
+    // Curvature counts again where rows did not get as far as foreseen.
+    sizes.cover(covered_by_noses(reference, reaches, context), context);
+    sizes.ask_at(remesher.row_ends(), context);
+    narrow_strips(remesher, options, sizes);
+  } else {
+    sizes.ask_at(remesher.row_ends(), context);
+  }
+  remesher.refresh_sizes();
+  remesher.collapse_short(k_short, false);
+  remesher.flip_edges();
+  remesher.split_long(k_long);
+  remesher.regularise();
+  remesher.smooth(2);
+}
+
+void run_passes(Remesher& remesher, const Reference& reference, const RemeshOptions& options, const RowLines& rows, RemeshSizes& sizes,
+                const RunContext& context) {
   for (int pass = 0; pass < k_passes; ++pass) {
     // The first pass takes away most: several times, as an edge's neighbours wait for it.
     for (int again = 0; remesher.collapse_short(k_short, true) > 0 && again < (pass == 0 ? 8 : 1); ++again) {
@@ -88,6 +150,7 @@ void run_passes(Remesher& remesher, const RemeshOptions& options, RemeshSizes& s
     require_few(static_cast<double>(n), k_foretold_share, "lines and narrow places made ", options);
     context.progress(0.8 * (pass + 1) / k_passes);
   }
+  grow_rows(remesher, reference, rows, options, sizes, context);
   for (int i = 0; i < k_last_smoothings; ++i) {
     if (i % 2 == 0) remesher.regularise();
     remesher.smooth(1);
@@ -160,6 +223,28 @@ NeedleCount forced_needles(const Reference& reference) {
   return forced;
 }
 
+/// The wall with smooth leading edges as lines of edges, where rows are asked for there.
+std::optional<NoseCut> cut_if_asked(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
+                                    std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  const bool is_asked = std::ranges::any_of(wall.patches, [&](const Patch& patch) { return band_wishes(patch.name, options, patches).leading.is_any(); });
+  if (!is_asked) return std::nullopt;
+  const Reference reference(wall, reference_options, {}, {}, context);
+  NoseCut cut = cut_noses(reference, !options.smooth, context);
+  // The curve between the given vertices may meet another sheet; the triangles themselves do not.
+  if (options.smooth && crossings_of(cut.mesh, context).total > 0) cut = cut_noses(reference, true, context);
+  // Of the candidates those that are noses of wings.
+  ReferenceOptions with_all = reference_options;
+  with_all.noses = std::move(cut.edges);
+  const Reference all(cut.mesh, with_all, {}, {}, context);
+  cut.edges.clear();
+  for (const LineRows& rows : find_row_lines(all, SurfaceLimitTable(cut.mesh, all.topology, options, patches), options, patches).lines) {
+    if (!rows.is_nose) continue;
+    const std::vector<VertexId>& line = all.lines[static_cast<std::size_t>(rows.line)].vertices;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) cut.edges.push_back({line[i], line[i + 1]});
+  }
+  return cut;
+}
+
 }  // namespace
 
 void require_near(const RemeshReport& report, const RemeshDemand& demand) {
@@ -180,11 +265,14 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
   return remesh_surface(wall, options, patches, asked, RemeshDemand{}, context);
 }
 
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RemeshDemand& demand, const RunContext& context) {
   const StageTimer timer(context, "remesh");
-  require_clear(wall, context);
-  ReferenceOptions reference_options{options.feature_angle, least_edge(wall, options, patches, context), options.smooth};
+  require_clear(given, context);
+  ReferenceOptions reference_options{options.feature_angle, least_edge(given, options, patches, context), options.smooth, {}};
+  const std::optional<NoseCut> cut = cut_if_asked(given, reference_options, options, patches, context);
+  const TriMesh& wall = cut ? cut->mesh : given;
+  if (cut) reference_options.noses = cut->edges;
   Trouble trouble;
   RemeshResult result;
   RemeshReport& report = result.report;
@@ -193,7 +281,11 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
   for (int round = 1;; ++round) {
     const Reference reference(wall, reference_options, trouble.kept, trouble.flat, context);
     if (round == 1) require_worth(forced_needles(reference), "corners of lines, which stay, force", demand);
+    const RowLines rows = find_row_lines(reference, SurfaceLimitTable(wall, reference.topology, options, patches), options, patches);
     RemeshSizes sizes(reference, options, patches, asked, context);
+    if (const std::vector<RowReach> reaches = foreseen_reaches(reference, rows); !reaches.empty())
+      sizes.cover(covered_by_noses(reference, reaches, context), context);
+    sizes.ask_at(sites_of_rows(reference, rows), context);
     for (const auto& [t, size] : trouble.sizes) {
       const auto [a, b, c] = corners(wall, t);
       sizes.lower(t, (a + b + c) / 3.0, size);
@@ -201,7 +293,7 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
     if (!trouble.sizes.empty()) sizes.carry();
     require_few(sizes.n_expected(), 1.0, "sizes and areas foretell ", options);
     Remesher remesher(reference, sizes, context);
-    run_passes(remesher, options, sizes, context.part("round", 0.0, 0.8));
+    run_passes(remesher, reference, options, rows, sizes, context.part("round", 0.0, 0.8));
     result.mesh = remesher.result();
     report.n_rounds = round;
     report.least_size = sizes.least();
@@ -212,6 +304,8 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
     const CrossingPairs pairs = crossings_of(result.mesh, context);
     if (pairs.total == 0) {
       report.needles = remesher.needles(k_needle_angle);
+      report.rows = remesher.row_report();
+      report.rows.notes = rows.notes;
       break;
     }
     if (round == k_most_rounds)
@@ -252,13 +346,13 @@ RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, s
                  format_point(corners(result.mesh, TriangleId(pairs.pairs.front()[0]))[0]) + "; their places are done again, " +
                  (is_fine ? "finer" : "with the given triangles"));
   }
-  report.n_triangles_before = static_cast<std::int64_t>(wall.n_triangles());
+  report.n_triangles_before = static_cast<std::int64_t>(given.n_triangles());
   report.n_kept = std::count(trouble.kept.begin(), trouble.kept.end(), 1);
   report.n_needles = static_cast<std::int64_t>(report.needles.size());
   if (report.needles.size() > k_max_places) report.needles.resize(k_max_places);
   measure_angles(result.mesh, report);
-  report.to_input = surface_distance(result.mesh, wall, context);
-  report.from_input = surface_distance(wall, result.mesh, context);
+  report.to_input = surface_distance(result.mesh, given, context);
+  report.from_input = surface_distance(given, result.mesh, context);
   require_near(report, demand);
   context.progress(1.0);
   return result;

@@ -31,6 +31,22 @@ struct RemeshOptions {
   double feature_angle = 40.0 * std::numbers::pi / 180.0;
   bool smooth = true;
   int max_triangles = 100'000'000;
+  double leading_edge_chordwise = k_automatic;
+  double leading_edge_stretch = k_automatic;
+  double leading_edge_growth = 1.2;
+  double trailing_edge_chordwise = k_automatic;
+  double trailing_edge_stretch = k_automatic;
+  double trailing_edge_growth = 1.2;
+};
+
+/// Rows of stretched triangles at leading and trailing edges.
+struct RowReport {
+  std::int64_t n_triangles = 0;
+  std::int64_t n_columns = 0;      ///< places of lines that rows stand on
+  std::int64_t n_without = 0;      ///< places of those lines with none
+  double max_stretch = 0.0;        ///< largest length along : length across of their cells
+  double max_growth = 0.0;         ///< largest ratio of the heights of rows that follow each other
+  std::vector<std::string> notes;  ///< wishes that could not be met
 };
 
 /// How far one surface is from another: sampled at vertices, middles of edges and of triangles.
@@ -58,6 +74,7 @@ struct RemeshReport {
   double length = 0.0;                         ///< m, body length
   std::int64_t n_kept = 0;                     ///< triangles taken as they were, because new ones would cross
   int n_rounds = 1;                            ///< of remeshing; above 1 where triangles crossed
+  RowReport rows;
 };
 
 /// An angle below this is a needle's (dirty.md), rad.
@@ -73,8 +90,10 @@ struct RemeshResult {
 /// edge say, so that flat places stay flat. No vertex ever leaves the smooth piece of surface that it is on for another one, however near.
 /// \pre manifold, oriented, clear of itself; closed, or open along rims, which stay
 /// \post manifold, closed where the input was; no two triangles cross (exact); every patch that had triangles has some; the same bytes for any threads
-/// \param patches rules for patches by name, the last that matches counts; of them max_edge, min_edge, curvature_angle and chord_error
-/// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that asks for bands; Error(non_manifold_surface);
+/// \param patches rules for patches by name, the last that matches counts; of them max_edge, min_edge, curvature_angle, chord_error
+/// and rows at leading and trailing edges
+/// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that asks for
+/// trailing_edge_cells or factors; Error(non_manifold_surface);
 /// Error(self_intersection) where the input crosses itself or most of what was made does; Error(overflow) beyond max_triangles, before the work;
 /// Error(cancelled)
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
@@ -172,6 +191,32 @@ struct Schema<surfmesh::RemeshOptions> {
                .min = 1,
                .max = 2e9,
                .help = "more than that are an error, at once where sizes and areas foretell it"},
+      Field<O>{.name = "leading_edge_chordwise",
+               .member = &O::leading_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside leading edges, in rows of stretched triangles",
+               .automatic = "no rows, or the longest edge by the stretch"},
+      Field<O>{.name = "leading_edge_stretch",
+               .member = &O::leading_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = "no rows, or 10"},
+      Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
+      Field<O>{.name = "trailing_edge_chordwise",
+               .member = &O::trailing_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside trailing edges, on both sides, or beside the base of blunt ones",
+               .automatic = "no rows, or the longest edge by the stretch"},
+      Field<O>{.name = "trailing_edge_stretch",
+               .member = &O::trailing_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = "no rows, or 10"},
+      Field<O>{.name = "trailing_edge_growth", .member = &O::trailing_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
   };
 };
 

@@ -86,32 +86,40 @@ void Remesher::refresh_sizes() {
   }
 }
 
-/// Of the reference, at a vertex of a triangle that is in the smooth piece of `hint` and lies `towards` that point.
-Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& towards) const {
+/// Of the reference, at a vertex of a triangle that is in the smooth piece of `hint` and lies `towards` that point. Where both sides of a line are in that
+/// piece (a sharp trailing edge: the piece goes on around the nose) they look almost alike from the line, so `seen`, a normal elsewhere on the triangle, says
+/// which one is meant; zero: none is known.
+Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& towards, const Vec3& seen) const {
   const WorkVertex& v = mesh_.vertices[number];
   if (v.kind == VertexKind::face) return v.normal;
   const std::uint32_t region = r_.region[hint];
+  const Vec3 way = normalized(towards - v.point);
   if (v.kind == VertexKind::line) {
     const auto [segment, t] = r_.line_place(v.line, v.s);
     const FeatureLine& line = r_.lines[static_cast<std::size_t>(v.line)];
-    HalfedgeId h = line.halfedges[segment], o = r_.topology.twin(h);
-    if (o.is_valid() && r_.region[triangle_of(o)] == region) {
-      const auto& p = r_.mesh->points;
-      const bool is_left = r_.region[triangle_of(h)] == region &&
-                           dot(cross(p[r_.topology.to(h)] - p[r_.topology.from(h)], towards - v.point), r_.triangle_normals[triangle_of(h)]) > 0.0;
-      if (!is_left) h = o;
+    const auto normal_on = [&](HalfedgeId h) {
+      const double share = r_.topology.from(h) == line.vertices[segment] ? t : 1.0 - t;
+      return (1.0 - share) * r_.normals[h] + share * r_.normals[next(h)];
+    };
+    const HalfedgeId h = line.halfedges[segment], o = r_.topology.twin(h);
+    if (!o.is_valid() || r_.region[triangle_of(o)] != region) return normal_on(h);
+    if (r_.region[triangle_of(h)] != region) return normal_on(o);
+    if (norm2(seen) > 0.0) {
+      const Vec3 left = normal_on(h), right = normal_on(o);
+      return dot(left, seen) >= dot(right, seen) ? left : right;
     }
-    const double share = r_.topology.from(h) == line.vertices[segment] ? t : 1.0 - t;
-    return (1.0 - share) * r_.normals[h] + share * r_.normals[next(h)];
+    const Vec3 along = r_.mesh->points[r_.topology.to(h)] - r_.mesh->points[r_.topology.from(h)];
+    const auto inwards = [&](HalfedgeId e, const Vec3& a) { return dot(way, normalized(cross(r_.triangle_normals[triangle_of(e)], a))); };
+    return inwards(h, along) >= inwards(o, -along) ? normal_on(h) : normal_on(o);
   }
   HalfedgeId best;
-  double largest = -2.0;
-  const Vec3 way = normalized(towards - v.point);
+  double largest = -4.0;
   for (const HalfedgeId h : r_.topology.outgoing(v.corner)) {
     if (r_.region[triangle_of(h)] != region) continue;
     const Vec3 along =
         normalized(normalized(r_.mesh->points[r_.topology.to(h)] - v.point) + normalized(r_.mesh->points[r_.topology.from(previous(h))] - v.point));
-    const double cosine = dot(way, along);
+    // Those of the other sheet come after all of this one.
+    const double cosine = dot(way, along) - (dot(r_.normals[h], seen) < 0.0 ? 2.0 : 0.0);
     if (cosine > largest) {
       largest = cosine;
       best = h;
@@ -145,8 +153,11 @@ double Remesher::quality_of(const std::array<std::uint32_t, 3>& v, const std::ar
   const double area = norm(n);
   const Point middle = (p[0] + p[1] + p[2]) / 3.0;
   if (lies_in_rim(v, p)) return k_folded;
+  Vec3 seen;
   for (const std::uint32_t k : v)
-    if (!(dot(n, normal_at(k, hint, middle)) > k_fold_cosine * area)) return k_folded;
+    if (mesh_.vertices[k].kind == VertexKind::face) seen = mesh_.vertices[k].normal;
+  for (const std::uint32_t k : v)
+    if (!(dot(n, normal_at(k, hint, middle, seen)) > k_fold_cosine * area)) return k_folded;
   return 0.5 * k_mean_ratio * area / (norm2(p[1] - p[0]) + norm2(p[2] - p[1]) + norm2(p[0] - p[2]));
 }
 
@@ -285,13 +296,15 @@ std::int64_t Remesher::split_long(double most) {
 bool Remesher::is_collapse_legal(std::uint32_t h) const {
   const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
   const WorkVertex& gone = mesh_.vertices[v];
-  if (gone.kind == VertexKind::corner) return false;
+  if (gone.kind == VertexKind::corner || gone.is_fixed) return false;
   if (gone.kind == VertexKind::line && mesh_.line[h] != gone.line) return false;
   // At a rim one triangle goes. Each that goes leaves another one at its two other edges, and at each apex at least two.
   for (const std::uint32_t e : {h, o}) {
     if (e == k_none) continue;
     const std::uint32_t p = WorkMesh::next(e), q = WorkMesh::prev(e);
-    if (mesh_.twin[p] == k_none || mesh_.twin[q] == k_none) return false;
+    // The border of rows may lose a triangle: its edge passes to the one behind.
+    const bool is_behind_front = (mesh_.twin[p] == k_none && is_front(p)) != (mesh_.twin[q] == k_none && is_front(q));
+    if (!is_behind_front && (mesh_.twin[p] == k_none || mesh_.twin[q] == k_none)) return false;
     if (mesh_.line[p] != k_no_line && mesh_.line[q] != k_no_line) return false;
     int n = 0;
     bool has_rim = false;
@@ -431,7 +444,7 @@ std::int64_t Remesher::regularise() {
     // Of corners nothing is known of how many neighbours are good.
     int gain = 0;
     for (std::size_t k = 0; k < 4; ++k)
-      if (mesh_.vertices[v[k]].kind != VertexKind::corner) gain += k < 2 ? 2 * excess[v[k]] - 1 : -2 * excess[v[k]] - 1;
+      if (mesh_.vertices[v[k]].kind != VertexKind::corner && !mesh_.vertices[v[k]].is_fixed) gain += k < 2 ? 2 * excess[v[k]] - 1 : -2 * excess[v[k]] - 1;
     if (gain <= 0 || !is_flip_good(h, k_regular_floor)) continue;
     flip(h);
     ++n;
@@ -487,13 +500,36 @@ TriMesh Remesher::result() const {
   TriMesh out;
   out.patches = r_.mesh->patches;
   std::vector<VertexId> ids(mesh_.vertices.size());
+  std::vector<std::uint8_t> is_copy(mesh_.vertices.size(), 0);
+  for (const auto& [copy, was] : copies_) is_copy[copy] = 1;
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
-    if (mesh_.vertices[v].out != k_none) ids[v] = out.points.push_back(mesh_.vertices[v].point);
+    if (mesh_.vertices[v].out != k_none && is_copy[v] == 0) ids[v] = out.points.push_back(mesh_.vertices[v].point);
+  // What the lines with rows were cut into is one again, but for borders that have climbed.
+  for (const auto& [copy, was] : copies_)
+    if (!ids[was].is_valid()) ids[was] = out.points.push_back(mesh_.vertices[was].point);
+  for (const auto& [copy, was] : copies_) ids[copy] = ids[was];
+  std::vector<std::vector<VertexId>> rows;
+  for (const LineColumn& column : columns_) {
+    rows.push_back({ids[column.vertex]});
+    for (std::size_t k = 1; k < column.rows.size(); ++k) rows.back().push_back(out.points.push_back(column.rows[k].point));
+    ids[column.vertex] = rows.back().back();
+  }
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     if (mesh_.is_gone(static_cast<std::uint32_t>(t))) continue;
     const auto& v = mesh_.triangles[t];
     out.triangles.push_back({ids[v[0]], ids[v[1]], ids[v[2]]});
     out.triangle_patch.push_back(r_.mesh->triangle_patch[mesh_.hint[t]]);
+  }
+  const auto id_at = [&](std::uint32_t vertex, std::size_t column, std::size_t row) { return column == k_no_column ? ids[vertex] : rows[column][row]; };
+  for (const RowCell& cell : row_cells()) {
+    const RowEdge& edge = row_edges_[cell.edge];
+    TriangleVertices v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [side, row] = cell.corners[k];
+      v[k] = side == 0 ? id_at(edge.a, edge.a_column, row) : id_at(edge.b, edge.b_column, row);
+    }
+    out.triangles.push_back(v);
+    out.triangle_patch.push_back(r_.mesh->triangle_patch[edge.hint]);
   }
   return out;
 }
@@ -506,8 +542,22 @@ std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::
   const auto mark_around = [&](VertexId v) {
     for (const HalfedgeId h : r_.topology.outgoing(v)) is_found[triangle_of(h).index()] = 1;
   };
+  std::vector<std::array<TriangleId, 3>> feet;
+  for (const RowCell& cell : row_cells()) {
+    const RowEdge& edge = row_edges_[cell.edge];
+    std::array<TriangleId, 3> foot;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [side, row] = cell.corners[k];
+      foot[k] = row == 0 ? edge.hint : columns_[side == 0 ? edge.a_column : edge.b_column].rows[row].foot.triangle;
+    }
+    feet.push_back(foot);
+  }
   for (const auto& pair : pairs)
     for (const std::uint32_t i : pair) {
+      if (i >= left.size()) {
+        for (const TriangleId t : feet[i - left.size()]) is_found[t.index()] = 1;
+        continue;
+      }
       const std::uint32_t t = left[i];
       const auto& v = mesh_.triangles[t];
       Box box;

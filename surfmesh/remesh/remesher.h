@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "surfmesh/remesh/line_rows.h"
 #include "surfmesh/remesh/remesh_sizes.h"
 #include "surfmesh/remesh/work_mesh.h"
 
@@ -34,6 +35,15 @@ class Remesher {
   /// Wanted lengths anew from the field.
   void refresh_sizes();
 
+  /// Rows of stretched triangles: the mesh is opened along the lines, and on each side with rows the opened border climbs away from the line row by row, while
+  /// the triangles before it make room; the rows themselves are made by result(). Lines with rows and the border do not change afterwards. Once.
+  void grow_rows(std::span<const LineRows> rows);
+  /// Outer ends of rows with the length of the edges there: what sizes have to follow.
+  std::vector<SizeSite> row_ends() const;
+  /// Of all places of noses, for each side.
+  std::vector<RowReach> nose_reaches() const;
+  RowReport row_report() const;
+
   const WorkMesh& mesh() const { return mesh_; }
   /// Strips between lines: each edge from one line to another, at its middle, with its length.
   struct Strip {
@@ -54,7 +64,7 @@ class Remesher {
   double length_ratio(std::uint32_t h) const;
   bool is_locked(std::uint32_t h) const { return mesh_.line[h] != k_no_line && locked_[static_cast<std::size_t>(mesh_.line[h])] != 0; }
   bool is_kept(std::uint32_t t) const { return r_.is_kept[mesh_.hint[t]] != 0; }
-  Vec3 normal_at(std::uint32_t v, TriangleId hint, const Point& towards) const;
+  Vec3 normal_at(std::uint32_t v, TriangleId hint, const Point& towards, const Vec3& seen) const;
   /// As of the last update().
   double quality(std::uint32_t t) const { return quality_[t]; }
   double quality_now(std::uint32_t t) const;
@@ -85,14 +95,59 @@ class Remesher {
   bool search(std::uint32_t v);
   std::vector<std::vector<std::uint32_t>> colours() const;
 
+  /// Of a place of a line with rows, on one side: its rows, [0] on the line, the last the border's vertex.
+  struct LineColumn {
+    std::uint32_t vertex = k_none;                    ///< of the border
+    std::uint32_t before = 0, after = 0;              ///< its neighbours along the border, the face to the left of the way from one to the other
+    std::size_t before_column = 0, after_column = 0;  ///< k_no_column: a neighbour without rows
+    std::vector<WorkVertex> rows;
+    std::vector<double> heights;  ///< m
+    Vec3 way;                     ///< unit, of the last step
+    double spacing = 0.0;         ///< m, mean length of the two edges along the line
+    double room = 0.0;            ///< m, that rows may climb
+    double climbed = 0.0;         ///< m
+    const SideRows* wish = nullptr;
+    bool is_growing = true;
+    std::size_t n_rows() const { return rows.size() - 1; }
+  };
+  /// An edge of a line with rows on this side, from a to b with the face to the left: vertices of the border.
+  struct RowEdge {
+    std::uint32_t a, b;
+    std::size_t a_column, b_column;
+    TriangleId hint;
+  };
+  /// A triangle of rows.
+  struct RowCell {
+    std::uint32_t edge;                                   ///< of row_edges_
+    std::array<std::array<std::uint32_t, 2>, 3> corners;  ///< of each the side (0: a, 1: b) and the row
+  };
+  static constexpr std::size_t k_no_column = ~std::size_t{0};
+
+  void open_lines(std::span<const LineRows> rows);
+  bool is_front(std::uint32_t h) const { return mesh_.line[h] == front_; }
+  bool grow_column(LineColumn& column, std::size_t row);
+  bool advance(LineColumn& column, const WorkVertex& target, double height);
+  bool is_step_good(const LineColumn& column, const WorkVertex& top, std::size_t row) const;
+  bool place(std::uint32_t v, const WorkVertex& where, double floor);
+  bool make_room(std::uint32_t v, const Point& towards);
+  bool take_into(std::uint32_t h, double floor);
+  const WorkVertex& row_at(std::uint32_t vertex, std::size_t column, std::size_t row) const;
+  std::size_t n_rows_of(std::size_t column) const { return column == k_no_column ? 0 : columns_[column].n_rows(); }
+  Vec3 row_direction(const LineColumn& column, std::size_t row) const;
+  std::vector<RowCell> row_cells() const;
+
   const Reference& r_;
   const RemeshSizes& sizes_;
   RunContext context_;
   WorkMesh mesh_;
-  std::vector<double> quality_;       ///< of each triangle, k_folded for one against the reference
-  std::vector<std::uint8_t> locked_;  ///< lines of kept triangles
-  std::vector<std::uint8_t> is_rim_;  ///< lines that end the surface; empty where none does
-  double flat_ = 0.0;                 ///< m
+  std::vector<double> quality_;         ///< of each triangle, k_folded for one against the reference
+  std::vector<std::uint8_t> locked_;    ///< lines of kept triangles
+  std::vector<std::uint8_t> is_rim_;    ///< lines that end the surface; empty where none does
+  double flat_ = 0.0;                   ///< m
+  std::int32_t front_ = k_no_line - 1;  ///< stands for the line of the border's edges; locked
+  std::vector<LineColumn> columns_;
+  std::vector<RowEdge> row_edges_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;  ///< vertices of the opened mesh and those of lines that they were, by the first
 };
 
 }  // namespace sterna::surfmesh

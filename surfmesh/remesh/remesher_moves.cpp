@@ -89,6 +89,7 @@ WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
 }
 
 bool Remesher::move(std::uint32_t v, double good) {
+  if (mesh_.vertices[v].is_fixed) return false;
   const double before = fan_quality(v);
   if (before > k_still) return false;
   const WorkVertex kept = mesh_.vertices[v];
@@ -118,7 +119,7 @@ void Remesher::smooth(int rounds, double floor) {
 
 /// Looks around for a place where the worst triangle at v is better.
 bool Remesher::search(std::uint32_t number) {
-  if (mesh_.vertices[number].kind == VertexKind::corner) return false;
+  if (mesh_.vertices[number].kind == VertexKind::corner || mesh_.vertices[number].is_fixed) return false;
   bool has_moved = false;
   double best = fan_quality(number);
   for (const double step : k_search_steps) {

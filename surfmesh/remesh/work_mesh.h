@@ -25,6 +25,7 @@ struct WorkVertex {
   Vec3 normal;                    ///< of kind face: the reference's at the foot
   VertexId corner;                ///< of kind corner: vertex of the reference
   std::uint32_t out = k_none;     ///< a half-edge that begins here; k_none: the vertex is gone
+  bool is_fixed = false;          ///< of a line with rows, or their outer end: neither moves nor goes
 };
 
 struct WorkMesh {

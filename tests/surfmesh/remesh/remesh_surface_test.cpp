@@ -171,6 +171,66 @@ TEST(RemeshSurface, NeedlesOfAWingGoAndItsEdgesStay) {
   }
 }
 
+/// The first row beside a straight line along y, away from its ends, is as high as asked for.
+void expect_first_row(const TriMesh& mesh, double x, double height) {
+  int n = 0;
+  const auto is_on = [&](const Point& q) { return std::hypot(q.x - x, q.z) < 1e-9; };
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto p = corners(mesh, t);
+    if (std::ranges::none_of(p, is_on) || std::abs(p[0].y) > 1.5) continue;
+    for (const Point& q : p) {
+      if (is_on(q)) continue;
+      EXPECT_NEAR(std::hypot(q.x - x, q.z), height, 0.05 * height) << "y = " << q.y;
+      ++n;
+    }
+  }
+  EXPECT_GT(n, 100);
+}
+
+TEST(RemeshSurface, RowsAtTheTrailingEdge) {
+  const TriMesh wall = strip_wing(24);
+  const RemeshResult plain = remeshed(wall), result = remeshed(wall, {.trailing_edge_chordwise = 0.002, .trailing_edge_stretch = 12.0});
+  expect_sound(wall, result.mesh);
+  EXPECT_LT(result.report.to_input.max, 2e-3 * result.report.length);
+  EXPECT_LT(result.report.from_input.max, 2e-3 * result.report.length);
+  const RowReport& rows = result.report.rows;
+  EXPECT_TRUE(rows.notes.empty());
+  EXPECT_EQ(plain.report.rows.n_triangles, 0);
+  EXPECT_GT(rows.n_columns, 200);
+  EXPECT_EQ(rows.n_without, 0);
+  EXPECT_GT(rows.n_triangles, 2 * 8 * rows.n_columns);
+  EXPECT_LT(rows.max_stretch, 12.0 * 1.4);
+  expect_first_row(result.mesh, 1.0, 0.002);
+}
+
+TEST(RemeshSurface, RowsAtNoses) {
+  // The nose of the coarse wing is an edge that bends, that of the fine one is smooth, in the refined one nothing lies on it.
+  TriMesh shifted = strip_wing(61);
+  for (Point& p : shifted.points) p = {p.x + 0.05 * p.y * p.y, p.y, p.z};
+  for (const TriMesh& wall : {strip_wing(24), strip_wing(60), shifted}) {
+    const RemeshResult result = remeshed(wall, {.leading_edge_chordwise = 0.002});
+    expect_sound(wall, result.mesh);
+    EXPECT_LT(result.report.to_input.max, 3e-3 * result.report.length);
+    EXPECT_LT(result.report.from_input.max, 3e-3 * result.report.length);
+    EXPECT_TRUE(result.report.rows.notes.empty());
+    EXPECT_GT(result.report.rows.n_columns, 200);
+    EXPECT_EQ(result.report.rows.n_without, 0);
+    EXPECT_LT(result.report.rows.max_stretch, 10.0 * 1.4);
+  }
+  expect_first_row(remeshed(strip_wing(60), {.leading_edge_chordwise = 0.002}).mesh, 0.0, 0.002);
+  // By a patch's rule, and only there.
+  const RemeshResult by_rule = remeshed(strip_wing(24), {}, {{.names = "wing", .leading_edge_chordwise = 0.002}});
+  EXPECT_GT(by_rule.report.rows.n_columns, 200);
+}
+
+TEST(RemeshSurface, RowsThatCannotBeAreTold) {
+  const RemeshResult result = remeshed(test::sphere(8), {.leading_edge_chordwise = 0.01, .trailing_edge_chordwise = 0.01});
+  EXPECT_EQ(result.report.rows.n_triangles, 0);
+  ASSERT_EQ(result.report.rows.notes.size(), 2u);
+  EXPECT_THAT(result.report.rows.notes[0], testing::HasSubstr("no line of the surface is one"));
+  EXPECT_THAT(result.report.rows.notes[1], testing::HasSubstr("no nose was found"));
+}
+
 TEST(RemeshSurface, ThinPlateKeepsItsSides) {
   TriMesh wall = test::cube(6);
   for (Point& p : wall.points) p.z *= 1e-3;
@@ -272,7 +332,8 @@ TEST(RemeshSurface, NoTriangleLiesInTheRimsPlane) {
 TEST(RemeshSurface, SameBytesForAnyThreads) {
   const TriMesh wall = strip_wing(40);
   std::vector<TriMesh> meshes;
-  for (const int threads : {1, 2, 7}) meshes.push_back(remesh_surface(wall, {}, {}, {}, RunContext({.threads = threads})).mesh);
+  const RemeshOptions options{.leading_edge_chordwise = 0.002, .trailing_edge_chordwise = 0.004};
+  for (const int threads : {1, 2, 7}) meshes.push_back(remesh_surface(wall, options, {}, {}, RunContext({.threads = threads})).mesh);
   for (const TriMesh& mesh : meshes) {
     EXPECT_EQ(mesh.points, meshes[0].points);
     EXPECT_EQ(mesh.triangles, meshes[0].triangles);
@@ -303,7 +364,7 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
 TEST(RemeshSurface, Refusals) {
   const TriMesh wall = test::cube(2);
   test::expect_error(ErrorCode::bad_argument, "none", [&] { remeshed(wall, {}, {{.names = "none", .max_edge = 0.1}}); });
-  test::expect_error(ErrorCode::bad_argument, "leading", [&] { remeshed(wall, {}, {{.names = "cube", .leading_edge_stretch = 5.0}}); });
+  test::expect_error(ErrorCode::bad_argument, "trailing_edge_cells", [&] { remeshed(wall, {}, {{.names = "cube", .trailing_edge_cells = 5.0}}); });
   test::expect_error(ErrorCode::overflow, "max_triangles", [&] { remeshed(wall, {.max_edge = 0.01, .max_triangles = 1000}); });
   test::expect_error(ErrorCode::bad_argument, "positive", [&] { remeshed(wall, {.max_edge = -1.0}); });
   test::expect_error(ErrorCode::empty_surface, "no triangles", [&] { remeshed(TriMesh{}); });

@@ -1,0 +1,51 @@
+#include "surfmesh/model/band_wish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/glob.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// What a first cell alone asks for.
+constexpr double k_default_stretch = 10.0;
+
+double least_said(double a, double b) { return is_automatic(a) ? b : is_automatic(b) ? a : std::min(a, b); }
+
+bool overrule(double& value, double said) {
+  if (is_automatic(said)) return false;
+  value = said;
+  return true;
+}
+
+}  // namespace
+
+double BandWish::first_height(double max_edge) const { return is_automatic(chordwise) ? max_edge / stretch : chordwise; }
+
+double BandWish::longest(double max_edge) const { return std::min(max_edge, first_height(max_edge) * (is_automatic(stretch) ? k_default_stretch : stretch)); }
+
+BandWish both(const BandWish& a, const BandWish& b) {
+  if (!a.is_any() || !b.is_any()) return a.is_any() ? a : b;
+  return {least_said(a.chordwise, b.chordwise), least_said(a.stretch, b.stretch), std::min(a.growth, b.growth), a.rule};
+}
+
+BandWishes band_wishes(const std::string& name, BandWishes wishes, double refinement, std::span<const PatchSurfaceOptions> patches) {
+  for (const PatchSurfaceOptions& rule : patches) {
+    if (!matches_glob(name, rule.names)) continue;
+    if (overrule(wishes.leading.chordwise, rule.leading_edge_chordwise) | overrule(wishes.leading.stretch, rule.leading_edge_stretch))
+      wishes.leading.rule = rule.names;
+    if (overrule(wishes.trailing.chordwise, rule.trailing_edge_chordwise) | overrule(wishes.trailing.stretch, rule.trailing_edge_stretch))
+      wishes.trailing.rule = rule.names;
+    overrule(wishes.leading.growth, rule.leading_edge_growth);
+    overrule(wishes.trailing.growth, rule.trailing_edge_growth);
+  }
+  // The next mesh of a family: lengths by the factor, so many more cells, and of the growth the root that belongs to it (quality.md section 1).
+  for (BandWish* wish : {&wishes.leading, &wishes.trailing}) {
+    wish->chordwise /= refinement;
+    wish->growth = std::pow(wish->growth, 1.0 / refinement);
+  }
+  return wishes;
+}
+
+}  // namespace sterna::surfmesh

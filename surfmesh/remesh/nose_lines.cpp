@@ -1,0 +1,186 @@
+#include "surfmesh/remesh/nose_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// A nose nearer to a vertex than this part of the edge goes through the vertex.
+constexpr double k_snap = 0.15;
+/// Here the nose is at the vertex: the part of x across the span.
+constexpr double k_exactly_ahead = 1e-6;
+/// Cosine between the spans of neighbours.
+constexpr double k_same_span = 0.5;
+/// A nose looks ahead: x of the normal.
+constexpr double k_nose_ahead = -0.2;
+/// Times that a span's direction is found from the tensor by multiplication.
+constexpr int k_power_steps = 24;
+
+/// Sum of bends times edges' squares about a vertex (Cohen-Steiner & Morvan 2003; Alliez et al. 2003): its strongest direction is along the span.
+struct BendTensor {
+  std::array<double, 6> t{};  ///< xx, yy, zz, xy, yz, zx
+  void add(double weight, const Vec3& e) {
+    t[0] += weight * e.x * e.x;
+    t[1] += weight * e.y * e.y;
+    t[2] += weight * e.z * e.z;
+    t[3] += weight * e.x * e.y;
+    t[4] += weight * e.y * e.z;
+    t[5] += weight * e.z * e.x;
+  }
+  Vec3 times(const Vec3& v) const { return {t[0] * v.x + t[3] * v.y + t[5] * v.z, t[3] * v.x + t[1] * v.y + t[4] * v.z, t[5] * v.x + t[4] * v.y + t[2] * v.z}; }
+};
+
+/// Of the smooth piece in which a half-edge begins at its vertex: unit, along the surface; zero where that is flat or bent alike in all directions.
+Vec3 span_at(const Reference& r, HalfedgeId corner) {
+  BendTensor tensor;
+  const Point& p = r.mesh->points[r.topology.from(corner)];
+  const Vec3& normal = r.normals[corner];
+  Vec3 start;
+  double largest = 0.0;
+  const auto add = [&](HalfedgeId h) {
+    const Vec3 e = r.mesh->points[r.topology.to(h)] - p;
+    const Vec3 &a = r.triangle_normals[triangle_of(h)], &b = r.triangle_normals[triangle_of(r.topology.twin(h))];
+    const double bend = std::copysign(angle_between(a, b), dot(cross(a, b), e));  // convex is positive
+    const double length = norm(e);
+    if (!(length > 0.0)) return;
+    tensor.add(bend / length, e);
+    if (std::abs(bend) * length > largest) {
+      largest = std::abs(bend) * length;
+      start = e;
+    }
+  };
+  // Clockwise to a line or around, then the other way.
+  const auto is_line = [&](HalfedgeId h) { return r.line[h] != k_no_line || !r.topology.twin(h).is_valid(); };
+  HalfedgeId h = corner;
+  bool is_around = false;
+  while (!is_line(h)) {
+    add(h);
+    h = next(r.topology.twin(h));
+    if (h == corner) {
+      is_around = true;
+      break;
+    }
+  }
+  for (HalfedgeId in = previous(corner); !is_around && !is_line(in); in = previous(h)) {
+    h = r.topology.twin(in);
+    add(h);
+  }
+  Vec3 span = normalized(start - dot(start, normal) * normal);
+  for (int i = 0; i < k_power_steps; ++i) {
+    Vec3 s = tensor.times(span);
+    s = s - dot(s, normal) * normal;
+    if (!(norm2(s) > 0.0)) return {};
+    span = normalized(s);
+  }
+  return dot(tensor.times(span), span) > 0.0 ? span : Vec3{};
+}
+
+struct NoseFinder {
+  const Reference& r;
+  Column<HalfedgeId, Vec3> span;     ///< where the half-edge begins
+  Column<HalfedgeId, double> ahead;  ///< x of the direction across it
+
+  /// Share of the edge at which a nose crosses it; negative: none does.
+  double crossing(HalfedgeId h) const {
+    const HalfedgeId a = h, b = next(h);
+    if (r.line[h] != k_no_line || !r.topology.twin(h).is_valid()) return -1.0;
+    const double cosine = dot(span[a], span[b]);
+    if (std::abs(cosine) < k_same_span) return -1.0;
+    const double fa = ahead[a], fb = std::copysign(1.0, cosine) * ahead[b];
+    if (fa * fb > 0.0 || fa == fb) return -1.0;
+    const double t = fa / (fa - fb);
+    const double x = (1.0 - t) * r.normals[h].x + t * r.normals[next(h)].x;
+    return x < k_nose_ahead ? t : -1.0;
+  }
+};
+
+}  // namespace
+
+NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
+  const TriMesh& wall = *r.mesh;
+  NoseFinder finder{r, Column<HalfedgeId, Vec3>(r.topology.n_halfedges()), Column<HalfedgeId, double>(r.topology.n_halfedges(), 0.0)};
+  parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
+    const HalfedgeId h(i);
+    finder.span[h] = span_at(r, h);
+    if (norm2(finder.span[h]) > 0.0) finder.ahead[h] = cross(r.normals[h], finder.span[h]).x;
+  });
+  NoseCut cut;
+  cut.mesh.points = wall.points;
+  cut.mesh.patches = wall.patches;
+  // Vertices that noses go through, or pass so near that they are moved there; then edges that they cross elsewhere.
+  Column<VertexId, std::uint8_t> is_on(wall.n_vertices(), 0);
+  for (std::size_t i = 0; i < r.topology.n_halfedges(); ++i) {
+    const HalfedgeId h(i), o = r.topology.twin(h);
+    if (norm2(finder.span[h]) > 0.0 && std::abs(finder.ahead[h]) < k_exactly_ahead && r.normals[h].x < k_nose_ahead) is_on[r.topology.from(h)] = 1;
+    if (o.is_valid() && o < h) continue;
+    const double t = finder.crossing(h);
+    if (t >= 0.0 && t < k_snap) is_on[r.topology.from(h)] = 1;
+    if (t > 1.0 - k_snap) is_on[r.topology.to(h)] = 1;
+  }
+  Column<HalfedgeId, VertexId> node(r.topology.n_halfedges());
+  for (std::size_t i = 0; i < r.topology.n_halfedges(); ++i) {
+    const HalfedgeId h(i), o = r.topology.twin(h);
+    if ((o.is_valid() && o < h) || is_on[r.topology.from(h)] != 0 || is_on[r.topology.to(h)] != 0) continue;
+    const double t = finder.crossing(h);
+    if (t < 0.0) continue;
+    const Point &a = wall.points[r.topology.from(h)], &b = wall.points[r.topology.to(h)];
+    node[h] = node[o] = cut.mesh.points.push_back(a + t * (b - a) + (is_flat ? 0.0 : 4.0 * t * (1.0 - t)) * r.bulges[h]);
+  }
+  const auto add = [&](TriangleId t, VertexId a, VertexId b, VertexId c) {
+    cut.mesh.triangles.push_back({a, b, c});
+    cut.mesh.triangle_patch.push_back(wall.triangle_patch[t]);
+  };
+  for (const TriangleId t : wall.triangles.ids()) {
+    const TriangleVertices& v = wall.triangles[t];
+    std::size_t n_split = 0, n_through = 0, first = 0, whole = 0;
+    std::array<VertexId, 2> through;
+    const auto pass = [&](VertexId p) {
+      if (n_through < 2) through[n_through] = p;
+      ++n_through;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(t, static_cast<int>(k));
+      if (is_on[v[k]] != 0) pass(v[k]);
+      if (node[h].is_valid()) {
+        pass(node[h]);
+        if (n_split++ == 0) first = k;
+      } else {
+        whole = k;
+      }
+    }
+    if (n_through == 2) cut.edges.push_back({std::min(through[0], through[1]), std::max(through[0], through[1])});
+    const auto middle = [&](std::size_t k) { return node[halfedge(t, static_cast<int>(k % 3))]; };
+    if (n_split == 0) {
+      add(t, v[0], v[1], v[2]);
+    } else if (n_split == 1) {
+      const VertexId m = middle(first), a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
+      add(t, a, m, c);
+      add(t, m, b, c);
+    } else if (n_split == 2) {
+      // The edge a b is whole; m lies on b c, n on c a.
+      const VertexId a = v[whole], b = v[(whole + 1) % 3], c = v[(whole + 2) % 3], m = middle(whole + 1), n = middle(whole + 2);
+      add(t, n, m, c);
+      if (distance(cut.mesh.points[a], cut.mesh.points[m]) <= distance(cut.mesh.points[b], cut.mesh.points[n])) {
+        add(t, a, b, m);
+        add(t, a, m, n);
+      } else {
+        add(t, a, b, n);
+        add(t, b, m, n);
+      }
+    } else {
+      add(t, v[0], middle(0), middle(2));
+      add(t, middle(0), v[1], middle(1));
+      add(t, middle(2), middle(1), v[2]);
+      add(t, middle(0), middle(1), middle(2));
+    }
+  }
+  std::sort(cut.edges.begin(), cut.edges.end());
+  cut.edges.erase(std::unique(cut.edges.begin(), cut.edges.end()), cut.edges.end());
+  return cut;
+}
+
+}  // namespace sterna::surfmesh

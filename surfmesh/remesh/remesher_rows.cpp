@@ -1,0 +1,365 @@
+// Remesher: rows of stretched triangles along lines. The mesh is opened along the line; the border climbs row by row, the triangles before it give way by
+// collapses into it, flips and moves. What it leaves behind is filled with the columns' rows.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geom/math/measures.h"
+#include "surfmesh/face/band_rows.h"
+#include "surfmesh/remesh/remesher.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// Triangles before the border have at least this mean ratio, or what they had.
+constexpr double k_border_floor = 0.25;
+/// Steps of one row, at most: each goes all the way that is left, a half or a quarter of it, then the triangles before the border give way.
+constexpr int k_border_steps = 16;
+constexpr std::array<double, 3> k_border_shares = {1.0, 0.5, 0.25};
+/// Of a row's height: a border that gets no further keeps this much of the row.
+constexpr double k_least_part = 0.5;
+/// Edges before the border shorter than this part of what is wanted go.
+constexpr double k_short_before_border = 0.6;
+constexpr double k_longest_at_border = 2.0;
+/// Of rows' triangles: cosine between their normal and the surface's, at least, and the length of a row's edge over that on the line.
+constexpr double k_row_cosine = 0.5;
+constexpr double k_row_narrowest = 0.45, k_row_widest = 2.2;
+/// Of a step: its length is exact to this part, and at the worst to that one.
+constexpr double k_row_tolerance = 1e-7, k_row_inexact = 0.05;
+constexpr int k_row_iterations = 20;
+/// Share of the last step's direction in the next one's: borders get smoother than the line.
+constexpr double k_straight_on = 0.5;
+
+}  // namespace
+
+/// Each vertex on the lines becomes one for each fan of triangles that is left around it.
+void Remesher::open_lines(std::span<const LineRows> rows) {
+  front_ = static_cast<std::int32_t>(r_.lines.size());
+  locked_.resize(r_.lines.size() + 1, 0);
+  locked_.back() = 1;
+  std::vector<const LineRows*> rows_of(r_.lines.size(), nullptr);
+  for (const LineRows& l : rows) rows_of[static_cast<std::size_t>(l.line)] = &l;
+  struct Cut {
+    std::uint32_t halfedge;
+    const SideRows* side;  ///< null: none on this one
+  };
+  std::vector<Cut> cuts;
+  std::vector<std::uint32_t> touched;
+  std::vector<const SideRows*> side_of(mesh_.twin.size(), nullptr);
+  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+    const std::int32_t l = mesh_.line[h];
+    if (mesh_.is_gone(h / 3) || l == k_no_line || rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
+    const bool is_along = s_on_line(mesh_.from(h), l) < s_on_line(mesh_.to(h), l);
+    const SideRows& side = rows_of[static_cast<std::size_t>(l)]->sides[is_along ? 0 : 1];
+    cuts.push_back({h, side.is_any ? &side : nullptr});
+    side_of[h] = cuts.back().side;
+    touched.push_back(mesh_.from(h));
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  std::vector<std::vector<std::uint32_t>> around;
+  for (const std::uint32_t v : touched) {
+    around.emplace_back();
+    mesh_.for_out(v, [&](std::uint32_t h) { around.back().push_back(h); });
+  }
+  for (const Cut& cut : cuts) {
+    mesh_.twin[cut.halfedge] = k_none;
+    locked_[static_cast<std::size_t>(mesh_.line[cut.halfedge])] = 1;
+  }
+  struct Border {
+    std::size_t column;
+    std::uint32_t in, out;  ///< half-edges of the border: to the column's vertex, from it
+  };
+  std::vector<Border> borders;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    for (const std::uint32_t first : around[i]) {
+      if (mesh_.twin[first] != k_none) continue;
+      const auto copy = static_cast<std::uint32_t>(mesh_.vertices.size());
+      WorkVertex v = mesh_.vertices[touched[i]];
+      v.out = first;
+      v.is_fixed = true;
+      bool has_line = false;
+      std::uint32_t in = k_none;
+      for (std::uint32_t h = first; h != k_none; h = mesh_.twin[in]) {
+        mesh_.triangles[h / 3][h % 3] = copy;
+        has_line = has_line || (h != first && mesh_.line[h] != k_no_line);
+        in = WorkMesh::prev(h);
+      }
+      mesh_.vertices.push_back(v);
+      copies_.emplace_back(copy, touched[i]);
+      if (side_of[first] == nullptr || side_of[in] == nullptr || has_line) continue;
+      borders.push_back({columns_.size(), in, first});
+      LineColumn column;
+      column.vertex = copy;
+      column.wish = side_of[first];
+      columns_.push_back(column);
+    }
+    mesh_.vertices[touched[i]].out = k_none;
+  }
+  std::vector<std::size_t> column_of(mesh_.vertices.size(), k_no_column);
+  for (std::size_t c = 0; c < columns_.size(); ++c) column_of[columns_[c].vertex] = c;
+  for (const Border& b : borders) {
+    LineColumn& column = columns_[b.column];
+    column.before = mesh_.from(b.in);
+    column.after = mesh_.to(b.out);
+    column.before_column = column_of[column.before];
+    column.after_column = column_of[column.after];
+    const Point& p = mesh_.at(column.vertex);
+    column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
+    // The line's vertex seen from this side: the hints of triangles may be from the other one, where both are in one smooth piece.
+    const std::int32_t l = mesh_.line[b.out];
+    const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
+    const double s_here = s_on_line(column.vertex, l);
+    const std::size_t segment = r_.line_place(l, s_here).segment;
+    HalfedgeId h = line.halfedges[segment];
+    if ((r_.topology.from(h) == line.vertices[segment]) != (s_here < s_on_line(column.after, l))) h = r_.topology.twin(h);
+    WorkVertex foot = mesh_.vertices[column.vertex];
+    foot.foot = r_.nearest(p, triangle_of(h));
+    foot.normal = r_.normal(foot.foot);
+    column.rows.push_back(foot);
+    column.room = k_rows_of_width * width_across(r_, h, 1e3 * column.spacing);
+  }
+  for (const Cut& cut : cuts) {
+    if (cut.side == nullptr) continue;
+    const std::uint32_t a = mesh_.from(cut.halfedge), b = mesh_.to(cut.halfedge);
+    row_edges_.push_back({a, b, column_of[a], column_of[b], mesh_.hint[cut.halfedge / 3]});
+    mesh_.line[cut.halfedge] = front_;
+  }
+}
+
+const WorkVertex& Remesher::row_at(std::uint32_t vertex, std::size_t column, std::size_t row) const {
+  if (column == k_no_column) return mesh_.vertices[vertex];
+  const LineColumn& c = columns_[column];
+  return c.rows[std::min(row, c.n_rows())];
+}
+
+/// Across the row below, and partly straight on.
+Vec3 Remesher::row_direction(const LineColumn& c, std::size_t row) const {
+  const WorkVertex& top = c.rows[row - 1];
+  const Vec3 along = row_at(c.after, c.after_column, row - 1).point - row_at(c.before, c.before_column, row - 1).point;
+  Vec3 way = normalized(cross(top.normal, along));
+  if (row > 1) {
+    Vec3 on = c.way - dot(c.way, top.normal) * top.normal;
+    way = normalized((1.0 - k_straight_on) * way + k_straight_on * normalized(on));
+  }
+  return way;
+}
+
+/// The cells that a column's next row would make with its neighbours'.
+bool Remesher::is_step_good(const LineColumn& c, const WorkVertex& top, std::size_t row) const {
+  const Point& below = c.rows[row - 1].point;
+  const auto is_up = [&](const Point& p, const Point& q, const Point& r) {
+    const Vec3 n = cross(q - p, r - p);
+    return dot(n, top.normal) > k_row_cosine * norm(n);
+  };
+  for (const bool is_after : {false, true}) {
+    const std::uint32_t vertex = is_after ? c.after : c.before;
+    const std::size_t column = is_after ? c.after_column : c.before_column;
+    const std::size_t n = n_rows_of(column);
+    if (n + 1 < row) return false;
+    const Point& q = row_at(vertex, column, row - 1).point;
+    if (!(is_after ? is_up(below, q, top.point) : is_up(q, below, top.point))) return false;
+    if (n < row) continue;
+    const Point& r = row_at(vertex, column, row).point;
+    if (!(is_after ? is_up(below, q, r) && is_up(below, r, top.point) && is_up(q, r, top.point)
+                   : is_up(q, below, r) && is_up(below, top.point, r) && is_up(q, top.point, r)))
+      return false;
+    const double wide = distance(top.point, r), on_line = distance(c.rows[0].point, row_at(vertex, column, 0).point);
+    if (wide < k_row_narrowest * on_line || wide > k_row_widest * on_line) return false;
+  }
+  return true;
+}
+
+/// Puts a vertex elsewhere if all triangles about are better than `floor` then. \return whether it is there
+bool Remesher::place(std::uint32_t v, const WorkVertex& where, double floor) {
+  const WorkVertex kept = mesh_.vertices[v];
+  WorkVertex moved = where;
+  moved.out = kept.out;
+  moved.is_fixed = true;
+  mesh_.vertices[v] = moved;
+  if (fan_quality_now(v, floor) > floor) {
+    update_fan(v);
+    return true;
+  }
+  mesh_.vertices[v] = kept;
+  return false;
+}
+
+/// The vertex that h begins at goes into the border's at its end.
+bool Remesher::take_into(std::uint32_t h, double floor) {
+  if (!is_collapse_legal(h) || !(collapse_quality(h, k_longest_at_border) > floor)) return false;
+  const std::uint32_t u = mesh_.to(h);
+  mesh_.collapse(h);
+  update_fan(u);
+  return true;
+}
+
+/// Before a vertex of the border that wants to go towards a point. \return whether anything has changed
+bool Remesher::make_room(std::uint32_t v, const Point& towards) {
+  const Vec3 way = towards - mesh_.at(v);
+  bool has_changed = false;
+  // Vertices that stand in the way go into the border, the nearest first.
+  std::vector<std::pair<double, std::uint32_t>> near;
+  mesh_.for_out(v, [&](std::uint32_t h) {
+    if (mesh_.twin[h] == k_none || !(dot(mesh_.at(mesh_.to(h)) - mesh_.at(v), way) > 0.0)) return;
+    const double length = std::min(distance(mesh_.at(v), mesh_.at(mesh_.to(h))), distance(towards, mesh_.at(mesh_.to(h))));
+    if (length < k_short_before_border * wanted(h)) near.emplace_back(length, mesh_.to(h));
+  });
+  std::sort(near.begin(), near.end());
+  for (const auto& [length, w] : near) {
+    std::uint32_t found = k_none;
+    mesh_.for_out(v, [&](std::uint32_t h) {
+      if (mesh_.to(h) == w && mesh_.twin[h] != k_none) found = mesh_.twin[h];
+    });
+    if (found != k_none && take_into(found, std::min(k_border_floor, 0.5 * std::max(fan_quality(v), 0.0)))) has_changed = true;
+  }
+  std::vector<std::uint32_t> opposite;
+  mesh_.for_out(v, [&](std::uint32_t h) { opposite.push_back(WorkMesh::next(h)); });
+  for (const std::uint32_t h : opposite)
+    if (!mesh_.is_gone(h / 3) && try_flip(h, 1e-3)) has_changed = true;
+  std::vector<std::uint32_t> ring;
+  mesh_.for_ring(v, [&](std::uint32_t w) { ring.push_back(w); });
+  for (const std::uint32_t w : ring)
+    if (mesh_.vertices[w].kind != VertexKind::corner && move(w, k_border_floor)) has_changed = true;
+  return has_changed;
+}
+
+/// The border's vertex goes to its next row, or a part of the way. \return whether the row is there
+bool Remesher::advance(LineColumn& c, const WorkVertex& target, double height) {
+  const std::uint32_t v = c.vertex;
+  const WorkVertex start = mesh_.vertices[v];
+  const double before = fan_quality(v);
+  const std::size_t row = c.rows.size();
+  bool is_there = false;
+  for (int i = 0; i < k_border_steps && !is_there; ++i) {
+    bool has_moved = false;
+    for (const double share : k_border_shares) {
+      WorkVertex next = target;
+      if (share < 1.0) {
+        const WorkVertex& here = mesh_.vertices[v];
+        put_on_face(next, here.point + share * (target.point - here.point), here.kind == VertexKind::face ? here.foot.triangle : c.rows[0].foot.triangle);
+      }
+      if (!place(v, next, std::min(k_border_floor, 0.9 * fan_quality(v)))) continue;
+      has_moved = true;
+      is_there = share == 1.0;
+      break;
+    }
+    if (is_there) break;
+    if (!make_room(v, target.point) && !has_moved) break;
+  }
+  const double done = distance(mesh_.at(v), start.point);
+  const bool is_row = is_there || (done > k_least_part * height && is_step_good(c, mesh_.vertices[v], row));
+  if (!is_row) {
+    for (int i = 0; i < k_border_steps && !place(v, start, std::min(0.0, before - 1e-9)); ++i) make_room(v, start.point);
+    // What cannot go back is a low row.
+    if (mesh_.vertices[v].point == start.point) return false;
+  }
+  c.way = normalized(mesh_.at(v) - start.point);
+  c.heights.push_back(distance(mesh_.at(v), start.point));
+  c.climbed += c.heights.back();
+  c.rows.push_back(mesh_.vertices[v]);
+  return is_there;
+}
+
+bool Remesher::grow_column(LineColumn& c, std::size_t row) {
+  if (n_rows_of(c.before_column) + 1 < row || n_rows_of(c.after_column) + 1 < row) return false;
+  const WorkVertex top = c.rows.back();
+  const Vec3 way = row_direction(c, row);
+  double height = row == 1 ? c.wish->first : c.wish->growth * c.heights.back();
+  const auto step = [&](double length, WorkVertex& to) {
+    double reach = length, done = 0.0;
+    for (int i = 0; i < k_row_iterations; ++i) {
+      put_on_face(to, top.point + reach * way, top.foot.triangle);
+      done = distance(to.point, top.point);
+      if (!(done > 0.1 * length)) return false;
+      if (std::abs(done - length) <= k_row_tolerance * length) break;
+      reach *= std::clamp(length / done, 0.5, 2.0);
+    }
+    return std::abs(done - length) <= k_row_inexact * length && dot(to.point - top.point, way) > 0.5 * done;
+  };
+  WorkVertex target;
+  if (!step(height, target)) return false;
+  // Curvature across allows no more than its angle, but for min_edge.
+  if (const double turn = angle_between(top.normal, target.normal); turn > c.wish->curvature_angle) {
+    const double lower = std::max(height * c.wish->curvature_angle / turn, std::min(height, c.wish->min_edge));
+    if (lower < height) {
+      height = lower;
+      if (!step(height, target)) return false;
+    }
+  }
+  const double wide =
+      0.5 * (distance(row_at(c.before, c.before_column, row - 1).point, top.point) + distance(row_at(c.after, c.after_column, row - 1).point, top.point));
+  if (height > k_last_row_height * std::min(c.spacing, wide) || c.climbed + height > c.room || row > k_max_rows) return false;
+  if (!is_step_good(c, target, row)) return false;
+  target.size = std::min(target.size, c.spacing);
+  return advance(c, target, height);
+}
+
+void Remesher::grow_rows(std::span<const LineRows> rows) {
+  if (rows.empty()) return;
+  open_lines(rows);
+  for (std::size_t row = 1; row <= k_max_rows; ++row) {
+    bool is_any = false;
+    for (LineColumn& c : columns_) {
+      if (!c.is_growing || c.n_rows() + 1 != row) continue;
+      c.is_growing = grow_column(c, row);
+      is_any = is_any || c.is_growing;
+    }
+    context_.check_stop();
+    if (!is_any) break;
+  }
+}
+
+std::vector<Remesher::RowCell> Remesher::row_cells() const {
+  std::vector<RowCell> cells;
+  for (std::uint32_t e = 0; e < row_edges_.size(); ++e) {
+    const RowEdge& edge = row_edges_[e];
+    const auto na = static_cast<std::uint32_t>(n_rows_of(edge.a_column)), nb = static_cast<std::uint32_t>(n_rows_of(edge.b_column));
+    const auto point = [&](std::size_t side, std::size_t row) -> const Point& {
+      return side == 0 ? row_at(edge.a, edge.a_column, row).point : row_at(edge.b, edge.b_column, row).point;
+    };
+    for (std::uint32_t k = 1; k <= std::min(na, nb); ++k) {
+      if (is_first_diagonal(point(0, k - 1), point(1, k - 1), point(1, k), point(0, k), (e + k) % 2 == 0)) {
+        cells.push_back({e, {{{0, k - 1}, {1, k - 1}, {1, k}}}});
+        cells.push_back({e, {{{0, k - 1}, {1, k}, {0, k}}}});
+      } else {
+        cells.push_back({e, {{{0, k - 1}, {1, k - 1}, {0, k}}}});
+        cells.push_back({e, {{{1, k - 1}, {1, k}, {0, k}}}});
+      }
+    }
+    if (na > nb) cells.push_back({e, {{{0, nb}, {1, nb}, {0, na}}}});
+    if (nb > na) cells.push_back({e, {{{0, na}, {1, na}, {1, nb}}}});
+  }
+  return cells;
+}
+
+std::vector<SizeSite> Remesher::row_ends() const {
+  std::vector<SizeSite> ends;
+  for (const LineColumn& c : columns_) ends.push_back({c.rows.back().point, c.spacing});
+  return ends;
+}
+
+std::vector<RowReach> Remesher::nose_reaches() const {
+  std::vector<RowReach> reaches;
+  for (const LineColumn& c : columns_) {
+    const WorkVertex& foot = c.rows.front();
+    if (foot.kind != VertexKind::line || !r_.lines[static_cast<std::size_t>(foot.line)].is_nose) continue;
+    reaches.push_back({foot.point, c.climbed});
+  }
+  return reaches;
+}
+
+RowReport Remesher::row_report() const {
+  RowReport report;
+  for (const LineColumn& c : columns_) {
+    ++(c.n_rows() > 0 ? report.n_columns : report.n_without);
+    for (std::size_t k = 0; k < c.heights.size(); ++k) {
+      report.max_stretch = std::max(report.max_stretch, c.spacing / c.heights[k]);
+      if (k > 0) report.max_growth = std::max({report.max_growth, c.heights[k] / c.heights[k - 1], c.heights[k - 1] / c.heights[k]});
+    }
+  }
+  report.n_triangles = static_cast<std::int64_t>(row_cells().size());
+  return report;
+}
+
+}  // namespace sterna::surfmesh
