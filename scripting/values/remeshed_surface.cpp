@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -21,6 +22,8 @@ namespace {
 
 /// Of the needles before: with more left the lines of the surface force them, and layers there are no better for it.
 constexpr double k_fewer_needles = 0.5;
+/// Refinements that are tried one after the other where there would be too many triangles: those of a family.
+constexpr std::array<double, 3> k_coarser = {1.0, 2.0 / 3.0, 4.0 / 9.0};
 /// Of the body's length: new triangles further from the given ones have lost something of the shape (a nose, a thin part), and nobody asked for them.
 constexpr double k_largest_distance = 0.02;
 /// without_needles() makes at most so many times the triangles, within these bounds: steps and slivers that look like curvature would ask for millions.
@@ -78,19 +81,26 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   const std::size_t n = wall.mesh.n_triangles();
   const std::size_t most = std::clamp(k_many_times * n, k_few_triangles, std::max(k_many_triangles, n));
   bounded.options.max_triangles = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), most));
-  try {
-    // A cached result was made without a demand, perhaps: it is looked at again.
-    const surfmesh::RemeshDemand demand{.most_needles = static_cast<std::int64_t>(std::ceil(k_fewer_needles * static_cast<double>(before.n))) - 1,
-                                        .least_angle = before.least_angle,
-                                        .largest_distance = k_largest_distance};
-    SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
-    const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
-    if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle) return made;
-    context.info(fmt::format("auto: remesh leaves {} needles of {}, the least angle {:.3g} deg for {:.3g} deg: the triangles stay as they are",
-                             count_text(after.n), count_text(before.n), after.least_angle / k_degree, before.least_angle / k_degree));
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::cancelled) throw;
-    context.info("auto: " + error.info().attempted + ": " + error.info().problem + "; the triangles stay as they are");
+  const surfmesh::RemeshDemand demand{.most_needles = static_cast<std::int64_t>(std::ceil(k_fewer_needles * static_cast<double>(before.n))) - 1,
+                                      .least_angle = before.least_angle,
+                                      .largest_distance = k_largest_distance};
+  for (std::size_t i = 0; i < k_coarser.size(); ++i) {
+    bounded.options.refinement = k_coarser[i] * recipe.options.refinement;
+    try {
+      SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
+      // A cached result was made without a demand, perhaps: it is looked at again.
+      const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
+      if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle) return made;
+      context.info(fmt::format("auto: remesh leaves {} needles of {}, the least angle {:.3g} deg for {:.3g} deg: the triangles stay as they are",
+                               count_text(after.n), count_text(before.n), after.least_angle / k_degree, before.least_angle / k_degree));
+      break;
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled) throw;
+      const bool is_last = error.code() != ErrorCode::overflow || i + 1 == k_coarser.size();
+      context.info("auto: " + error.info().attempted + ": " + error.info().problem +
+                   (is_last ? "; the triangles stay as they are" : fmt::format("; it is tried with edges {:.3g} times as long", 1.0 / k_coarser[i + 1])));
+      if (is_last) break;
+    }
   }
   return wall;
 }

@@ -39,6 +39,8 @@ constexpr int k_split_rounds = 24;
 constexpr double k_least_half = 0.2, k_most_half = 0.85;
 /// Of the quality before: halves of any triangle have more, unless the middle is held at a line.
 constexpr double k_least_after_split = 0.1;
+/// An edge that a collapse makes longer by less than this part is as long as it was.
+constexpr double k_no_longer = 1.001;
 /// Edges kept longer than they should be rather than split again after a collapse.
 constexpr double k_longest_after_collapse = 1.35;
 
@@ -338,7 +340,9 @@ double Remesher::collapse_quality(std::uint32_t h, double most) const {
     if (worst == k_folded || e == h || (o != k_none && e / 3 == o / 3)) return;
     const std::uint32_t w = mesh_.to(e);
     const WorkVertex& other = mesh_.vertices[w];
-    if (distance(stays.point, other.point) > most * 0.5 * (stays.size + other.size)) {
+    // An edge that is too long already will be halved whatever this does.
+    const double length = distance(stays.point, other.point);
+    if (length > most * 0.5 * (stays.size + other.size) && length > k_no_longer * distance(mesh_.at(v), other.point)) {
       worst = k_folded;
       return;
     }
