@@ -59,7 +59,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   knowledge.report = report_layer(base, envelope_options, filled.envelope.envelope, extrusion, &domain.outer, context);
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
-  filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope);
+  filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope, filled.layers.layers);
   open_slits(domain, filled.layers.request);
   if (domain.has_rims()) {
     const FillBoundary boundary = boundary_of(filled.layers);

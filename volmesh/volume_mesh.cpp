@@ -146,7 +146,7 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
   layer.report = report_layer(*split.base, options, split.envelope, split.extrusion, split.outer.get(), context);
   layer.curving_shares = split.extrusion.curving_shares;
   layer.mesh = assemble_layers(*split.base, std::move(split.extrusion), unlinked(*split.outer), {});
-  layer.mesh.request = layer_request(*split.base, options, split.envelope);
+  layer.mesh.request = layer_request(*split.base, options, split.envelope, layer.mesh.layers);
   layer.boundary = std::move(split.boundary);
   return layer;
 }

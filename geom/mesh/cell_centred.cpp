@@ -82,15 +82,11 @@ class OuterFaces {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> faces_;  ///< cell and slot, ascending
 };
 
-/// Corners of a side of a column's cell, normal out of it; fewer than three where both lines are collapsed.
+/// Corners of a side of a column's cell, normal out of it; none where both lines have ended.
 Corners side_of(const HybridMesh& mesh, std::size_t column, std::size_t corner, int layer) {
-  const LayerBlock& layers = mesh.layers;
-  const std::uint32_t u = layers.base[column][corner], v = layers.base[column][(corner + 1) % 3];
+  const LayerBlock::Side side = mesh.layers.side(column, corner, layer);
   Corners corners;
-  corners.add(mesh.points[layers.node(u, layer)]);
-  corners.add(mesh.points[layers.node(v, layer)]);
-  if (!layers.is_collapsed[v]) corners.add(mesh.points[layers.node(v, layer + 1)]);
-  if (!layers.is_collapsed[u]) corners.add(mesh.points[layers.node(u, layer + 1)]);
+  for (std::size_t k = 0; k < side.size; ++k) corners.add(mesh.points[side.nodes[k]]);
   return corners;
 }
 
@@ -119,7 +115,7 @@ CellCentredScan gathered(CellCentredScan scan, std::size_t n, const Add& add, co
       [](CellCentredScan all, const CellCentredScan& more) { return joined(std::move(all), more); }, chunk);
 }
 
-/// Whether all faces of a cell of a column are between cells of columns. \pre no collapsed line
+/// Whether all faces of a cell of a column are between cells of columns. \pre prismatic
 bool is_amid_columns(const LayerBlock& layers, std::span<const std::uint32_t> neighbours, std::size_t column, int layer) {
   if (layer == 0 || layer + 1 == layers.layers_of_column(column)) return false;
   return neighbours[3 * column] != k_no_slot && neighbours[3 * column + 1] != k_no_slot && neighbours[3 * column + 2] != k_no_slot;
@@ -142,14 +138,12 @@ class ColumnCentres {
     end_ = end;
     places_.resize((end - begin) * stride_);
     for (std::size_t c = begin; c < end; ++c) {
-      const int n_collapsed = mesh_.layers.n_collapsed(c);
-      if (n_collapsed == 0) add_prisms(c, scan);
-      else if (n_collapsed < 3) add_cells(c, scan);
+      if (mesh_.layers.is_prismatic(c)) add_prisms(c, scan);
+      else add_cells(c, scan);
     }
     for (std::size_t c = begin; c < end; ++c) {
-      const int n_collapsed = mesh_.layers.n_collapsed(c);
-      if (n_collapsed == 0) add_faces_of_prisms(c, scan);
-      else if (n_collapsed < 3) add_faces(c, scan);
+      if (mesh_.layers.is_prismatic(c)) add_faces_of_prisms(c, scan);
+      else add_faces(c, scan);
     }
   }
 
@@ -159,7 +153,7 @@ class ColumnCentres {
   /// Of a column after a given one.
   const Place* places_after(std::size_t column) {
     if (column < end_) return places_of(column);
-    if (mesh_.layers.n_collapsed(column) == 0) {
+    if (mesh_.layers.is_prismatic(column)) {
       beyond_.read(column);
       beyond_.places(places_beyond_.data());
     } else {
@@ -308,10 +302,9 @@ class OtherCentres {
   void add_columns(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
     const LayerBlock& layers = mesh_.layers;
     for (std::size_t c = begin; c < end; ++c) {
-      const int n_collapsed = layers.n_collapsed(c);
-      if (n_collapsed == 3) continue;
+      const bool is_prismatic = layers.is_prismatic(c);
       for (int j = 0, n = layers.layers_of_column(c); j < n; ++j) {
-        if (n_collapsed == 0 && is_amid_columns(layers, neighbours_, c, j)) {
+        if (is_prismatic && is_amid_columns(layers, neighbours_, c, j)) {
           j = std::max(j, n - 2);  // so are all up to the last
           continue;
         }

@@ -15,15 +15,17 @@ class CellScanner {
 
   void add_column(std::uint64_t first_number, std::size_t column) {
     const LayerBlock& layers = mesh_.layers;
-    const int n_collapsed = layers.n_collapsed(column);
-    if (n_collapsed == 3) return;
-    if (n_collapsed == 0) {
+    if (layers.is_prismatic(column)) {
       add_prisms(first_number, column);
       return;
     }
     for (int j = 0, n = layers.layers_of_column(column); j < n; ++j) {
       const std::uint64_t number = first_number + static_cast<std::uint64_t>(j);
       const Cell cell = layers.cell(column, j);
+      if (cell.kind == CellKind::prism) {
+        add_prism(number, points_of<6>(cell.nodes));
+        continue;
+      }
       if (cell.kind == CellKind::pyramid) {
         add_pyramid(number, points_of<5>(cell.nodes));
       } else {
@@ -32,7 +34,7 @@ class CellScanner {
         scan_.layer_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
         if (with_quality_) add_dihedrals(number, tet_dihedral_range(p));
       }
-      if (with_quality_) scan_.quality.add_collapsed();
+      if (with_quality_ && layers.n_collapsed(column) > 0) scan_.quality.add_collapsed();
     }
   }
 

@@ -69,10 +69,11 @@ class IndexWalker {
       add_unsafe("column " + std::to_string(c) + ": line index out of range, " + std::to_string(layers.n_lines()) + " lines");
     if (!is_safe_) return;
     for (const std::uint64_t c : find_bad(context_, layers.is_uniform() ? 0 : layers.n_columns(), [&](std::size_t column) {
-           const auto& b = layers.base[column];
-           return layers.line_layers[b[0]] != layers.line_layers[b[1]] || layers.line_layers[b[0]] != layers.line_layers[b[2]];
+           const std::array<int, 3> ends = layers.ends_of_column(column);
+           const int shortest = ends[0] > 0 ? ends[0] : ends[1] > 0 ? ends[1] : ends[2];
+           return ends[2] > shortest + 1;
          }))
-      add_unsafe("column " + std::to_string(c) + ": its lines have different numbers of layers");
+      add_unsafe("column " + std::to_string(c) + ": its lines differ by more than one layer");
     if (!is_safe_) return;
     for (const std::uint64_t c : find_bad(context_, layers.n_columns(), [&](std::size_t column) { return has_repeated_node(layers.base[column]); }))
       findings_.add(Violation::bad_index,
@@ -119,7 +120,7 @@ class IndexWalker {
     const LayerBlock& layers = mesh_.layers;
     std::vector<std::uint8_t> is_line_used(layers.n_lines(), 0);
     for (std::size_t c = 0; c < layers.n_columns(); ++c)
-      if (layers.n_collapsed(c) < 3)
+      if (layers.layers_of_column(c) > 0)
         for (const std::uint32_t line : layers.base[c]) is_line_used[line] = 1;
     parallel_for(context_, layers.n_lines(), [&](std::size_t k) {
       if (is_line_used[k])

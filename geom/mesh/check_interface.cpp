@@ -1,6 +1,8 @@
-// G9: does the last prism fit the tet above it? The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its volume.
+// G9: does the last cell of the layer fit the tet above it? The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its
+// volume.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geom/math/measures.h"
 #include "geom/mesh/forced_layer.h"
@@ -32,6 +34,24 @@ std::vector<std::uint8_t> possible_fan_feet(const HybridMesh& mesh) {
   return is_foot;
 }
 
+/// Mean edge of a triangle, m.
+double edge_of(const HybridMesh& mesh, const Face& face) {
+  const auto f = [&](std::size_t k) { return mesh.points[face.nodes[k]]; };
+  return (distance(f(0), f(1)) + distance(f(1), f(2)) + distance(f(2), f(0))) / 3.0;
+}
+
+/// Mean of the last steps of a column's lines, m, for the top of a column whose lines all stand.
+std::optional<double> mean_last_height(const HybridMesh& mesh, const FaceSlots& slots, std::uint32_t slot) {
+  const std::optional<std::uint32_t> column = slots.column_over(slot);
+  if (!column || mesh.layers.n_collapsed(*column) > 0) return std::nullopt;
+  double height = 0.0;
+  for (const std::uint32_t line : mesh.layers.base[*column]) {
+    const int n = mesh.layers.n_steps(line);
+    height += distance(mesh.points[mesh.layers.node(line, n - 1)], mesh.points[mesh.layers.node(line, n)]) / 3.0;
+  }
+  return height;
+}
+
 }  // namespace
 
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
@@ -46,12 +66,15 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const std::uint32_t slot = match.interface[i];
           const Face face = slots.face(slot);
           const Cell cell = cells.cell(slots.owner(slot));
-          if (face.size != 3 || cell.kind != CellKind::prism) continue;
+          if (face.size != 3) continue;
+          if (cell.kind != CellKind::prism) {  // beside a line that ends a layer below the others
+            if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.height.add(interface_jump(*height, edge_of(mesh, face)), slot);
+            continue;
+          }
           if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // a fan's, beside its first cells
           WedgePoints p;
           for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
-          const auto f = [&](std::size_t k) { return mesh.points[face.nodes[k]]; };
-          const double edge = (distance(f(0), f(1)) + distance(f(1), f(2)) + distance(f(2), f(0))) / 3.0;
+          const double edge = edge_of(mesh, face);
           const double height = (distance(p[0], p[3]) + distance(p[1], p[4]) + distance(p[2], p[5])) / 3.0;
           const auto& t = mesh.tetrahedra[slots.tet_of(match.interface_tets[i])];
           const double tet = tet_volume(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]);
@@ -74,7 +97,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
     return given.get().interface_height(number / static_cast<std::uint64_t>(mesh.layers.n_layers), gaps, limits[Measure::interface_height].hard);
   };
   const auto put = [&](GateResult result) {
-    if (scan.height.empty()) result.reason = "no tet stands on a prism";
+    if (scan.height.empty()) result.reason = "no tet stands on the layer";
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
   };
   put(scan.height.result(face, prove_height));

@@ -10,11 +10,13 @@ Point mean_of(const HybridMesh& mesh, const Nodes& nodes, std::size_t n) {
   return sum / static_cast<double>(n);
 }
 
-/// Cells in the columns before `end`, of the kind that has `n_collapsed` collapsed lines.
-std::uint64_t n_cells_of_kind(const LayerBlock& layers, std::size_t end, int n_collapsed) {
+/// Cells of a kind in the columns before `end`.
+std::uint64_t n_cells_of_kind(const LayerBlock& layers, std::size_t end, CellKind kind) {
   std::uint64_t n = 0;
-  for (std::size_t c = 0; c < end; ++c)
-    if (layers.n_collapsed(c) == n_collapsed) n += static_cast<std::uint64_t>(layers.layers_of_column(c));
+  for (std::size_t c = 0; c < end; ++c) {
+    const auto [first, last] = layers.layers_of_kind(c, kind);
+    n += static_cast<std::uint64_t>(last - first);
+  }
   return n;
 }
 
@@ -66,18 +68,17 @@ std::string CellNumbers::name(std::uint64_t number) const {
   const auto of_kind = [](CellKind kind, std::uint64_t n) { return std::string(to_string(kind)) + " " + std::to_string(n); };
   const LayerBlock& layers = mesh_.layers;
   const auto n_layers = static_cast<std::uint64_t>(std::max(layers.n_layers, 0));
-  const auto in_columns = [&](int n_collapsed) { return n_cells_of_kind(layers, layers.n_columns(), n_collapsed); };
+  const auto in_columns = [&](CellKind kind) { return n_cells_of_kind(layers, layers.n_columns(), kind); };
   if (number < first_[0]) {
     const std::uint64_t column = number / n_layers, layer = number % n_layers;
-    const int n_collapsed = layers.n_collapsed(column);
-    const CellKind kind = n_collapsed == 0 ? CellKind::prism : n_collapsed == 1 ? CellKind::pyramid : CellKind::tetrahedron;
-    return of_kind(kind, n_cells_of_kind(layers, column, n_collapsed) + layer) + " (column " + std::to_string(column) + ", layer " + std::to_string(layer) +
-           ")";
+    const CellKind kind = layers.kind(column, static_cast<int>(layer));
+    const std::uint64_t within = layer - static_cast<std::uint64_t>(layers.layers_of_kind(column, kind)[0]);
+    return of_kind(kind, n_cells_of_kind(layers, column, kind) + within) + " (column " + std::to_string(column) + ", layer " + std::to_string(layer) + ")";
   }
-  if (number < first_[1]) return of_kind(CellKind::prism, in_columns(0) + number - first_[0]);
-  if (number < first_[2]) return of_kind(CellKind::pyramid, in_columns(1) + number - first_[1]);
+  if (number < first_[1]) return of_kind(CellKind::prism, in_columns(CellKind::prism) + number - first_[0]);
+  if (number < first_[2]) return of_kind(CellKind::pyramid, in_columns(CellKind::pyramid) + number - first_[1]);
   if (number < first_[3]) return of_kind(CellKind::hexahedron, number - first_[2]);
-  return of_kind(CellKind::tetrahedron, in_columns(2) + number - first_[3]);
+  return of_kind(CellKind::tetrahedron, in_columns(CellKind::tetrahedron) + number - first_[3]);
 }
 
 FaceSlots::FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vector<OpenSide> open_sides)
@@ -97,8 +98,7 @@ FaceSlots::FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vect
 Face FaceSlots::column_cap(std::uint32_t i) const {
   const LayerBlock& layers = mesh_.layers;
   const std::size_t column = i / 2;
-  const int n_layers = layers.layers_of_column(column);
-  if (n_layers < 1 || layers.n_collapsed(column) == 3) return {};
+  if (layers.layers_of_column(column) < 1) return {};
   const auto& b = layers.base[column];
   if (i % 2 == 0) return {{layers.node(b[0], 0), layers.node(b[2], 0), layers.node(b[1], 0)}, 3};
   return {{layers.top(b[0]), layers.top(b[1]), layers.top(b[2])}, 3};
@@ -115,13 +115,8 @@ Face FaceSlots::column_side(std::uint32_t i) const {
   const LayerBlock& layers = mesh_.layers;
   const OpenSide side = open_sides_[i / static_cast<std::uint32_t>(layers.n_layers)];
   const int layer = static_cast<int>(i % static_cast<std::uint32_t>(layers.n_layers));
-  if (layer >= layers.layers_of_column(side.column)) return {};
-  const std::uint32_t u = layers.base[side.column][side.corner];
-  const std::uint32_t v = layers.base[side.column][(side.corner + 1u) % 3];
-  const NodeId u0 = layers.node(u, layer), u1 = layers.node(u, layer + 1), v0 = layers.node(v, layer), v1 = layers.node(v, layer + 1);
-  if (layers.is_collapsed[u]) return {{u0, v0, v1}, 3};
-  if (layers.is_collapsed[v]) return {{u0, v0, u1}, 3};
-  return {{u0, v0, v1, u1}, 4};
+  const LayerBlock::Side face = layers.side(side.column, side.corner, layer);
+  return {face.nodes, face.size};
 }
 
 Face FaceSlots::face(std::uint32_t slot) const {

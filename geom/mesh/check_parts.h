@@ -109,6 +109,11 @@ class FaceSlots {
     if (slot >= first_[k_sides] || slot % 2 != 0) return std::nullopt;
     return slot / 2;
   }
+  /// Column whose top the face is, if it is one.
+  std::optional<std::uint32_t> column_over(std::uint32_t slot) const {
+    if (slot >= first_[k_sides] || slot % 2 == 0) return std::nullopt;
+    return slot / 2;
+  }
   /// Existing tops of columns, ascending.
   std::vector<std::uint32_t> column_tops() const;
   std::size_t n_prism_caps() const { return 2 * ((first_[k_pyramids] - first_[k_prisms]) / 5); }

@@ -21,7 +21,7 @@ class ColumnScan {
  public:
   explicit ColumnScan(const HybridMesh& mesh) : mesh_(mesh) {}
   /// Measures of the prisms of a column from the wall up; valid until the next call.
-  /// \pre no line of it is collapsed
+  /// \pre is_prismatic(column)
   const std::vector<PrismMeasures>& measure(std::size_t column);
 
  private:

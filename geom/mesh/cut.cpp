@@ -207,8 +207,6 @@ MeshCut join(MeshCut all, MeshCut more) {
   return all;
 }
 
-CellKind kind_of_column(int n_collapsed) { return n_collapsed == 0 ? CellKind::prism : n_collapsed == 1 ? CellKind::pyramid : CellKind::tetrahedron; }
-
 using KindCounts = std::array<std::uint64_t, 4>;
 
 /// Appends the polygons of the columns; counts their cells by kind.
@@ -216,14 +214,14 @@ MeshCut cut_columns(const HybridMesh& mesh, const Sides& sides, const std::optio
   const LayerBlock& layers = mesh.layers;
   std::vector<std::uint8_t> side(layers.n_lines());
   parallel_for(context, side.size(), [&](std::size_t line) { side[line] = static_cast<std::uint8_t>(sides.side_of_line(layers, line)); });
-  std::vector<std::uint64_t> first_cell(layers.n_columns());
-  for (std::size_t c = 0; c < layers.n_columns(); ++c) {
-    const int n_collapsed = layers.n_collapsed(c);
-    if (n_collapsed == 3) continue;
-    std::uint64_t& count = counts[static_cast<std::size_t>(kind_of_column(n_collapsed))];
-    first_cell[c] = count;
-    count += static_cast<std::uint64_t>(layers.layers_of_column(c));
-  }
+  std::vector<KindCounts> first_cell(layers.n_columns());  // as if the column's cells of the kind went on down to the wall
+  for (std::size_t c = 0; c < layers.n_columns(); ++c)
+    for (const CellKind kind : {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron}) {
+      const auto [begin, end] = layers.layers_of_kind(c, kind);
+      std::uint64_t& count = counts[static_cast<std::size_t>(kind)];
+      first_cell[c][static_cast<std::size_t>(kind)] = count - static_cast<std::uint64_t>(begin);
+      count += static_cast<std::uint64_t>(end - begin);
+    }
   return parallel_reduce(
       context, layers.n_columns(), MeshCut{},
       [&](std::size_t begin, std::size_t end) {
@@ -231,10 +229,12 @@ MeshCut cut_columns(const HybridMesh& mesh, const Sides& sides, const std::optio
         for (std::size_t c = begin; c < end; ++c) {
           const auto& base = layers.base[c];
           if (side[base[0]] != 2 && side[base[0]] == side[base[1]] && side[base[0]] == side[base[2]]) continue;
-          if (layers.n_collapsed(c) == 3) continue;
           for (int j = 0, n = layers.layers_of_column(c); j < n; ++j) {
             const Cell cell = layers.cell(c, j);
-            cutter.add(cell.span(), {.kind = cell.kind, .is_in_layer = true, .layer = j, .cell = first_cell[c] + static_cast<std::uint64_t>(j)});
+            cutter.add(cell.span(), {.kind = cell.kind,
+                                     .is_in_layer = true,
+                                     .layer = j,
+                                     .cell = first_cell[c][static_cast<std::size_t>(cell.kind)] + static_cast<std::uint64_t>(j)});
           }
         }
         return cutter.take();

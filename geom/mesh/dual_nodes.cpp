@@ -35,7 +35,7 @@ std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const Lin
     std::int64_t balance = 0;
     bool is_closed = true;
     for (const std::uint32_t column : columns) {
-      if (layers.n_collapsed(column) != 0) return;
+      if (!layers.is_prismatic(column)) return;
       const auto& base = layers.base[column];
       const std::size_t corner = base[0] == line ? 0 : base[1] == line ? 1 : 2;
       const std::uint32_t next = base[(corner + 1) % 3];
@@ -137,13 +137,12 @@ void NodeDual::add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint6
 
 void NodeDual::add_columns(std::uint32_t line, std::uint32_t layer) {
   const LayerBlock& layers = mesh_.layers;
-  const auto n = static_cast<std::uint32_t>(layers.layers_of_line(line));
-  const auto per_column = static_cast<std::uint32_t>(layers.n_layers);  // numbers, not cells
-  const bool is_collapsed = layers.is_collapsed[line] != 0;
-  const std::uint32_t begin = is_collapsed || layer == 0 ? 0 : layer - 1;
-  const std::uint32_t end = is_collapsed ? n : std::min(layer + 1, n);
+  const auto per_column = static_cast<std::uint32_t>(layers.n_layers);            // numbers, not cells
+  const bool is_end = layer == static_cast<std::uint32_t>(layers.n_steps(line));  // it is a corner of all cells above, too
+  const std::uint32_t begin = layer == 0 ? 0 : layer - 1;
   for (const std::uint32_t column : rings_.columns(line)) {
-    if (layers.n_collapsed(column) == 3) continue;
+    const auto n = static_cast<std::uint32_t>(layers.layers_of_column(column));
+    const std::uint32_t end = is_end ? n : std::min(layer + 1, n);
     for (std::uint32_t j = begin; j < end; ++j) {
       const Cell cell = layers.cell(column, static_cast<int>(j));
       if (cell.kind == CellKind::tetrahedron) {

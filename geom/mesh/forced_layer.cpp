@@ -93,11 +93,11 @@ std::vector<Vec3> GivenLayer::normals_around(std::uint32_t line) const {
   return normals;
 }
 
-/// Whether columns of prisms go all around the line.
+/// Whether columns of prisms alone go all around the line.
 bool GivenLayer::is_closed(std::uint32_t line) const {
   std::vector<std::uint32_t> before, after;
   for (const std::uint32_t column : rings_.columns(line)) {
-    if (mesh_.layers.n_collapsed(column) > 0) return false;
+    if (!mesh_.layers.is_prismatic(column)) return false;
     const auto& base = mesh_.layers.base[column];
     const std::size_t corner = base[0] == line ? 0 : base[1] == line ? 1 : 2;
     after.push_back(base[(corner + 1) % 3]);
@@ -117,8 +117,7 @@ std::array<std::uint32_t, 4> GivenLayer::lines_of(const ColumnSide& side) const 
 }
 
 std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) const {
-  const LayerBlock& layers = mesh_.layers;
-  if (layers.n_collapsed(side.column) > 0 || layers.n_collapsed(side.other) > 0) return std::nullopt;
+  if (!is_between_prisms(side)) return std::nullopt;
   const auto [a, b, c, e] = lines_of(side);
   const Point &pa = foot(a), &pb = foot(b), &pc = foot(c), &pe = foot(e);
   Pair pair;
@@ -259,15 +258,16 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
   const SphericalCap cap = smallest_spherical_cap(normals);
   const double lean = std::cos(std::min(cap.angle + k_lean_room, 0.5 * std::numbers::pi));
   if (!(lean > k_least_lean_cosine)) return std::nullopt;
-  const int n = mesh_.layers.n_steps(line);
+  // Asked for are at least as many layers as the line has; a gap leaves the tallest last cell to those that it has.
+  const int n = mesh_.layers.n_steps(line), n_asked = request.line_layers.empty() ? n : request.line_layers[line];
   const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
   if (!(growth > 1.0) || n < 1) return std::nullopt;
-  const double power = std::pow(growth, n);
+  const double power = std::pow(growth, n), power_asked = std::pow(growth, n_asked);
   const double first = k_first_height_room * request.first_height_of(line) / lean;
   Room room;
   room.best = cap.axis;
-  room.last_as_asked = room.last = first * power / growth;
-  room.total_as_asked = room.total = first * (power - 1.0) / (growth - 1.0);
+  room.last_as_asked = room.last = first * power_asked / growth;
+  room.total_as_asked = room.total = first * (power_asked - 1.0) / (growth - 1.0);
   if (gap < k_infinity) {
     room.total = std::min(room.total, std::max(gap / lean, length(line, n)));
     room.last = std::min(room.last, room.total * (1.0 - 1.0 / growth) / (1.0 - 1.0 / power));
@@ -277,7 +277,7 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
 
 std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::span<const double> gaps, double limit) const {
   const LayerBlock& layers = mesh_.layers;
-  if (layers.n_collapsed(column) > 0) return std::nullopt;
+  if (!layers.is_prismatic(column)) return std::nullopt;
   const int n = layers.layers_of_column(column);
   const auto& base = layers.base[column];
   std::array<Room, 3> rooms;

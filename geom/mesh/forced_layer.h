@@ -71,6 +71,10 @@ class GivenLayer {
   /// Of the facets at the line's foot, those behind symmetry planes included.
   std::vector<Vec3> normals_around(std::uint32_t line) const;
   bool is_closed(std::uint32_t line) const;
+  /// Whether the cells on both sides are prisms.
+  bool is_between_prisms(const ColumnSide& side) const {
+    return side.layer < mesh_.layers.ends_of_column(side.column)[0] && side.layer < mesh_.layers.ends_of_column(side.other)[0];
+  }
 
   const HybridMesh& mesh_;
   dual_parts::LineRings rings_;

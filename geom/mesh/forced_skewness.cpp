@@ -126,8 +126,7 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
 }
 
 std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit) const {
-  const LayerBlock& layers = mesh_.layers;
-  if (layers.n_collapsed(side.column) > 0 || layers.n_collapsed(side.other) > 0) return std::nullopt;
+  if (!is_between_prisms(side)) return std::nullopt;
   const std::array<std::uint32_t, 4> lines = lines_of(side);
   const Point &a = foot(lines[0]), &b = foot(lines[1]);
   const Vec3 n0 = area_vector(a, b, foot(lines[2])), n1 = area_vector(b, a, foot(lines[3]));
@@ -172,8 +171,7 @@ std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit
 }
 
 std::optional<Forcing> GivenLayer::skewness_of_edge(const ColumnSide& side, double limit, double value) const {
-  const LayerBlock& layers = mesh_.layers;
-  if (layers.n_collapsed(side.column) > 0 || layers.n_collapsed(side.other) > 0) return std::nullopt;
+  if (!is_between_prisms(side)) return std::nullopt;
   const std::array<std::uint32_t, 4> lines = lines_of(side);
   const Point &a = foot(lines[0]), &b = foot(lines[1]);
   const std::array<Vec3, 2> normals = {normalized(area_vector(a, b, foot(lines[2]))), normalized(area_vector(b, a, foot(lines[3])))};

@@ -33,44 +33,50 @@ std::span<const LocalFace> cell_faces(CellKind kind) {
 
 Cell LayerBlock::cell(std::size_t column, int layer) const {
   const auto& lines = base[column];
-  const int n_down = n_collapsed(column);
-  Cell result;
-  if (n_down == 0) {
-    result.kind = CellKind::prism;
+  Cell result{kind(column, layer), {}};
+  if (result.kind == CellKind::prism) {
     for (std::size_t i = 0; i < 3; ++i) {
       result.nodes[i] = node(lines[i], layer);
       result.nodes[i + 3] = node(lines[i], layer + 1);
     }
     return result;
   }
-  // Rotate so that a = the collapsed line of a pyramid, or the standing line of a tet; the cyclic sense (a, b, c) is kept.
-  const std::uint8_t wanted = n_down == 1 ? 1 : 0;
+  // Rotate so that a = the line that has ended of a pyramid, or the one that goes on of a tet; the cyclic sense (a, b, c) is kept.
+  const bool is_pyramid = result.kind == CellKind::pyramid;
   std::size_t first = 0;
-  while (is_collapsed[lines[first]] != wanted) ++first;
+  while ((n_steps(lines[first]) <= layer) != is_pyramid) ++first;
   const std::uint32_t a = lines[first];
   const std::uint32_t b = lines[(first + 1) % 3];
   const std::uint32_t c = lines[(first + 2) % 3];
-  if (n_down == 1) {
+  if (is_pyramid) {
     // Base quad (b0, b1, c1, c0): its normal points towards a, because (a, b, c) is seen counter-clockwise from above.
-    result.kind = CellKind::pyramid;
-    result.nodes = {node(b, layer), node(b, layer + 1), node(c, layer + 1), node(c, layer), node(a, 0)};
+    result.nodes = {node(b, layer), node(b, layer + 1), node(c, layer + 1), node(c, layer), top(a)};
     return result;
   }
-  result.kind = CellKind::tetrahedron;
-  result.nodes = {node(a, layer), node(b, 0), node(c, 0), node(a, layer + 1)};
+  result.nodes = {node(a, layer), top(b), top(c), node(a, layer + 1)};
+  return result;
+}
+
+LayerBlock::Side LayerBlock::side(std::size_t column, std::size_t corner, int layer) const {
+  const std::uint32_t u = base[column][corner], v = base[column][(corner + 1) % 3];
+  const bool goes_on_u = layer < n_steps(u), goes_on_v = layer < n_steps(v);
+  Side result;
+  if (!goes_on_u && !goes_on_v) return result;
+  const auto add = [&](NodeId n) { result.nodes[result.size++] = n; };
+  add(node(u, layer));
+  add(node(v, layer));
+  if (goes_on_v) add(node(v, layer + 1));
+  if (goes_on_u) add(node(u, layer + 1));
   return result;
 }
 
 CellCounts count_cells(const HybridMesh& mesh) {
   CellCounts counts;
   for (std::size_t c = 0; c < mesh.layers.n_columns(); ++c) {
-    const std::int64_t n = mesh.layers.layers_of_column(c);
-    switch (mesh.layers.n_collapsed(c)) {
-      case 0: counts.prisms += n; break;
-      case 1: counts.pyramids += n; break;
-      case 2: counts.tetrahedra += n; break;
-      default: break;
-    }
+    const std::array<int, 3> ends = mesh.layers.ends_of_column(c);
+    counts.prisms += ends[0];
+    counts.pyramids += ends[1] - ends[0];
+    counts.tetrahedra += ends[2] - ends[1];
   }
   counts.prisms += static_cast<std::int64_t>(mesh.prisms.size());
   counts.pyramids += static_cast<std::int64_t>(mesh.pyramids.size());

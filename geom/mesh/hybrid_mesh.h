@@ -38,10 +38,10 @@ struct LocalFace {
 /// The SIDS face table of a kind: tet 021 013 123 203, pyramid 0321 014 124 234 304, prism 0143 1254 2035 021 345, hex 0321 0154 1265 2376 0473 4567.
 std::span<const LocalFace> cell_faces(CellKind kind);
 
-/// Layers as columns. Line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. layers_of_line(k) (envelope),
-/// unless it is collapsed: then the wall node is its only node. A column over base triangle (a, b, c) of lines has layers_of_column() cells:
-/// prisms; pyramids where one line is collapsed; tets where two are; no cells where all three are. Lines of a column have the same number of layers,
-/// collapsed or not, so walls that are connected have one number; others may differ.
+/// Layers as columns. Line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. n_steps(k) (envelope). A collapsed line has
+/// its wall node alone. A column stands over base triangle (a, b, c) of lines. Where a line has ended, its last node stands for all that would follow: a cell
+/// is a prism where no line has ended below it, a pyramid where one has, a tetrahedron where two have; where all have, there is none. So columns that share
+/// two lines agree about the faces between them, and the envelope is made of triangles. Lines of a column that are not collapsed differ by one layer at most.
 struct LayerBlock {
   int n_layers = 0;                                ///< of every line; the largest where lines differ
   std::vector<std::uint16_t> line_layers;          ///< per line, at least 1; empty: n_layers everywhere
@@ -52,33 +52,74 @@ struct LayerBlock {
   std::size_t n_lines() const { return first_node.size(); }
   std::size_t n_columns() const { return base.size(); }
   bool is_uniform() const { return line_layers.empty(); }
-  /// Layers of the columns around a line, also where it is collapsed.
+  /// Layers of a line; of one that is collapsed, what it would have.
   int layers_of_line(std::size_t line) const { return line_layers.empty() ? n_layers : line_layers[line]; }
-  int layers_of_column(std::size_t column) const { return line_layers.empty() ? n_layers : line_layers[base[column][0]]; }
   /// Cells along a line: none where it is collapsed.
   int n_steps(std::size_t line) const { return is_collapsed[line] ? 0 : layers_of_line(line); }
   /// Last node of a line: on the envelope, or the wall node where it is collapsed.
   NodeId top(std::uint32_t line) const { return NodeId(first_node[line] + static_cast<std::uint32_t>(n_steps(line))); }
-  /// Node of layer j (0 = wall) on line k.
-  NodeId node(std::uint32_t line, int j) const { return NodeId(first_node[line] + (is_collapsed[line] ? 0u : static_cast<std::uint32_t>(j))); }
+  /// Node of layer j (0 = wall) on line k; the last one beyond its end.
+  NodeId node(std::uint32_t line, int j) const { return NodeId(first_node[line] + static_cast<std::uint32_t>(std::min(j, n_steps(line)))); }
   int n_collapsed(std::size_t column) const {
     const auto& b = base[column];
     return is_collapsed[b[0]] + is_collapsed[b[1]] + is_collapsed[b[2]];
   }
+  /// Where the lines of a column end, ascending: its cells are prisms in layers below the first, pyramids from there to the second, tetrahedra to the third.
+  std::array<int, 3> ends_of_column(std::size_t column) const {
+    std::array<int, 3> ends = {n_steps(base[column][0]), n_steps(base[column][1]), n_steps(base[column][2])};
+    std::sort(ends.begin(), ends.end());
+    return ends;
+  }
+  /// Layers of cells: those of its longest line.
+  int layers_of_column(std::size_t column) const {
+    const auto& b = base[column];
+    return std::max({n_steps(b[0]), n_steps(b[1]), n_steps(b[2])});
+  }
+  /// Whether it has cells, and all of them are prisms.
+  bool is_prismatic(std::size_t column) const {
+    const auto& b = base[column];
+    const int n = n_steps(b[0]);
+    return n > 0 && n == n_steps(b[1]) && n == n_steps(b[2]);
+  }
+  /// Kind of the cell in a layer. \pre layer < layers_of_column(column)
+  CellKind kind(std::size_t column, int layer) const {
+    const auto& b = base[column];
+    const int n_ended = (n_steps(b[0]) <= layer) + (n_steps(b[1]) <= layer) + (n_steps(b[2]) <= layer);
+    return n_ended == 0 ? CellKind::prism : n_ended == 1 ? CellKind::pyramid : CellKind::tetrahedron;
+  }
+  /// Layers [begin, end) of a column in which its cells are of a kind.
+  std::array<int, 2> layers_of_kind(std::size_t column, CellKind of) const {
+    const std::array<int, 3> ends = ends_of_column(column);
+    switch (of) {
+      case CellKind::prism: return {0, ends[0]};
+      case CellKind::pyramid: return {ends[0], ends[1]};
+      case CellKind::tetrahedron: return {ends[1], ends[2]};
+      case CellKind::hexahedron: break;
+    }
+    return {0, 0};
+  }
   /// Cell `layer` (0 = at the wall) of a column.
-  /// \pre not all three lines are collapsed.
+  /// \pre layer < layers_of_column(column)
   Cell cell(std::size_t column, int layer) const;
+  /// The side between the lines of corners `corner` and the next in a layer, normal out of the column: four nodes, three where one of the lines has ended, none
+  /// where both have.
+  struct Side {
+    std::array<NodeId, 4> nodes{};
+    std::uint8_t size = 0;
+  };
+  Side side(std::size_t column, std::size_t corner, int layer) const;
 };
 
 /// What was asked of the layer: its first height, growth and coverage are measured against it. Unknown for a mesh that was read from a file.
 struct LayerRequest {
-  double first_height = 0.0;              ///< m; 0 = nothing is known; the smallest where lines differ
-  double max_growth = 0.0;                ///< largest ratio of heights of consecutive cells; the largest where lines differ
-  std::vector<double> line_first_height;  ///< per line; empty: first_height everywhere
-  std::vector<double> line_max_growth;    ///< per line; empty: max_growth everywhere
-  std::vector<double> target_height;      ///< m, of the whole layer, per line
-  std::vector<std::uint8_t> reason;       ///< per line: why it is lower than its target, index of `reasons`
-  std::vector<std::string> reasons;       ///< for people
+  double first_height = 0.0;               ///< m; 0 = nothing is known; the smallest where lines differ
+  double max_growth = 0.0;                 ///< largest ratio of heights of consecutive cells; the largest where lines differ
+  std::vector<double> line_first_height;   ///< per line; empty: first_height everywhere
+  std::vector<double> line_max_growth;     ///< per line; empty: max_growth everywhere
+  std::vector<std::uint16_t> line_layers;  ///< per line; empty: as many as it has, so that none was truncated
+  std::vector<double> target_height;       ///< m, of the whole layer, per line
+  std::vector<std::uint8_t> reason;        ///< per line: why it is lower than its target, index of `reasons`
+  std::vector<std::string> reasons;        ///< for people
   bool is_known() const { return first_height > 0.0; }
   double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
 };
@@ -87,8 +128,8 @@ struct LayerRequest {
 template <class Request>
 requires std::is_same_v<std::remove_const_t<Request>, LayerRequest>
 auto columns_of(Request& request) {
-  auto& [first_height, max_growth, line_first_height, line_max_growth, target_height, reason, reasons] = request;
-  return std::tie(line_first_height, line_max_growth, target_height, reason);
+  auto& [first_height, max_growth, line_first_height, line_max_growth, line_layers, target_height, reason, reasons] = request;
+  return std::tie(line_first_height, line_max_growth, line_layers, target_height, reason);
 }
 
 struct BoundaryTriangle {
@@ -140,7 +181,6 @@ HybridMesh explicit_cells(HybridMesh mesh);
 template <class F>
 void for_each_cell(const HybridMesh& mesh, const F& f) {
   for (std::size_t c = 0; c < mesh.layers.n_columns(); ++c) {
-    if (mesh.layers.n_collapsed(c) == 3) continue;
     for (int j = 0, n = mesh.layers.layers_of_column(c); j < n; ++j) f(mesh.layers.cell(c, j));
   }
   const auto explicit_block = [&](CellKind kind, const auto& cells) {

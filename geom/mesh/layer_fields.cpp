@@ -58,10 +58,10 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
   return all;
 }
 
-/// Ends of a column of three standing lines of as many layers.
+/// A column of three standing lines, and the layers in which it has prisms.
 struct Column {
   std::array<std::uint32_t, 3> lines;
-  int n_layers;
+  int n_prisms;
 };
 
 WedgePoints wedge_of(const HybridMesh& mesh, const LayerLines& lines, const Column& column, int layer) {
@@ -111,23 +111,24 @@ class ColumnMeasurer {
  public:
   ColumnMeasurer(const HybridMesh& mesh, const LayerLines& lines) : mesh_(mesh), lines_(lines), scan_(mesh) {}
 
-  /// \pre the three lines of the triangle have layers, and as many
+  /// \pre the three lines of the triangle have layers
   ColumnFigures measure(std::size_t triangle) {
-    const Column column{lines_.triangles()[triangle], lines_.n_layers(lines_.triangles()[triangle][0])};
+    const auto& lines = lines_.triangles()[triangle];
+    const Column column{lines, std::min({lines_.n_layers(lines[0]), lines_.n_layers(lines[1]), lines_.n_layers(lines[2])})};
     ColumnFigures figures{0.0, 1.0, k_nan};
-    if (lines_.are_columns()) {
+    if (lines_.are_columns() && mesh_.layers.is_prismatic(triangle)) {
       for (const PrismMeasures& prism : scan_.measure(triangle)) lower(figures, prism.quality, prism.skew);
     } else {
-      for (int j = 0; j < column.n_layers; ++j) {
+      for (int j = 0; j < column.n_prisms; ++j) {
         const WedgePoints wedge = wedge_of(mesh_, lines_, column, j);
         lower(figures, wedge_quality(wedge), skew_angle(wedge));
       }
     }
-    const WedgePoints last = wedge_of(mesh_, lines_, column, column.n_layers - 1);
+    const auto last = [&](std::size_t k, int below) { return mesh_.points[lines_.node(lines[k], lines_.n_layers(lines[k]) - below)]; };
     double height = 0.0, edge = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-      height += distance(last[k], last[k + 3]) / 3.0;
-      edge += distance(last[k + 3], last[(k + 1) % 3 + 3]) / 3.0;
+      height += distance(last(k, 1), last(k, 0)) / 3.0;
+      edge += distance(last(k, 0), last((k + 1) % 3, 0)) / 3.0;
     }
     figures.jump = interface_jump(height, edge);
     return figures;
@@ -184,7 +185,7 @@ std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const L
       put(k_layers, *std::max_element(n.begin(), n.end()));
       put(k_growth, largest_of(of_lines(&LineFigures::growth)));
       put(k_stack_angle, largest_of(of_lines(&LineFigures::angle)));
-      if (n[0] == 0 || n[0] != n[1] || n[0] != n[2]) continue;
+      if (n[0] == 0 || n[1] == 0 || n[2] == 0) continue;
       const ColumnFigures column = measurer.measure(t);
       put(k_skew, column.skew);
       put(k_interface_jump, column.jump);

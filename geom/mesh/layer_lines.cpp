@@ -63,7 +63,7 @@ void LayerLines::use_columns(const HybridMesh& mesh, const FaceSlots& slots, con
   // Columns without cells: their wall triangle is the face of a tet.
   std::map<std::array<std::uint32_t, 3>, std::size_t> bare;
   for (std::size_t c = 0; c < triangles_.size(); ++c)
-    if (mesh.layers.n_collapsed(c) == 3)
+    if (mesh.layers.layers_of_column(c) == 0)
       bare.emplace(sorted_key(std::array{node(triangles_[c][0], 0), node(triangles_[c][1], 0), node(triangles_[c][2], 0)}), c);
   if (bare.empty()) return;
   for (const BoundaryTriangle& face : mesh.boundary_triangles)

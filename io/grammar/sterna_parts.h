@@ -28,9 +28,12 @@ inline constexpr std::string_view k_n_layers = "mesh/layers/n_layers", k_base = 
                                   k_is_collapsed = "mesh/layers/is_collapsed", k_line_layers = "mesh/layers/line_layers";
 /// Version of files with k_line_layers: readers that do not know it would take each line for one of n_layers.
 inline constexpr std::uint32_t k_line_layers_version = 2;
+/// Version of files in which lines of one column have different numbers of layers.
+inline constexpr std::uint32_t k_truncated_version = 3;
 inline constexpr std::string_view k_request = "mesh/request/first_height_max_growth", k_request_target = "mesh/request/target_height",
                                   k_request_reason = "mesh/request/reason", k_request_reasons = "mesh/request/reasons",
-                                  k_request_first_height = "mesh/request/first_height", k_request_max_growth = "mesh/request/max_growth";
+                                  k_request_first_height = "mesh/request/first_height", k_request_max_growth = "mesh/request/max_growth",
+                                  k_request_layers = "mesh/request/layers";
 inline constexpr std::string_view k_manifest = "manifest", k_certificate = "certificate", k_quality = "quality";
 
 inline constexpr std::array k_patch_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,

@@ -31,19 +31,21 @@ void sort_by_patch(const std::vector<Face>& faces, std::size_t n_patches, std::s
 
 CellSections::CellSections(const HybridMesh& mesh) : mesh_(&mesh) {
   const LayerBlock& layers = mesh.layers;
-  for (std::size_t c = 0; c < layers.n_columns() && all_columns_are_prisms_; ++c) all_columns_are_prisms_ = layers.n_collapsed(c) == 0;
+  for (std::size_t c = 0; c < layers.n_columns() && all_columns_are_prisms_; ++c) all_columns_are_prisms_ = layers.is_prismatic(c);
   if (all_columns_are_prisms_) {
-    numbers_[static_cast<std::size_t>(CellKind::prism)] = LayerNumbers(layers, layers.n_columns(), [](std::uint64_t i) { return i; });
+    numbers_[static_cast<std::size_t>(CellKind::prism)] =
+        LayerNumbers(layers, layers.n_columns(), [&](std::uint64_t c) { return static_cast<std::uint64_t>(layers.layers_of_column(c)); });
     return;
   }
-  constexpr std::array<CellKind, 3> k_kind_of_collapsed = {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
-  for (std::size_t c = 0; c < layers.n_columns(); ++c) {
-    const std::size_t n = static_cast<std::size_t>(layers.n_collapsed(c));
-    if (n < 3) columns_[static_cast<std::size_t>(k_kind_of_collapsed[n])].push_back(static_cast<std::uint32_t>(c));
-  }
-  for (const CellKind kind : k_kind_of_collapsed) {
-    const std::vector<std::uint32_t>& columns = columns_[static_cast<std::size_t>(kind)];
-    numbers_[static_cast<std::size_t>(kind)] = LayerNumbers(layers, columns.size(), [&](std::uint64_t i) { return columns[i]; });
+  for (const CellKind kind : {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron}) {
+    const auto count = [&](std::size_t c) {
+      const auto [first, last] = layers.layers_of_kind(c, kind);
+      return static_cast<std::uint64_t>(last - first);
+    };
+    std::vector<std::uint32_t>& columns = columns_[static_cast<std::size_t>(kind)];
+    for (std::size_t c = 0; c < layers.n_columns(); ++c)
+      if (count(c) > 0) columns.push_back(static_cast<std::uint32_t>(c));
+    numbers_[static_cast<std::size_t>(kind)] = LayerNumbers(layers, columns.size(), [&](std::uint64_t i) { return count(columns[i]); });
   }
 }
 

@@ -32,8 +32,10 @@ class CellSections {
     if (i < n_in_columns && i < end) {
       auto [column, layer] = numbers.at(i);
       for (; i < end && i < n_in_columns; ++i) {
-        const Cell cell = mesh_->layers.cell(column_at(kind, column), static_cast<int>(layer));
-        f(cell.span(), static_cast<int>(layer) + 1);
+        const std::size_t at = column_at(kind, column);
+        const int j = static_cast<int>(layer) + (all_columns_are_prisms_ ? 0 : mesh_->layers.layers_of_kind(at, kind)[0]);
+        const Cell cell = mesh_->layers.cell(at, j);
+        f(cell.span(), j + 1);
         if (++layer == numbers.n_layers(column)) {
           layer = 0;
           ++column;

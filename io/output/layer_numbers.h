@@ -13,13 +13,13 @@ namespace sterna::io {
 class LayerNumbers {
  public:
   LayerNumbers() = default;
-  /// Of n columns, the i-th of them column_of(i) of the block.
-  template <class ColumnOf>
-  LayerNumbers(const LayerBlock& layers, std::uint64_t n, const ColumnOf& column_of)
+  /// Of n columns, the i-th of them with count(i) items; n_layers of the block if its lines have as many.
+  template <class Count>
+  LayerNumbers(const LayerBlock& layers, std::uint64_t n, const Count& count)
       : per_column_(static_cast<std::uint64_t>(std::max(layers.n_layers, 0))), size_(n * per_column_) {
     if (layers.is_uniform()) return;
     first_.resize(n + 1, 0);
-    for (std::uint64_t i = 0; i < n; ++i) first_[i + 1] = first_[i] + static_cast<std::uint64_t>(layers.layers_of_column(column_of(i)));
+    for (std::uint64_t i = 0; i < n; ++i) first_[i + 1] = first_[i] + count(i);
     size_ = first_.back();
   }
 
@@ -28,7 +28,7 @@ class LayerNumbers {
   std::uint64_t n_layers(std::uint64_t i) const { return first_.empty() ? per_column_ : first_[i + 1] - first_[i]; }
 
   struct Place {
-    std::uint64_t i, layer;  ///< i-th column; layer 0 is at the wall
+    std::uint64_t i, layer;  ///< i-th column; layer 0 is its first item, the one nearest to the wall
   };
   /// \pre number < size()
   Place at(std::uint64_t number) const {

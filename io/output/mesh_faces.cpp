@@ -53,14 +53,14 @@ MeshFaces::MeshFaces(const HybridMesh& mesh, const RunContext& context) : mesh_(
 
 void MeshFaces::number_cells() {
   const LayerBlock& layers = mesh_->layers;
-  for (std::size_t c = 0; c < layers.n_columns(); ++c) n_live_ += layers.n_collapsed(c) < 3 ? 1 : 0;
+  for (std::size_t c = 0; c < layers.n_columns(); ++c) n_live_ += layers.layers_of_column(c) > 0 ? 1 : 0;
   if (n_live_ < layers.n_columns()) {
     live_.reserve(n_live_);
     for (std::size_t c = 0; c < layers.n_columns(); ++c)
-      if (layers.n_collapsed(c) < 3) live_.push_back(static_cast<std::uint32_t>(c));
+      if (layers.layers_of_column(c) > 0) live_.push_back(static_cast<std::uint32_t>(c));
   }
   if (layers.n_layers == 0) n_live_ = 0;
-  cells_ = LayerNumbers(layers, n_live_, [&](std::uint64_t live) { return column_of(live); });
+  cells_ = LayerNumbers(layers, n_live_, [&](std::uint64_t live) { return static_cast<std::uint64_t>(layers.layers_of_column(column_of(live))); });
   n_column_cells_ = cells_.size();
   const std::array<std::uint64_t, 4> counts = {mesh_->prisms.size(), mesh_->pyramids.size(), mesh_->hexahedra.size(), mesh_->tetrahedra.size()};
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -108,15 +108,10 @@ void MeshFaces::pair_sides() {
 }
 
 CellFace MeshFaces::side(std::size_t column, std::size_t k, int layer) const {
-  const LayerBlock& layers = mesh_->layers;
-  const std::uint32_t p = layers.base[column][k], q = layers.base[column][(k + 1) % 3];
+  const LayerBlock::Side side = mesh_->layers.side(column, k, layer);
   CellFace face;
-  const auto add = [&](NodeId node) { face.nodes[face.size++] = node; };
-  if (layers.is_collapsed[p] && layers.is_collapsed[q]) return face;
-  add(layers.node(p, layer));
-  add(layers.node(q, layer));
-  if (!layers.is_collapsed[q]) add(layers.node(q, layer + 1));
-  if (!layers.is_collapsed[p]) add(layers.node(p, layer + 1));
+  face.nodes = side.nodes;
+  face.size = side.size;
   return face;
 }
 
@@ -137,8 +132,8 @@ const MeshFaces::ExplicitBlock& MeshFaces::block_of(std::uint64_t cell) const {
 CellKind MeshFaces::kind(std::uint64_t number) const {
   const std::uint64_t cell = old_of(number);
   if (cell >= n_column_cells_) return block_of(cell).kind;
-  constexpr std::array<CellKind, 3> k_kind_of_collapsed = {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
-  return k_kind_of_collapsed[static_cast<std::size_t>(mesh_->layers.n_collapsed(column_of(cells_.at(cell).i)))];
+  const auto [live, layer] = cells_.at(cell);
+  return mesh_->layers.kind(column_of(live), static_cast<int>(layer));
 }
 
 std::span<const NodeId> MeshFaces::explicit_nodes(CellKind kind, std::uint64_t i) const {
@@ -233,7 +228,11 @@ CellFace MeshFaces::loose_face(Slot slot) const {
 
 void MeshFaces::match_loose_faces(const RunContext& context) {
   first_open_ = 2 * n_live_;
-  open_faces_ = LayerNumbers(mesh_->layers, open_sides_.size(), [&](std::uint64_t i) { return column_of(open_sides_[i] / 3); });
+  open_faces_ = LayerNumbers(mesh_->layers, open_sides_.size(), [&](std::uint64_t i) {
+    const auto& base = mesh_->layers.base[column_of(open_sides_[i] / 3)];
+    const std::size_t k = open_sides_[i] % 3;
+    return static_cast<std::uint64_t>(std::max(mesh_->layers.n_steps(base[k]), mesh_->layers.n_steps(base[(k + 1) % 3])));
+  });
   n_slots_ = first_open_ + open_faces_.size();
   for (ExplicitBlock& block : blocks_) {
     block.first_slot = n_slots_;

@@ -18,7 +18,7 @@ namespace sterna::io {
 /// A face by value, right-hand normal out of the cell that it was asked from.
 struct CellFace {
   std::array<NodeId, 4> nodes{};
-  std::uint32_t size = 0;       ///< 0: no face (both lines of a side are collapsed)
+  std::uint32_t size = 0;       ///< 0: no face (both lines of a side have ended)
   std::uint32_t neighbour = 0;  ///< cell on the other side, or MeshFaces::k_boundary
   std::span<const NodeId> span() const { return {nodes.data(), size}; }
 };

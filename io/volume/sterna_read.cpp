@@ -175,7 +175,7 @@ class PartReader {
     block.n_layers = static_cast<int>(n_layers);
     block.first_node = items<std::uint32_t>(part::k_first_node, NumberType::u32, 1);
     block.is_collapsed = bytes(part::k_is_collapsed, block.n_lines());
-    if (file_.has(part::k_line_layers)) block.line_layers = line_layers(block.n_lines(), block.n_layers);
+    if (file_.has(part::k_line_layers)) block.line_layers = line_layers(part::k_line_layers, block.n_lines(), block.n_layers);
     for (std::size_t k = 0; k < block.n_lines(); ++k) {
       if (block.is_collapsed[k] > 1)
         file_.fail(part::k_is_collapsed, "value " + std::to_string(k) + " is " + std::to_string(block.is_collapsed[k]) + ", expected 0 or 1");
@@ -187,18 +187,18 @@ class PartReader {
     require_below(part::k_base, block.base, block.n_lines());
     for (std::size_t c = 0; c < (block.is_uniform() ? 0 : block.n_columns()); ++c)
       for (const std::uint32_t line : block.base[c])
-        if (block.layers_of_line(line) != block.layers_of_column(c))
-          file_.fail(part::k_line_layers, "the lines of column " + std::to_string(c) + " have different numbers of layers");
+        if (block.is_collapsed[line] == 0 && block.layers_of_line(line) + 1 < block.layers_of_column(c))
+          file_.fail(part::k_line_layers, "the lines of column " + std::to_string(c) + " differ by more than one layer");
     return block;
   }
 
-  std::vector<std::uint16_t> line_layers(std::size_t n_lines, int most) const {
-    const auto numbers = items<std::uint32_t>(part::k_line_layers, NumberType::u32, 1);
-    require_size(part::k_line_layers, numbers.size(), n_lines);
+  std::vector<std::uint16_t> line_layers(std::string_view name, std::size_t n_lines, int most) const {
+    const auto numbers = items<std::uint32_t>(name, NumberType::u32, 1);
+    require_size(name, numbers.size(), n_lines);
     std::vector<std::uint16_t> result(n_lines);
     for (std::size_t i = 0; i < n_lines; ++i) {
       if (numbers[i] < 1 || numbers[i] > static_cast<std::uint32_t>(most) || numbers[i] > std::numeric_limits<std::uint16_t>::max())
-        file_.fail(part::k_line_layers, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected 1 to " + std::to_string(most));
+        file_.fail(name, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected 1 to " + std::to_string(most));
       result[i] = static_cast<std::uint16_t>(numbers[i]);
     }
     return result;
@@ -214,6 +214,7 @@ class PartReader {
     result.reason = bytes(part::k_request_reason, n_lines);
     if (file_.has(part::k_request_first_height)) result.line_first_height = reals(part::k_request_first_height, n_lines);
     if (file_.has(part::k_request_max_growth)) result.line_max_growth = reals(part::k_request_max_growth, n_lines);
+    if (file_.has(part::k_request_layers)) result.line_layers = line_layers(part::k_request_layers, n_lines, std::numeric_limits<std::uint16_t>::max());
     for (std::size_t i = 0; i < result.reason.size(); ++i)
       if (result.reason[i] >= result.reasons.size())
         file_.fail(part::k_request_reason, "value " + std::to_string(i) + " is " + std::to_string(result.reason[i]) + ", there are " +

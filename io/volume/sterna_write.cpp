@@ -116,7 +116,7 @@ class PartWriter {
     if (!layers.is_uniform()) {
       require_size(layers.line_layers.size(), layers.n_lines(), "numbers of layers of lines");
       ids(part::k_line_layers, 1, std::vector<std::uint32_t>(layers.line_layers.begin(), layers.line_layers.end()));
-      version_ = part::k_line_layers_version;
+      version_ = is_truncated(layers) ? part::k_truncated_version : part::k_line_layers_version;
     }
     const LayerRequest& request = mesh.request;
     if (!request.is_known()) return;
@@ -131,6 +131,15 @@ class PartWriter {
       require_size(values->size(), layers.n_lines(), "requests of lines");
       reals(name, 1, *values);
     }
+    if (request.line_layers.empty()) return;
+    require_size(request.line_layers.size(), layers.n_lines(), "requests of lines");
+    ids(part::k_request_layers, 1, std::vector<std::uint32_t>(request.line_layers.begin(), request.line_layers.end()));
+  }
+
+  static bool is_truncated(const LayerBlock& layers) {
+    return std::ranges::any_of(layers.base, [&](const auto& b) {
+      return layers.layers_of_line(b[0]) != layers.layers_of_line(b[1]) || layers.layers_of_line(b[0]) != layers.layers_of_line(b[2]);
+    });
   }
 
   template <class T>

@@ -21,7 +21,7 @@ Json places_json(const std::vector<ErrorPlace>& places) {
 
 Json patch_coverage_json(const volmesh::LayerReport& layer) {
   Json patches = Json::array();
-  for (const volmesh::PatchLayerReport& patch : layer.patches)
+  for (const volmesh::PatchLayerReport& patch : layer.patches) {
     patches.push_back({{"name", patch.name},
                        {"area", patch.area},
                        {"full", patch.full},
@@ -30,6 +30,10 @@ Json patch_coverage_json(const volmesh::LayerReport& layer) {
                        {"compressed", patch.compressed},
                        {"collapsed", patch.collapsed},
                        {"lost_area", shares_json(patch.lost_area)}});
+    if (patch.truncated == 0.0) continue;
+    patches.back()["truncated"] = patch.truncated;
+    patches.back()["least_layers"] = patch.least_layers;
+  }
   return patches;
 }
 

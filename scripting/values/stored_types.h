@@ -81,7 +81,7 @@ inline constexpr std::size_t k_members<volmesh::PlacedPart> = 5;
 template <>
 inline constexpr std::size_t k_members<LayerBlock> = 5;
 template <>
-inline constexpr std::size_t k_members<LayerRequest> = 7;
+inline constexpr std::size_t k_members<LayerRequest> = 8;
 template <>
 inline constexpr std::size_t k_members<BoundaryTriangle> = 2;
 template <>
@@ -113,7 +113,7 @@ inline constexpr std::size_t k_members<PeriodicSides> = 3;
 template <>
 inline constexpr std::size_t k_members<PeriodicMatchReport> = 6;
 template <>
-inline constexpr std::size_t k_members<volmesh::PatchLayerReport> = 8;
+inline constexpr std::size_t k_members<volmesh::PatchLayerReport> = 10;
 template <>
 inline constexpr std::size_t k_members<volmesh::VisibilityReport> = 4;
 template <>
@@ -121,7 +121,7 @@ inline constexpr std::size_t k_members<volmesh::InterfaceReport> = 4;
 template <>
 inline constexpr std::size_t k_members<volmesh::FirstNodeReport> = 11;
 template <>
-inline constexpr std::size_t k_members<volmesh::LayerReport> = 21;
+inline constexpr std::size_t k_members<volmesh::LayerReport> = 22;
 template <>
 inline constexpr std::size_t k_members<volmesh::WorstElement> = 3;
 template <>

@@ -157,6 +157,10 @@ std::string summary_text(const MeshValue& mesh) {
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
                       100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
+  for (const volmesh::PatchLayerReport& patch : layer.patches)
+    if (patch.truncated > 0.0)
+      text += fmt::format("  truncated   {:.2f} % of patch \"{}\", down to {}\n", 100.0 * patch.truncated, patch.name,
+                          patch.least_layers == 1 ? "1 layer" : fmt::format("{} layers", patch.least_layers));
   if (layer.n_compressed > 0)
     text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
                         count_text(layer.n_compressed), count_text(layer.n_vertices));

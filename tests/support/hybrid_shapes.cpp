@@ -38,14 +38,15 @@ void split_prism(HybridMesh& mesh, const std::array<std::uint32_t, 3>& lines, co
 void add_triangle(HybridMesh& mesh, NodeId a, NodeId b, NodeId c, PatchId patch) { mesh.boundary_triangles.push_back({{a, b, c}, patch}); }
 void add_quad(HybridMesh& mesh, NodeId a, NodeId b, NodeId c, NodeId d, PatchId patch) { mesh.boundary_quads.push_back({{a, b, c, d}, patch}); }
 
-/// The layer's side above a boundary edge u -> v of the wall: quads, triangles at a collapsed end, nothing between two.
+/// The layer's side above a boundary edge u -> v of the wall: quads, triangles where one of the lines has ended.
 void close_layer_side(HybridMesh& mesh, std::uint32_t u, std::uint32_t v, PatchId patch) {
   const LayerBlock& layers = mesh.layers;
-  for (int j = 0; j < layers.layers_of_line(u); ++j) {
+  for (int j = 0; j < std::max(layers.n_steps(u), layers.n_steps(v)); ++j) {
+    const bool u_goes_on = j < layers.n_steps(u), v_goes_on = j < layers.n_steps(v);
     const NodeId u0 = layers.node(u, j), u1 = layers.node(u, j + 1), v0 = layers.node(v, j), v1 = layers.node(v, j + 1);
-    if (!layers.is_collapsed[u] && !layers.is_collapsed[v]) add_quad(mesh, u0, v0, v1, u1, patch);
-    if (layers.is_collapsed[u] && !layers.is_collapsed[v]) add_triangle(mesh, u0, v0, v1, patch);
-    if (!layers.is_collapsed[u] && layers.is_collapsed[v]) add_triangle(mesh, u0, v0, u1, patch);
+    if (u_goes_on && v_goes_on) add_quad(mesh, u0, v0, v1, u1, patch);
+    if (!u_goes_on && v_goes_on) add_triangle(mesh, u0, v0, v1, patch);
+    if (u_goes_on && !v_goes_on) add_triangle(mesh, u0, v0, u1, patch);
   }
 }
 
@@ -125,6 +126,22 @@ std::vector<Vec3> rays_from(const TriMesh& wall, const Point& center) {
   std::vector<Vec3> rays;
   for (const Point& p : wall.points) rays.push_back(p - center);
   return rays;
+}
+
+std::vector<std::uint16_t> stepped_layers(std::size_t n_lines, int n) {
+  std::vector<std::uint16_t> layers;
+  for (std::size_t i = 0; i < n_lines; ++i) layers.push_back(static_cast<std::uint16_t>(n - (i * i % 7 < 3 ? 1 : 0)));
+  return layers;
+}
+
+HybridMesh stepped_sphere_shell(int f, ShellOptions options) {
+  options.line_layers = stepped_layers(sphere(f).n_vertices(), options.n_layers);
+  return sphere_shell(f, options);
+}
+
+HybridMesh stepped_plate_block(int n, ShellOptions options) {
+  options.line_layers = stepped_layers(static_cast<std::size_t>((n + 1) * (n + 1)), options.n_layers);
+  return plate_block(n, options);
 }
 
 HybridMesh sphere_shell(int f, const ShellOptions& options) {

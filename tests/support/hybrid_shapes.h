@@ -33,6 +33,11 @@ std::vector<Vec3> rays_from(const TriMesh& wall, const Point& center);
 HybridMesh sphere_shell(int f, const ShellOptions& options = {});
 /// Two such shells apart from each other, of n_first and n_second layers; lines of the first come first. `options` is about both.
 HybridMesh two_shells(int f, int n_first, int n_second, ShellOptions options = {});
+/// Numbers of layers n and n - 1 without any order, so that columns have cells of all kinds on top.
+std::vector<std::uint16_t> stepped_layers(std::size_t n_lines, int n);
+/// The shell about the sphere, and the block on the plate (below), of lines with stepped_layers().
+HybridMesh stepped_sphere_shell(int f, ShellOptions options = {});
+HybridMesh stepped_plate_block(int n, ShellOptions options = {});
 /// The same about the cube [0, 1]^3 of cube(n); its rays come from the centre, side faces are flat.
 HybridMesh cube_shell(int n, const ShellOptions& options = {});
 /// Plate [0, 1]^2 of n x n squares with vertical rays: an open wall, so that columns end on quads of the patch "side".

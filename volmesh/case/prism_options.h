@@ -1,6 +1,8 @@
 // Options of the extrusion of prisms between wall and envelope.
 #pragma once
 
+#include <string>
+
 #include "geom/base/schema.h"
 #include "volmesh/case/mesh_step.h"
 
@@ -8,6 +10,7 @@ namespace sterna::volmesh {
 
 struct PrismOptions {
   double wall_perpendicularity = 1.0;
+  std::string truncate = "never";
 };
 
 }  // namespace sterna::volmesh
@@ -25,6 +28,11 @@ struct Schema<volmesh::PrismOptions> {
                .min = 0.0,
                .max = 1.0,
                .help = "c_t of the layer curves: how far from the wall they stay normal to it; less where cells would suffer; 0 = straight"},
+      Field<O>{.name = "truncate",
+               .member = &O::truncate,
+               .help = "whether lines of less than their full height end with fewer layers; auto: where the last cell would be thinner than half a regular "
+                       "tetrahedron on it; always: wherever they are lower, so that heights grow as on full lines; never: compressed only",
+               .choices = "never auto always"},
   };
 };
 

@@ -30,12 +30,12 @@ std::vector<double> last_prism_volumes(const LayerBlock& layers, std::span<const
 }  // namespace
 
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column) {
-  const int n = layers.layers_of_column(column);
-  if (n == 0 || layers.n_collapsed(column) > 0) return 0.0;
+  if (layers.n_layers == 0 || layers.n_collapsed(column) > 0) return 0.0;
   WedgePoints p;
   for (std::size_t k = 0; k < 3; ++k) {
-    p[k] = points[layers.node(layers.base[column][k], n - 1).index()];
-    p[k + 3] = points[layers.node(layers.base[column][k], n).index()];
+    const std::size_t top = layers.top(layers.base[column][k]).index();
+    p[k] = points[top - 1];
+    p[k + 3] = points[top];
   }
   return wedge_volume(p);
 }
@@ -86,7 +86,7 @@ std::vector<std::uint32_t> lines_of_tops(const LayerBlock& layers, std::size_t n
   return lines;
 }
 
-/// Triangles of the outer boundary stand on tops and on nodes of their own; the sides of cells with a collapsed line have nodes below.
+/// Triangles of the outer boundary stand on tops and on nodes of their own; the sides of cells beside a line that has ended have nodes below.
 bool is_outer(const sterna::BoundaryTriangle& face, std::span<const std::uint32_t> line_of_top) {
   return std::ranges::all_of(face.nodes, [&](NodeId node) { return node.index() >= line_of_top.size() || line_of_top[node.index()] != k_no_line; });
 }
@@ -102,9 +102,9 @@ std::vector<std::size_t> outer_faces(const HybridMesh& layers, std::span<const s
 void add_sides(std::span<const LayerSide> sides, std::size_t n_wall_patches, HybridMesh& mesh) {
   const LayerBlock& layers = mesh.layers;
   for (const auto& [a, b, of_outer] : sides) {
-    const bool a_down = layers.is_collapsed[a] != 0, b_down = layers.is_collapsed[b] != 0;
     const PatchId patch(n_wall_patches + of_outer.index());
-    for (int j = 0, n = layers.layers_of_line(a); j < n && !(a_down && b_down); ++j) {
+    for (int j = 0, n = std::max(layers.n_steps(a), layers.n_steps(b)); j < n; ++j) {
+      const bool a_down = j >= layers.n_steps(a), b_down = j >= layers.n_steps(b);
       const NodeId a0 = layers.node(a, j), a1 = layers.node(a, j + 1), b0 = layers.node(b, j), b1 = layers.node(b, j + 1);
       if (a_down) mesh.boundary_triangles.push_back({{a0, b0, b1}, patch});
       else if (b_down) mesh.boundary_triangles.push_back({{a0, b0, a1}, patch});

@@ -21,7 +21,7 @@ struct FillBoundary {
   std::vector<double> layer_volumes;          ///< of the last prism under each triangle, m^3; 0 where there is none
   std::vector<NodeId> point2node;             ///< layer nodes first; outer nodes follow the layer's
 };
-/// m^3, of a column's last cell; 0 where that is no prism.
+/// m^3, of the prism between the last two nodes of each of a column's lines; 0 where one is collapsed.
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
@@ -31,7 +31,7 @@ FillBoundary boundary_of(const HybridMesh& layers);
 ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 
 /// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the
-/// outer ones, sides of cells beside a collapsed line; quadrilaterals: sides of cells.
+/// outer ones, sides of cells beside a line that has ended; quadrilaterals: sides of cells.
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
 /// \pre mesh of assemble_layers(), `boundary` of the same.
 /// \post Steiner points follow its nodes, tetrahedra those that it has (close_fans.h).

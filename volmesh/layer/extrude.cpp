@@ -47,11 +47,10 @@ double largest_share(const IsGood& is_good) {
 
 /// Whether all cells of a column are valid. On a virtual triangle the first cell is not made, and the others are mostly parts of hexahedra: close_fans.h proves
 /// what is there; no height is given up for it.
-bool is_certain(const LayerBase& base, std::size_t column, const ColumnLines& lines, int n_layers) {
-  if (!base.is_virtual(TriangleId(column)) || std::ranges::find(lines.is_collapsed, true) != lines.is_collapsed.end())
-    return is_column_certain(lines, n_layers);
+bool is_certain(const LayerBase& base, std::size_t column, const ColumnLines& lines) {
+  if (!base.is_virtual(TriangleId(column)) || lines.n_prisms() != lines.n_cells()) return is_column_certain(lines);
   const auto& [a, b, c] = lines.nodes;
-  for (int j = 1; j < n_layers; ++j)
+  for (int j = 1, n = lines.n_prisms(); j < n; ++j)
     if (!is_wedge_valid({a[j], b[j], c[j], a[j + 1], b[j + 1], c[j + 1]})) return false;
   return true;
 }
@@ -64,10 +63,12 @@ Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_option
       scale_(scale_of(base, envelope_options)),
       context_(context),
       curving_(base, options.wall_perpendicularity),
+      truncation_(truncation_of(options.truncate)),
       placed_(base.wall.n_vertices()) {
   const std::size_t n = base.wall.n_vertices();
   layers_.n_layers = 0;
   for (std::size_t i = 0; i < n; ++i) layers_.n_layers = std::max(layers_.n_layers, scale_.n(VertexId(i)));
+  if (truncation_ != Truncation::never) layers_.line_layers.resize(n);
   for (std::size_t i = 0; i < n && layers_.is_uniform(); ++i)
     if (scale_.n(VertexId(i)) != layers_.n_layers) layers_.line_layers.resize(n);
   for (std::size_t i = 0; i < layers_.line_layers.size(); ++i) layers_.line_layers[i] = static_cast<std::uint16_t>(scale_.n(VertexId(i)));
@@ -94,11 +95,11 @@ std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
         LinePlacer placer(base_, scale_);
         for (std::size_t i = begin; i < end; ++i) {
           const VertexId v(i);
-          const Placed wanted{envelope.direction[v], envelope.height[v], curving_[v]};
+          const Placed wanted{envelope.direction[v], envelope.height[v], curving_[v], layers(v)};
           if (wanted == placed_[v]) continue;
           placed_[v] = wanted;
           layers_.is_collapsed[i] = envelope.is_collapsed(v) ? 1 : 0;
-          placer.place(envelope, v, curving_[v], points_.data() + layers_.first_node[i]);
+          placer.place(envelope, v, layers(v), curving_[v], points_.data() + layers_.first_node[i]);
           stale.push_back(v);
         }
       },
@@ -120,7 +121,7 @@ Extruder::Columns Extruder::invalid_among(const Columns* some) const {
       [&](std::size_t begin, std::size_t end, Columns& bad) {
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
-          if (!is_certain(base_, column, column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
+          if (!is_certain(base_, column, column_lines(layers_, points_, column))) bad.push_back(column);
         }
       },
       k_column_chunk);
@@ -148,13 +149,14 @@ bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId
     std::vector<Point> nodes;
     for (std::size_t i = begin; i < end; ++i) {
       const VertexId v = lines[i];
-      const int n = scale_.n(v);
+      const int n = layers(v);
       if (envelope.is_collapsed(v) || curving_[v] == 0.0) continue;
       const double ratio = growth_for_height(scale_.h0(v), normal_height(base_, envelope, v), n);
-      const double allowed = std::max(k_least_reserve * ratio, std::min(k_growth_reserve * ratio, k_max_growth));
+      const double most = n < scale_.n(v) ? std::min(scale_.max_growth(v), k_max_growth) : k_max_growth;
+      const double allowed = std::max(k_least_reserve * ratio, std::min(k_growth_reserve * ratio, most));
       nodes.resize(static_cast<std::size_t>(n) + 1);
       const auto is_even = [&](double part) {
-        placer.place(envelope, v, part * curving_[v], nodes.data());
+        placer.place(envelope, v, n, part * curving_[v], nodes.data());
         return worst_ratio(nodes) <= allowed;
       };
       if (!is_even(1.0)) share[i] = largest_share(is_even);
@@ -171,19 +173,18 @@ bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId
 
 /// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
 double Extruder::valid_share(const Envelope& envelope, std::size_t column) const {
-  const int n = layers_.layers_of_column(column);
-  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
+  const std::size_t per_line = static_cast<std::size_t>(scale_.most_layers()) + 1;
   std::vector<Point> nodes(3 * per_line);
   LinePlacer placer(base_, scale_);
   const auto is_valid = [&](double share) {
     ColumnLines lines;
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId v(layers_.base[column][k]);
-      placer.place(envelope, v, share * curving_[v], nodes.data() + k * per_line);
+      placer.place(envelope, v, layers(v), share * curving_[v], nodes.data() + k * per_line);
       lines.nodes[k] = nodes.data() + k * per_line;
-      lines.is_collapsed[k] = envelope.is_collapsed(v);
+      lines.n_steps[k] = envelope.is_collapsed(v) ? 0 : layers(v);
     }
-    return is_certain(base_, column, lines, n);
+    return is_certain(base_, column, lines);
   };
   return is_valid(0.0) ? largest_share(is_valid) : k_hopeless;
 }
@@ -195,9 +196,17 @@ std::array<VertexId, 4> Extruder::vertices_at(HalfedgeId side) const {
           twin.is_valid() ? base_.topology.from(previous(twin)) : VertexId()};
 }
 
+/// Layers in which there are prisms on both sides of a side.
+int Extruder::prisms_beside(const std::array<VertexId, 4>& around) const {
+  int n = scale_.most_layers();
+  for (const VertexId v : around)
+    if (v.is_valid()) n = std::min(n, layers(v));
+  return n;
+}
+
 /// From where on the side over an edge is worth a look, by both columns.
 int Extruder::first_layer_at(HalfedgeId side) const {
-  const auto first = [&](std::size_t column) { return first_layer_to_look_at(column_lines(layers_, points_, column), layers_.layers_of_column(column)); };
+  const auto first = [&](std::size_t column) { return first_layer_to_look_at(column_lines(layers_, points_, column)); };
   const HalfedgeId twin = base_.topology.twin(side);
   const int own = first(triangle_of(side).index());
   return twin.is_valid() ? std::min(own, first(triangle_of(twin).index())) : own;
@@ -216,8 +225,7 @@ std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const C
             const std::array<VertexId, 4> v = vertices_at(side);
             if (std::ranges::any_of(v, [&](VertexId w) { return w.is_valid() && envelope.is_collapsed(w); })) continue;
             const auto line = [&](VertexId w) { return w.is_valid() ? points_.data() + layers_.first_node[w.index()] : nullptr; };
-            if (!is_good(side_shape({line(v[0]), line(v[1]), line(v[2]), line(v[3])}, first_layer_at(side), layers_.layers_of_column(column))))
-              warped.push_back(side);
+            if (!is_good(side_shape({line(v[0]), line(v[1]), line(v[2]), line(v[3])}, first_layer_at(side), prisms_beside(v)))) warped.push_back(side);
           }
         }
       },
@@ -226,9 +234,9 @@ std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const C
 
 /// Largest common share of the present c_t of the lines around a side with which it can be cut; k_hopeless where straight lines do not help.
 double Extruder::unwarped_share(const Envelope& envelope, HalfedgeId side) const {
-  const int n = layers_.layers_of_column(triangle_of(side).index());
-  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
+  const std::size_t per_line = static_cast<std::size_t>(scale_.most_layers()) + 1;
   const std::array<VertexId, 4> v = vertices_at(side);
+  const int n = prisms_beside(v);
   std::vector<Point> nodes(4 * per_line);
   LinePlacer placer(base_, scale_);
   const int first = first_layer_at(side);
@@ -236,7 +244,7 @@ double Extruder::unwarped_share(const Envelope& envelope, HalfedgeId side) const
     std::array<const Point*, 4> lines{};
     for (std::size_t k = 0; k < 4; ++k) {
       if (!v[k].is_valid()) continue;
-      placer.place(envelope, v[k], share * curving_[v[k]], nodes.data() + k * per_line);
+      placer.place(envelope, v[k], layers(v[k]), share * curving_[v[k]], nodes.data() + k * per_line);
       lines[k] = nodes.data() + k * per_line;
     }
     return is_good(side_shape({lines[0], lines[1], lines[2], lines[3]}, first, n));
@@ -263,10 +271,10 @@ bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
 namespace {
 
 /// Smallest cosine between the normal of a face between two cells of a column and the way from the one's middle to the other's.
-double worst_top_cosine(const ColumnLines& lines, int n_layers) {
+double worst_top_cosine(const ColumnLines& lines) {
   const auto& [a, b, c] = lines.nodes;
   double worst = 1.0;
-  for (int j = 1; j < n_layers; ++j) {
+  for (int j = 1, n = lines.n_prisms(); j < n; ++j) {
     const Vec3 area = cross(b[j] - a[j], c[j] - a[j]), way = a[j + 1] - a[j - 1] + (b[j + 1] - b[j - 1]) + (c[j + 1] - c[j - 1]);
     worst = std::min(worst, dot(area, way) / std::sqrt(norm2(area) * norm2(way)));
   }
@@ -283,8 +291,7 @@ bool Extruder::limit_tilt(const Envelope& envelope, const Columns* some) {
       [&](std::size_t begin, std::size_t end, Columns& found) {
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
-          if (has_lines(column) && worst_top_cosine(column_lines(layers_, points_, column), layers_.layers_of_column(column)) < k_least_top_cosine)
-            found.push_back(column);
+          if (has_lines(column) && worst_top_cosine(column_lines(layers_, points_, column)) < k_least_top_cosine) found.push_back(column);
         }
       },
       k_column_chunk);
@@ -303,18 +310,18 @@ bool Extruder::limit_tilt(const Envelope& envelope, const Columns* some) {
 /// Largest common share of the present c_t of its lines with which the faces between a column's cells are within the limit, or as upright as straight lines
 /// make them; 1 where those are no better.
 double Extruder::upright_share(const Envelope& envelope, std::size_t column) const {
-  const int n = layers_.layers_of_column(column);
-  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
+  const std::size_t per_line = static_cast<std::size_t>(scale_.most_layers()) + 1;
   std::vector<Point> nodes(3 * per_line);
   LinePlacer placer(base_, scale_);
   const auto cosine = [&](double share) {
     ColumnLines lines{};
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId v(layers_.base[column][k]);
-      placer.place(envelope, v, share * curving_[v], nodes.data() + k * per_line);
+      placer.place(envelope, v, layers(v), share * curving_[v], nodes.data() + k * per_line);
       lines.nodes[k] = nodes.data() + k * per_line;
+      lines.n_steps[k] = layers(v);
     }
-    return worst_top_cosine(lines, n);
+    return worst_top_cosine(lines);
   };
   const double wanted = std::min(k_least_top_cosine, cosine(0.0) - k_tilt_room);
   if (cosine(1.0) >= wanted) return 1.0;
@@ -359,7 +366,37 @@ void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
   seat_on_surfaces(base_, envelope_options_, nullptr, envelope, context_);
 }
 
+/// Layers of all lines under the envelope as it is.
+void Extruder::choose_layers(const Envelope& envelope) {
+  if (truncation_ == Truncation::never) return;
+  numbers_.emplace(base_, scale_, envelope, truncation_, context_);
+  if (!least_layers_.empty()) numbers_->raise(least_layers_);
+  layers_.line_layers = numbers_->layers();
+}
+
+/// Gives truncated lines of invalid columns one layer more than the longest of the column has, as far as that was asked for; returns the other columns.
+Extruder::Columns Extruder::with_more_layers(const Columns& hopeless) {
+  Columns others;
+  least_layers_.resize(layers_.n_lines(), 0);
+  for (const std::size_t column : hopeless) {
+    const int longest = layers_.layers_of_column(column);
+    bool is_truncated = false;
+    for (const std::uint32_t line : layers_.base[column]) {
+      const int most = std::min(longest + 1, scale_.n(VertexId(line)));
+      if (layers_.is_collapsed[line] || layers_.line_layers[line] >= most) continue;
+      least_layers_[line] = std::max(least_layers_[line], static_cast<std::uint16_t>(most));
+      is_truncated = true;
+    }
+    if (!is_truncated) others.push_back(column);
+  }
+  if (others.size() == hopeless.size()) return others;
+  numbers_->raise(least_layers_);
+  layers_.line_layers = numbers_->layers();
+  return others;
+}
+
 void Extruder::extrude(Envelope& envelope) {
+  choose_layers(envelope);
   std::vector<VertexId> placed = place_stale_lines(envelope);
   const auto place_again = [&] {
     curving_.smooth(context_);
@@ -397,6 +434,7 @@ void Extruder::extrude(Envelope& envelope) {
     }
     context_.debug("extrusion: " + std::to_string(bad.size()) + " invalid columns in round " + std::to_string(round) + ", " + std::to_string(hopeless.size()) +
                    " of them with straight lines too");
+    if (truncation_ != Truncation::never) hopeless = with_more_layers(hopeless);
     if (!hopeless.empty()) lower_heights(hopeless, envelope);
     curving_.smooth(context_);
     some = columns_at(place_stale_lines(envelope));
@@ -407,6 +445,10 @@ void Extruder::extrude(Envelope& envelope) {
 }
 
 Extrusion Extruder::take() {
+  if (truncation_ != Truncation::never) {
+    layers_.n_layers = *std::ranges::max_element(layers_.line_layers);
+    if (std::ranges::all_of(layers_.line_layers, [&](int n) { return n == layers_.n_layers; })) layers_.line_layers.clear();
+  }
   std::uint64_t next = 0;
   for (std::size_t i = 0; i < layers_.n_lines(); ++i) {
     const std::size_t n_nodes = static_cast<std::size_t>(layers_.n_steps(i)) + 1;

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/case/prism_options.h"
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/layer/curving.h"
+#include "volmesh/layer/truncate.h"
 
 namespace sterna::volmesh {
 
@@ -25,11 +27,12 @@ class Extruder {
  public:
   Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
-  /// Nodes by LinePlacer, with c_t as large as the growth along the line (G8), and sides that can be cut and faces that are not tilted (OpenFOAM) allow.
-  /// Columns with an invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to the largest value, found by bisection, for
-  /// which the column is valid, smoothed over the surface (Curving); only where straight lines do not help, heights are made equal over the column's corners
-  /// and then lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly. \post every cell is valid with positive dual sub-volumes; top nodes
-  /// are envelope.point() to the bit. \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
+  /// Layers by LayerNumbers where that was asked for. Nodes by LinePlacer, with c_t as large as the growth along the line (G8), and sides that can be cut and
+  /// faces that are not tilted (OpenFOAM) allow. Columns with an invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to
+  /// the largest value, found by bisection, for which the column is valid, smoothed over the surface (Curving); only where straight lines do not help,
+  /// truncated lines get more layers, then heights are made equal over the column's corners and lowered (through `unwarp`), down to collapse. Changes
+  /// `envelope` accordingly. \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit. \throws
+  /// Error(envelope_failed) when columns stay invalid after 200 rounds.
   void extrude(Envelope& envelope);
   /// The layer of the last extrude(); ends the use of this object.
   Extrusion take();
@@ -46,9 +49,13 @@ class Extruder {
   Columns invalid_among(const Columns* some) const;
   std::vector<HalfedgeId> warped_sides(const Envelope& envelope, const Columns* some) const;
   std::array<VertexId, 4> vertices_at(HalfedgeId side) const;
+  int prisms_beside(const std::array<VertexId, 4>& around) const;
   int first_layer_at(HalfedgeId side) const;
   double unwarped_share(const Envelope& envelope, HalfedgeId side) const;
   double valid_share(const Envelope& envelope, std::size_t column) const;
+  void choose_layers(const Envelope& envelope);
+  Columns with_more_layers(const Columns& hopeless);
+  int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
   Columns reduce_curving(const Envelope& envelope, const Columns& bad);
   void lower_heights(const Columns& columns, Envelope& envelope) const;
 
@@ -57,12 +64,16 @@ class Extruder {
   EnvelopeScale scale_;
   RunContext context_;
   Curving curving_;
-  LayerBlock layers_;  ///< all lines have the nodes of all their layers here, collapsed ones too
+  Truncation truncation_;
+  std::optional<LayerNumbers> numbers_;      ///< of the last choose_layers()
+  std::vector<std::uint16_t> least_layers_;  ///< per line, where truncation spoiled a column
+  LayerBlock layers_;                        ///< all lines have room for the nodes of all layers asked for here, collapsed ones too
   std::vector<Point> points_;
   /// What each line was placed with.
   struct Placed {
     Vec3 direction;
     double height = -1.0, c_t = 0.0;
+    int n_layers = 0;
     friend bool operator==(const Placed&, const Placed&) = default;
   };
   Column<VertexId, Placed> placed_;

@@ -45,7 +45,7 @@ double share(double part, double whole) { return whole > 0.0 ? part / whole : 1.
 FirstNodeReport first_node_report(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, const Envelope& envelope,
                                   const Extrusion& extrusion, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options);
-  const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= scale.compressed(v); };
+  const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= extrusion.layers.layers_of_line(v.value()) * scale.h0(v); };
   const auto first_step = [&](VertexId v) { return extrusion.points[extrusion.layers.node(v.value(), 1).index()] - base.wall.points[v]; };
   const Tally vertices = parallel_reduce(
       context, base.wall.n_vertices(), Tally{},

@@ -69,7 +69,7 @@ LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& conte
   open_slits(site.domain, extrusion.layers, extrusion.points);
   laid.boundary = fill_boundary(site.base, extrusion, outer);
   laid.mesh = assemble_layers(site.base, std::move(extrusion), outer, layer_sides(site.domain));
-  laid.mesh.request = layer_request(site.base, site.options.envelope, envelope);
+  laid.mesh.request = layer_request(site.base, site.options.envelope, envelope, laid.mesh.layers);
   open_slits(site.domain, laid.mesh.request);
   close_fans(site.domain.ridges, laid.mesh, laid.boundary);
   const std::size_t n_wall_patches = site.base.wall.patches.size();

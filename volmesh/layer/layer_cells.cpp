@@ -19,27 +19,27 @@ WedgePoints wedge_of(const ColumnLines& lines, int layer) {
   return {a[layer], b[layer], c[layer], a[layer + 1], b[layer + 1], c[layer + 1]};
 }
 
-/// Column with one or two collapsed lines, turned so that the odd line comes first; the cyclic sense is kept (LayerBlock::cell).
-struct PartialColumn {
-  std::array<const Point*, 3> nodes;
+/// A cell of a column beside a line that has ended, turned so that the odd line comes first; the cyclic sense is kept (LayerBlock::cell).
+struct PartialCell {
+  std::array<const Point*, 3> nodes;  ///< in this layer; the last ones of lines that have ended
   bool is_pyramid;
 };
-PartialColumn partial_column(const ColumnLines& lines) {
-  const bool is_pyramid = lines.is_collapsed[0] + lines.is_collapsed[1] + lines.is_collapsed[2] == 1;
+PartialCell partial_cell(const ColumnLines& lines, int layer) {
+  const auto has_ended = [&](std::size_t k) { return lines.n_steps[k] <= layer; };
+  const bool is_pyramid = has_ended(0) + has_ended(1) + has_ended(2) == 1;
   std::size_t first = 0;
-  while (lines.is_collapsed[first] != is_pyramid) ++first;
-  return {{lines.nodes[first], lines.nodes[(first + 1) % 3], lines.nodes[(first + 2) % 3]}, is_pyramid};
+  while (has_ended(first) != is_pyramid) ++first;
+  const auto at = [&](std::size_t k) { return lines.nodes[k % 3] + std::min(layer, lines.n_steps[k % 3]); };
+  return {{at(first), at(first + 1), at(first + 2)}, is_pyramid};
 }
-std::array<Vec3, 5> pyramid_of(const PartialColumn& column, int layer) {
-  const auto& [a, b, c] = column.nodes;
-  return {b[layer], b[layer + 1], c[layer + 1], c[layer], a[0]};
+std::array<Vec3, 5> pyramid_of(const PartialCell& cell) {
+  const auto& [a, b, c] = cell.nodes;
+  return {b[0], b[1], c[1], c[0], a[0]};
 }
-std::array<Vec3, 4> tet_of(const PartialColumn& column, int layer) {
-  const auto& [a, b, c] = column.nodes;
-  return {a[layer], b[0], c[0], a[layer + 1]};
+std::array<Vec3, 4> tet_of(const PartialCell& cell) {
+  const auto& [a, b, c] = cell.nodes;
+  return {a[0], b[0], c[0], a[1]};
 }
-
-int n_collapsed(const ColumnLines& lines) { return lines.is_collapsed[0] + lines.is_collapsed[1] + lines.is_collapsed[2]; }
 
 /// Six times the volume of a triangle's tetrahedron with the cell's centre; positive where it looks away from it.
 double outward_volume(const Point& a, const Point& b, const Point& c, const Point& centre) { return dot(cross(b - a, c - a), a - centre); }
@@ -65,16 +65,13 @@ std::array<double, 2> cut_shares(const Quad& q, const Point& centre) {
 
 Point centre_of(const Quad& side, const Point* third, int layer) { return (side[0] + side[1] + side[2] + side[3] + third[layer] + third[layer + 1]) / 6.0; }
 
-void add_column(const ColumnLines& lines, std::size_t column, int n_layers, LayerCertificate& certificate) {
-  const int n_down = n_collapsed(lines);
-  if (n_down == 3) return;
-  certificate.n_cells += n_layers;
-  if (n_down > 0) {
-    const PartialColumn partial = partial_column(lines);
-    for (int j = 0; j < n_layers; ++j) certificate.n_proved += partial.is_pyramid ? is_pyramid_valid(pyramid_of(partial, j)) : is_tet_valid(tet_of(partial, j));
-    return;
+void add_column(const ColumnLines& lines, std::size_t column, LayerCertificate& certificate) {
+  certificate.n_cells += lines.n_cells();
+  for (int j = lines.n_prisms(), n = lines.n_cells(); j < n; ++j) {
+    const PartialCell partial = partial_cell(lines, j);
+    certificate.n_proved += partial.is_pyramid ? is_pyramid_valid(pyramid_of(partial)) : is_tet_valid(tet_of(partial));
   }
-  for (int j = 0; j < n_layers; ++j) {
+  for (int j = 0, n = lines.n_prisms(); j < n; ++j) {
     const WedgePoints p = wedge_of(lines, j);
     certificate.n_proved += is_wedge_valid(p);
     const double quality = wedge_quality(p);
@@ -93,28 +90,23 @@ ColumnLines column_lines(const LayerBlock& layers, std::span<const Point> points
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t line = layers.base[column][k];
     lines.nodes[k] = points.data() + layers.first_node[line];
-    lines.is_collapsed[k] = layers.is_collapsed[line] != 0;
+    lines.n_steps[k] = layers.n_steps(line);
   }
   return lines;
 }
 
-bool is_column_certain(const ColumnLines& lines, int n_layers) {
-  const int n_down = n_collapsed(lines);
-  if (n_down == 3) return true;
-  if (n_down == 0) {
-    for (int j = 0; j < n_layers; ++j) {
-      const WedgePoints p = wedge_of(lines, j);
-      if (!is_wedge_valid(p) || !are_sub_volumes_positive(p)) return false;
-    }
-    return true;
+bool is_column_certain(const ColumnLines& lines) {
+  for (int j = 0, n = lines.n_prisms(); j < n; ++j) {
+    const WedgePoints p = wedge_of(lines, j);
+    if (!is_wedge_valid(p) || !are_sub_volumes_positive(p)) return false;
   }
-  const PartialColumn partial = partial_column(lines);
-  for (int j = 0; j < n_layers; ++j) {
+  for (int j = lines.n_prisms(), n = lines.n_cells(); j < n; ++j) {
+    const PartialCell partial = partial_cell(lines, j);
     if (!partial.is_pyramid) {
-      if (!is_tet_valid(tet_of(partial, j))) return false;  // its dual is positive with it
+      if (!is_tet_valid(tet_of(partial))) return false;  // its dual is positive with it
       continue;
     }
-    const std::array<Vec3, 5> p = pyramid_of(partial, j);
+    const std::array<Vec3, 5> p = pyramid_of(partial);
     if (!is_pyramid_valid(p) || !are_sub_volumes_positive(p)) return false;
   }
   return true;
@@ -149,12 +141,12 @@ SideShape side_shape(const SideLines& lines, int first, int n_layers, const Pris
   return shape;
 }
 
-int first_layer_to_look_at(const ColumnLines& lines, int n_layers) {
+int first_layer_to_look_at(const ColumnLines& lines) {
   const auto& [a, b, c] = lines.nodes;
   const auto area = [&](int j) { return cross(b[j] - a[j], c[j] - a[j]); };
   const Vec3 normal = normalized(area(0));
   const double narrow = k_narrow_share * norm(area(0));
-  const int top = std::max(0, n_layers - k_top_layers);
+  const int top = std::max(0, lines.n_prisms() - k_top_layers);
   for (int j = 1; j <= top; ++j)
     if (dot(area(j), normal) < narrow) return j - 1;
   return top;
@@ -165,7 +157,7 @@ LayerCertificate certify_layer(const LayerBlock& layers, std::span<const Point> 
       context, layers.n_columns(), LayerCertificate{},
       [&](std::size_t begin, std::size_t end) {
         LayerCertificate part;
-        for (std::size_t c = begin; c < end; ++c) add_column(column_lines(layers, points, c), c, layers.layers_of_column(c), part);
+        for (std::size_t c = begin; c < end; ++c) add_column(column_lines(layers, points, c), c, part);
         return part;
       },
       [](LayerCertificate a, const LayerCertificate& b) {

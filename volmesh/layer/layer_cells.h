@@ -1,6 +1,7 @@
 // The cells of columns: exact validity of a whole column, and the certificate of a whole layer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -10,15 +11,17 @@
 
 namespace sterna::volmesh {
 
-/// Nodes of a column's three lines, from the wall up; a collapsed line has its wall node alone.
+/// Nodes of a column's three lines, from the wall up, and how many cells are along each: none where it is collapsed.
 struct ColumnLines {
   std::array<const Point*, 3> nodes;
-  std::array<bool, 3> is_collapsed;
+  std::array<int, 3> n_steps;
+  int n_cells() const { return std::max({n_steps[0], n_steps[1], n_steps[2]}); }
+  int n_prisms() const { return std::min({n_steps[0], n_steps[1], n_steps[2]}); }
 };
 ColumnLines column_lines(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 
 /// Whether every cell of a column is valid (exact wedge, pyramid or tet test, G3) and has positive dual sub-volumes (exact, G4).
-bool is_column_certain(const ColumnLines& lines, int n_layers);
+bool is_column_certain(const ColumnLines& lines);
 
 /// The lines around a side of the layer, from the wall up: its own two, the third one of the column whose sense it has, and that of the column beyond (null: it
 /// has none).
@@ -38,12 +41,12 @@ inline bool is_good(const SideShape& shape) { return shape.cut_share >= k_good_c
 
 /// The centre of a column's prism in a layer, m.
 using PrismCentre = std::function<Point(int layer)>;
-/// In layers from `first` on. Empty functions: the means of the corners, which is near.
-/// \pre no line is collapsed
+/// In layers from `first` on, below n_layers. Empty functions: the means of the corners, which is near.
+/// \pre no line ends below n_layers
 SideShape side_shape(const SideLines& lines, int first, int n_layers, const PrismCentre& own_centre = {}, const PrismCentre& centre_beyond = {});
 
-/// From where on the sides of a column are worth a look: the layers at the top, and all where it gets narrow on its way there. \pre no line is collapsed
-int first_layer_to_look_at(const ColumnLines& lines, int n_layers);
+/// From where on the sides of a column's prisms are worth a look: the layers at the top, and all where it gets narrow on its way there.
+int first_layer_to_look_at(const ColumnLines& lines);
 
 /// Every cell of a layer, tested by the exact test of its kind.
 struct LayerCertificate {

@@ -22,12 +22,11 @@ double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v
 
 LinePlacer::LinePlacer(const LayerBase& base, const EnvelopeScale& scale) : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
 
-void LinePlacer::place(const Envelope& envelope, VertexId v, double c_t, Point* nodes) {
+void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, Point* nodes) {
   const Point wall = base_.wall.points[v];
   nodes[0] = wall;
   if (envelope.is_collapsed(v)) return;
   const double h_n = normal_height(base_, envelope, v);
-  const int n = scale_.n(v);
   layer_parameters(scale_.h0(v), h_n, n, t_.data());
   const Vec3 along = envelope.height[v] * envelope.direction[v];
   const Vec3 aside = h_n * base_.vertex_normal[v] - along;

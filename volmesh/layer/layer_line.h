@@ -19,8 +19,10 @@ double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v
 class LinePlacer {
  public:
   LinePlacer(const LayerBase& base, const EnvelopeScale& scale);
-  /// Writes scale.n(v) + 1 nodes, or the wall point alone at a collapsed vertex. Nodes obey the vertex's constraint; the last is envelope.point() to the bit.
-  void place(const Envelope& envelope, VertexId v, double c_t, Point* nodes);
+  /// Writes n + 1 nodes, or the wall point alone at a collapsed vertex. Nodes obey the vertex's constraint; the last is envelope.point() to the bit.
+  void place(const Envelope& envelope, VertexId v, int n, double c_t, Point* nodes);
+  /// With all layers, scale.n(v).
+  void place(const Envelope& envelope, VertexId v, double c_t, Point* nodes) { place(envelope, v, scale_.n(v), c_t, nodes); }
 
  private:
   const LayerBase& base_;

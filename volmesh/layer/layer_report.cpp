@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <limits>
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
@@ -27,7 +28,8 @@ std::string_view reason_text(std::size_t reason) {
 
 /// Areas by state, m^2.
 struct Areas {
-  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
+  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0, truncated = 0.0;
+  int least_layers = std::numeric_limits<int>::max();  ///< of lines that stand
   LostArea lost{};
 };
 
@@ -89,16 +91,21 @@ Column<VertexId, double> permitted_heights(const LayerBase& base, const Envelope
 
 class Classifier {
  public:
-  Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const TriMesh* outer, const RunContext& context)
-      : base_(base), envelope_(envelope), scale_(scale_of(base, options)), permitted_(permitted_heights(base, envelope, outer, context)) {}
+  Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const LayerBlock& layers, const TriMesh* outer,
+             const RunContext& context)
+      : base_(base), envelope_(envelope), layers_(layers), scale_(scale_of(base, options)), permitted_(permitted_heights(base, envelope, outer, context)) {}
   bool is_full(VertexId v) const { return has_full_height(base_, envelope_, v); }
-  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
+  int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
+  bool is_truncated(VertexId v) const { return !envelope_.is_collapsed(v) && layers(v) < scale_.n(v); }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
     if (is_full(v)) areas.full += area;
     else areas.lost[reason_of(base_, envelope_, v)] += area;
     if (is_compressed(v)) areas.compressed += area;
     if (envelope_.is_collapsed(v)) areas.collapsed += area;
+    else areas.least_layers = std::min(areas.least_layers, layers(v));
+    if (is_truncated(v)) areas.truncated += area;
     if (permitted_[v] >= k_full_height_share * envelope_.target[v]) areas.attainable += area;
     if (is_full(v) || height_along_normal(base_, envelope_, v) >= k_full_height_share * permitted_[v]) areas.attained += area;
   }
@@ -107,6 +114,7 @@ class Classifier {
  private:
   const LayerBase& base_;
   const Envelope& envelope_;
+  const LayerBlock& layers_;
   EnvelopeScale scale_;
   Column<VertexId, double> permitted_;  ///< m
 };
@@ -128,7 +136,7 @@ std::vector<PatchLayerReport> cover_patches(const LayerBase& base, const Classif
     const Areas& own = areas[p.index()];
     const auto share = [&own](double part) { return own.all > 0.0 ? part / own.all : 0.0; };
     patches.push_back({base.wall.patches[p].name, own.all, share(own.full), share(own.compressed), share(own.collapsed), share(own.attainable),
-                       share(own.attained), shares_of(own)});
+                       share(own.attained), share(own.truncated), own.collapsed < own.all ? own.least_layers : 0, shares_of(own)});
   }
   return patches;
 }
@@ -219,7 +227,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.feature_angle = options.feature_angle;
   report.visibility = report_visibility(base);
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
-  const Classifier classifier(base, options, envelope, outer, context);
+  const Classifier classifier(base, options, envelope, extrusion.layers, outer, context);
   Areas areas;
   double heights = 0.0, targets = 0.0, ratios = 0.0;
   for (const VertexId v : envelope.height.ids()) {
@@ -234,6 +242,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.attained = areas.attained / areas.all;
   report.compressed_area = areas.compressed / areas.all;
   report.collapsed_area = areas.collapsed / areas.all;
+  report.truncated_area = areas.truncated / areas.all;
   report.lost_area = shares_of(areas);
   report.target_over_eq1 = ratios / areas.all;
   report.mean_height_share = heights / targets;
@@ -247,7 +256,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   return report;
 }
 
-LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope) {
+LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const LayerBlock& layers) {
   LayerRequest request;
   request.first_height = options.first_height;
   request.max_growth = options.max_growth;
@@ -257,6 +266,14 @@ LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options
     request.first_height = *std::min_element(demand.first_height.begin(), demand.first_height.end());
     request.max_growth = *std::max_element(demand.max_growth.begin(), demand.max_growth.end());
   }
+  const EnvelopeScale scale = scale_of(base, options);
+  const auto asked = [&](VertexId v) { return static_cast<std::uint16_t>(scale.n(v)); };
+  bool is_truncated = false;
+  for (const VertexId v : envelope.height.ids()) {
+    request.line_layers.push_back(asked(v));
+    is_truncated = is_truncated || layers.layers_of_line(v.value()) < asked(v);
+  }
+  if (!is_truncated) request.line_layers.clear();
   request.target_height = envelope.target.raw();
   for (std::size_t i = 0; i <= k_lean; ++i) request.reasons.emplace_back(reason_text(i));
   request.reason.reserve(envelope.limit.size());

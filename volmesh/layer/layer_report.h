@@ -19,10 +19,12 @@ struct PatchLayerReport {
   std::string name;
   double area = 0.0;                                      ///< m^2
   double full = 0.0;                                      ///< height along the wall's normal >= 0.9 h_target
-  double compressed = 0.0;                                ///< 0 < normal_height < n h0: equally spaced, h0 not met
+  double compressed = 0.0;                                ///< 0 < normal_height < n h0, n the layers that it has: equally spaced, h0 not met
   double collapsed = 0.0;                                 ///< no layer
   double attainable = 0.0;                                ///< where the geometry permits the full height (geom/mesh/layer_room.h)
   double attained = 0.0;                                  ///< at least 0.9 of the height that the geometry permits
+  double truncated = 0.0;                                 ///< fewer layers than asked for (truncate.h)
+  int least_layers = 0;                                   ///< of a line that is not collapsed; 0: there is none
   std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
 };
 
@@ -50,6 +52,7 @@ struct LayerReport {
   std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
   double compressed_area = 0.0;                           ///< share of the wall area
   double collapsed_area = 0.0;                            ///< share of the wall area
+  double truncated_area = 0.0;                            ///< share of the wall area with fewer layers than asked for
   std::vector<PatchLayerReport> patches;                  ///< in the wall's order
   std::vector<ErrorPlace> collapsed;                      ///< each collapsed vertex: place, patch and reason
   std::vector<ErrorPlace> compressed;  ///< the lowest standing vertices below n h0 (k_listed_compressed at most): place, patch, height and reason
@@ -65,7 +68,7 @@ inline constexpr std::size_t k_listed_compressed = 20;
 LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const TriMesh* outer,
                          const RunContext& context);
 
-/// What was asked of each line, for the gates of `check`.
-LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope);
+/// What was asked of each line, for the gates of `check`. \p layers: lines 0 .. of the base's vertices
+LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const LayerBlock& layers);
 
 }  // namespace sterna::volmesh

@@ -154,10 +154,13 @@ double LineSlider::excess_of_tet(const TetraResult& tets, std::uint32_t t) const
 
 LineSlider::Interface LineSlider::interface_of(const TetraResult& tets, std::uint32_t column, std::uint32_t tet) const {
   const LayerBlock& layers = mesh_.layers;
-  const int n = layers.layers_of_column(column);
-  const Cell cell = layers.cell(column, n - 1);
-  WedgePoints p;
-  for (std::size_t k = 0; k < 6; ++k) p[k] = mesh_.points[cell.nodes[k]];
+  const Cell cell = layers.cell(column, layers.layers_of_column(column) - 1);
+  WedgePoints p;  // the last cell, or where a line ends a layer below the others, the last steps of all three
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t top = layers.top(layers.base[column][k]).index();
+    p[k] = mesh_.points.raw()[top - 1];
+    p[k + 3] = mesh_.points.raw()[top];
+  }
   const double edge = (distance(p[3], p[4]) + distance(p[4], p[5]) + distance(p[5], p[3])) / 3.0;
   const double height = (distance(p[0], p[3]) + distance(p[1], p[4]) + distance(p[2], p[5])) / 3.0;
   const std::array<Vec3, 4> t = corners(tets, tet);
@@ -167,8 +170,9 @@ LineSlider::Interface LineSlider::interface_of(const TetraResult& tets, std::uin
   const double below = std::abs(dot(check_parts::cell_shape(mesh_, cell).centre - middle, normal));
   const double above = std::abs(dot(0.25 * (t[0] + t[1] + t[2] + t[3]) - middle, normal));
   const double weight = std::min(below, above) / (below + above);
-  return {check_parts::deviation(k_regular_volumes * volume / wedge_volume(p)) / gates_[Measure::interface_volume].hard,
-          check_parts::interface_jump(height, edge) / gates_[Measure::interface_height].hard, gates_[Measure::face_weight].hard / weight};
+  const double volumes = cell.kind == CellKind::prism ? check_parts::deviation(k_regular_volumes * volume / wedge_volume(p)) : 1.0;
+  return {volumes / gates_[Measure::interface_volume].hard, check_parts::interface_jump(height, edge) / gates_[Measure::interface_height].hard,
+          gates_[Measure::face_weight].hard / weight};
 }
 
 /// The first entry of the edge between corners k and k + 1 of a column.
@@ -202,9 +206,9 @@ double LineSlider::excess_of_side(std::size_t side) const {
   const auto excess = [&](const SideShape& shape, double reserve) {
     return std::max(1.0 + k_cut_slope * (reserve - shape.cut_share), gates_[Measure::face_weight].hard / (k_reserve * shape.weight));
   };
-  const int n = layers.layers_of_column(own);
-  const auto first_of = [&](std::uint32_t column) { return first_layer_to_look_at(column_lines(layers, mesh_.points.raw(), column), n); };
-  const int first = std::min(first_of(own), first_of(beyond));
+  const ColumnLines of_own = column_lines(layers, mesh_.points.raw(), own), of_beyond = column_lines(layers, mesh_.points.raw(), beyond);
+  const int n = std::min(of_own.n_prisms(), of_beyond.n_prisms());
+  const int first = std::min(first_layer_to_look_at(of_own), first_layer_to_look_at(of_beyond));
   if (excess(side_shape(lines, first, n), k_far_reserve) <= k_far_excess) return 0.0;
   const auto centre_in = [&](std::uint32_t column) {
     return [&mesh = mesh_, column](int layer) { return check_parts::cell_shape(mesh, mesh.layers.cell(column, layer)).centre; };
@@ -391,7 +395,7 @@ double LineSlider::cost(const TetraResult& tets, const Star& star, double stop_a
 
 bool LineSlider::is_valid(const TetraResult& tets, const Star& star) const {
   for (const std::uint32_t column : star.columns)
-    if (!is_column_certain(column_lines(mesh_.layers, mesh_.points.raw(), column), mesh_.layers.layers_of_column(column))) return false;
+    if (!is_column_certain(column_lines(mesh_.layers, mesh_.points.raw(), column))) return false;
   return std::ranges::all_of(star.tets, [&](std::uint32_t t) { return is_tet_valid(corners(tets, t)); });
 }
 

@@ -72,7 +72,8 @@ TEST(CellCentred, FlatnessOfATwistedQuad) {
 
 TEST(CellCentred, ColumnsAndExplicitCellsAndThreadsAgree) {
   for (const auto& [name, mesh] : {std::pair("shell", test::sphere_shell(2, {.collapsed = {0, 5, 7}})), std::pair("plate", test::plate_block(3)),
-                                   std::pair("two", test::two_shells(1, 3, 5))}) {
+                                   std::pair("two", test::two_shells(1, 3, 5)), std::pair("steps", test::stepped_sphere_shell(3)),
+                                   std::pair("open steps", test::stepped_plate_block(4))}) {
     SCOPED_TRACE(name);
     const CheckReport columns = report_of(mesh), cells = report_of(explicit_cells(mesh)), serial = report_of(mesh, 1), seven = report_of(mesh, 7);
     for (const Measure measure : k_measured) {

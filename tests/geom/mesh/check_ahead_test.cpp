@@ -25,6 +25,8 @@ TEST(CheckAhead, ChangesNothingOnValidMeshes) {
   expect_same_report(sphere_shell(5, {.n_layers = 6}));
   expect_same_report(cube_shell(3, {.n_layers = 4, .collapsed = {0, 5, 6}}));
   expect_same_report(plate_block(4));
+  expect_same_report(stepped_sphere_shell(4));
+  expect_same_report(stepped_plate_block(4, {.collapsed = {12}}));
   expect_same_report(sphere_shell(3), {.intersections = false});
   expect_same_report(sphere_shell(3), {.quality = false});
 }

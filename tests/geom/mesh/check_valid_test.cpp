@@ -78,10 +78,25 @@ TEST(CheckValid, BodiesWithOwnNumbersOfLayers) {
   }
 }
 
+TEST(CheckValid, LinesThatEndALayerBelowOthersGivePyramidsAndTets) {
+  for (const int n : {2, 5}) {
+    const HybridMesh sphere = stepped_sphere_shell(4, {.n_layers = n});
+    const CellCounts counts = count_cells(sphere), whole = count_cells(sphere_shell(4, {.n_layers = n}));
+    EXPECT_GT(counts.pyramids, 0);
+    EXPECT_GT(counts.tetrahedra, whole.tetrahedra);
+    EXPECT_LT(counts.prisms, whole.prisms);
+    expect_valid_in_both_forms(sphere);
+    EXPECT_NEAR(checked(sphere).layer_volume, checked(sphere_shell(4, {.n_layers = n})).layer_volume, 1e-11);
+    expect_valid_in_both_forms(stepped_plate_block(5, {.n_layers = n}));
+    expect_valid_in_both_forms(stepped_plate_block(5, {.n_layers = n, .collapsed = {0, 7, 8, 14, 35}}));
+    EXPECT_EQ(checked(sphere).gate(Measure::layer_step).worst, 1.0);
+  }
+}
+
 TEST(CheckValid, NumbersOfLayersThatLinesDisagreeOn) {
   HybridMesh mesh = two_shells(2, 3, 7);
-  mesh.layers.line_layers[mesh.layers.base[0][0]] = 2;
-  EXPECT_NE(to_text(checked(mesh)).find("its lines have different numbers of layers"), std::string::npos);
+  mesh.layers.line_layers[mesh.layers.base[0][0]] = 1;
+  EXPECT_NE(to_text(checked(mesh)).find("its lines differ by more than one layer"), std::string::npos);
   mesh.layers.line_layers[mesh.layers.base[0][0]] = 8;
   EXPECT_NE(to_text(checked(mesh)).find("8 layers, expected 1 to 7"), std::string::npos);
   mesh.layers.line_layers.pop_back();

@@ -114,7 +114,7 @@ TEST(Cut, OfASphericalShell) {
 }
 
 TEST(Cut, OfColumnsIsThatOfExplicitCells) {
-  for (const HybridMesh& mesh : {sphere_shell(3), plate_block(5, {.collapsed = {8, 9, 14, 20}}), two_shells(2, 2, 4)}) {
+  for (const HybridMesh& mesh : {sphere_shell(3), plate_block(5, {.collapsed = {8, 9, 14, 20}}), two_shells(2, 2, 4), stepped_sphere_shell(3)}) {
     for (const Vec3& normal : {Vec3{0.3, 0.2, 1.0}, Vec3{1, 0, 0}, Vec3{1, 1, 1}}) {
       const CutPlane plane{mesh.points.raw()[mesh.layers.first_node[mesh.layers.n_lines() / 2 + 1]], normal, std::nullopt};
       const MeshCut columns = cut_mesh(mesh, plane, k_context), cells = cut_mesh(explicit_cells(mesh), plane, k_context);

@@ -71,7 +71,8 @@ TEST(DualMetrics, AgreeAroundCollapsedLines) {
 }
 
 TEST(DualMetrics, AgreeAboutBodiesWithOwnNumbersOfLayers) {
-  for (const HybridMesh& mesh : {two_shells(3, 2, 7), two_shells(3, 9, 1), two_shells(4, 6, 3, {.collapsed = {5, 6, 200}})}) {
+  for (const HybridMesh& mesh : {two_shells(3, 2, 7), two_shells(3, 9, 1), two_shells(4, 6, 3, {.collapsed = {5, 6, 200}}), stepped_sphere_shell(4),
+                                 stepped_plate_block(5, {.n_layers = 6, .collapsed = {5, 6, 20}})}) {
     expect_as_naive(mesh);
     expect_as_naive(explicit_cells(mesh));
   }

@@ -83,7 +83,7 @@ TEST(Numbering, LinesStayConsecutiveAndNeighboursComeNear) {
 }
 
 TEST(Numbering, ThreadsChangeNothing) {
-  const HybridMesh mesh = test::sphere_shell(6, {.n_layers = 5, .collapsed = {3, 50, 51}});
+  const HybridMesh mesh = test::stepped_sphere_shell(6, {.n_layers = 5, .collapsed = {3, 50, 51}});
   const HybridMesh one = renumbered(mesh, Numbering::both, RunContext({.threads = 1}));
   for (const int threads : {2, 7}) {
     const HybridMesh many = renumbered(mesh, Numbering::both, RunContext({.threads = threads}));

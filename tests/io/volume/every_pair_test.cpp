@@ -181,8 +181,9 @@ TEST(EveryVolumeFormat, KeepsQuadsOfEveryKindOfPatch) {
   }
 }
 
-TEST(EveryVolumeFormat, KeepsBodiesWithOwnNumbersOfLayers) {
-  for (const HybridMesh& mesh : {test::two_shells(2, 2, 5), test::two_shells(2, 4, 1, {.collapsed = {0, 1, 44}})}) {
+TEST(EveryVolumeFormat, KeepsLinesWithOwnNumbersOfLayers) {
+  for (const HybridMesh& mesh : {test::two_shells(2, 2, 5), test::two_shells(2, 4, 1, {.collapsed = {0, 1, 44}}), test::stepped_sphere_shell(3),
+                                 test::stepped_plate_block(4, {.collapsed = {12}})}) {
     const Content content(mesh);
     for (const Variant& variant : variants()) {
       SCOPED_TRACE(variant.name());

@@ -74,6 +74,7 @@ void expect_same(const HybridMesh& back, const HybridMesh& mesh) {
   EXPECT_EQ(back.request.first_height, mesh.request.first_height);
   EXPECT_EQ(back.request.line_first_height, mesh.request.line_first_height);
   EXPECT_EQ(back.request.line_max_growth, mesh.request.line_max_growth);
+  EXPECT_EQ(back.request.line_layers, mesh.request.line_layers);
   EXPECT_EQ(back.request.target_height, mesh.request.target_height);
   EXPECT_EQ(back.request.reason, mesh.request.reason);
   EXPECT_EQ(back.request.reasons, mesh.request.reasons);
@@ -129,7 +130,7 @@ TEST(Sterna, VerbsOfTheFormatTable) {
   test::expect_error(ErrorCode::file_malformed, "found nothing, expected a surface or a mesh", [&] { read_surface_file(folder / "empty.sterna", k_context); });
 }
 
-TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedTheSecondVersion) {
+TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedLaterVersions) {
   const auto path = test::scratch() / "mesh.sterna";
   const auto version = [&] { return static_cast<int>(test::bytes_of(path)[16]); };
   write_sterna(Everything().parts(), path, k_context);
@@ -145,12 +146,23 @@ TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedTheSecondVersion) {
   write_sterna({.mesh = &mesh}, path, k_context);
   EXPECT_EQ(version(), 2);
   expect_same(*read_sterna(path, k_context).mesh, mesh);
-  mesh.layers.line_layers[5] = 6;
+  mesh.layers.line_layers[5] = 1;
   write_sterna({.mesh = &mesh}, path, k_context);
-  test::expect_error(ErrorCode::file_malformed, "have different numbers of layers", [&] { read_sterna(path, k_context); });
+  test::expect_error(ErrorCode::file_malformed, "differ by more than one layer", [&] { read_sterna(path, k_context); });
   mesh.layers.line_layers[5] = 8;
   write_sterna({.mesh = &mesh}, path, k_context);
   test::expect_error(ErrorCode::file_malformed, "expected 1 to 7", [&] { read_sterna(path, k_context); });
+  HybridMesh steps = test::stepped_sphere_shell(2);
+  const std::size_t n_lines = steps.layers.n_lines();
+  steps.request = {.first_height = 0.1,
+                   .max_growth = 1.5,
+                   .line_layers = std::vector<std::uint16_t>(n_lines, 3),
+                   .target_height = std::vector<double>(n_lines, 0.4),
+                   .reason = std::vector<std::uint8_t>(n_lines, 0),
+                   .reasons = {"none"}};
+  write_sterna({.mesh = &steps}, path, k_context);
+  EXPECT_EQ(version(), 3);
+  expect_same(*read_sterna(path, k_context).mesh, steps);
 }
 
 TEST(Sterna, DamageIsFound) {

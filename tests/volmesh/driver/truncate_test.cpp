@@ -1,0 +1,158 @@
+// Layers that end early where there is no room for their last cells: two balls next to each other, whose gap shrinks to nearly nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/file/volume_file.h"
+#include "tests/support/constants.h"
+#include "tests/support/data.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/domain/room.h"
+#include "tests/volmesh/domain/sharp_wing.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::k_context;
+
+/// Two balls of radius 1, as one wall, so far from each other.
+TriMesh two_balls(double gap) {
+  const TriMesh ball = test::sphere(9);
+  TriMesh wall = ball;
+  for (const Point& p : ball.points) wall.points.push_back(p + Vec3{2.0 + gap, 0.0, 0.0});
+  const auto shifted = [&](VertexId v) { return VertexId(v.index() + ball.n_vertices()); };
+  for (const TriangleVertices& v : ball.triangles) {
+    wall.triangles.push_back({shifted(v[0]), shifted(v[1]), shifted(v[2])});
+    wall.triangle_patch.push_back(PatchId(0));
+  }
+  return wall;
+}
+
+double box_height(const TriMesh& mesh) {
+  double low = mesh.points[VertexId(0)].z, high = low;
+  for (const Point& p : mesh.points) {
+    low = std::min(low, p.z);
+    high = std::max(high, p.z);
+  }
+  return high - low;
+}
+
+MeshCase ball_case(const char* truncate) {
+  MeshCase mesh_case = layers(20, 1e-4);
+  mesh_case.farfield.farfield_radius = 20.0;
+  mesh_case.prisms.truncate = truncate;
+  return mesh_case;
+}
+
+int largest_step(const LayerBlock& layers) {
+  int step = 0;
+  for (std::size_t c = 0; c < layers.n_columns(); ++c) {
+    const auto [first, second, third] = layers.ends_of_column(c);
+    const int shortest = first > 0 ? first : second > 0 ? second : third;
+    step = std::max(step, third - shortest);
+  }
+  return step;
+}
+
+TEST(Truncation, GapsGetFewerAndTallerLayersInTheSameHeight) {
+  const TriMesh wall = two_balls(0.1);
+  const VolumeMeshResult whole = volume_mesh(wall, ball_case("never"), k_context);
+  EXPECT_TRUE(whole.mesh.layers.is_uniform());
+  EXPECT_EQ(whole.layer.truncated_area, 0.0);
+  for (const char* const truncate : {"auto", "always"}) {
+    SCOPED_TRACE(truncate);
+    const VolumeMeshResult result = volume_mesh(wall, ball_case(truncate), k_context);
+    ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);
+    EXPECT_TRUE(result.certificate.is_proved()) << to_text(result.certificate);
+    const LayerBlock& layers = result.mesh.layers;
+    EXPECT_FALSE(layers.is_uniform());
+    EXPECT_EQ(largest_step(layers), 1);
+    EXPECT_EQ(result.check.gate(Measure::layer_step).worst, 1.0);
+    EXPECT_LE(result.check.gate(Measure::stack_growth).worst, 1.4 * 1.03);
+    EXPECT_GT(count_cells(result.mesh).pyramids, 0);
+    EXPECT_LT(count_cells(result.mesh).prisms, count_cells(whole.mesh).prisms);
+    // No height is given up; what the layer has is better used.
+    EXPECT_NEAR(result.layer.coverage, whole.layer.coverage, 1e-3);
+    EXPECT_NEAR(result.layer.mean_height, whole.layer.mean_height, 1e-3 * whole.layer.mean_height);
+    EXPECT_GT(result.layer.interface.within, whole.layer.interface.within);
+    // Told.
+    EXPECT_GT(result.layer.truncated_area, 0.0);
+    ASSERT_EQ(result.layer.patches.size(), 1u);
+    EXPECT_NEAR(result.layer.patches[0].truncated, result.layer.truncated_area, 1e-9);
+    EXPECT_EQ(result.layer.patches[0].least_layers, *std::ranges::min_element(layers.line_layers));
+    EXPECT_EQ(result.mesh.request.line_layers, std::vector<std::uint16_t>(layers.n_lines(), 20));
+  }
+}
+
+TEST(Truncation, ALayerWithRoomEverywhereStaysAsItIs) {
+  const TriMesh wall = test::sphere(6);
+  const HybridMesh never = volume_mesh(wall, ball_case("never"), k_context).mesh, always = volume_mesh(wall, ball_case("always"), k_context).mesh;
+  EXPECT_TRUE(always.layers.is_uniform());
+  EXPECT_TRUE(always.request.line_layers.empty());
+  EXPECT_EQ(always.points, never.points);
+  EXPECT_EQ(always.tetrahedra, never.tetrahedra);
+}
+
+TEST(Truncation, ThreadsChangeNothing) {
+  const TriMesh wall = two_balls(0.05);
+  const HybridMesh one = volume_mesh(wall, ball_case("auto"), RunContext({.threads = 1})).mesh;
+  for (const int threads : {2, 7}) {
+    const HybridMesh many = volume_mesh(wall, ball_case("auto"), RunContext({.threads = threads})).mesh;
+    EXPECT_EQ(many.points, one.points);
+    EXPECT_EQ(many.layers.line_layers, one.layers.line_layers);
+    EXPECT_EQ(many.tetrahedra, one.tetrahedra);
+  }
+}
+
+TEST(Truncation, FilesKeepIt) {
+  const HybridMesh mesh = volume_mesh(two_balls(0.05), ball_case("auto"), k_context).mesh;
+  const auto path = test::scratch() / "balls.sterna";
+  io::write_volume_file(mesh, path, k_context);
+  const HybridMesh back = io::read_volume_file(path, k_context);
+  EXPECT_EQ(back.layers.line_layers, mesh.layers.line_layers);
+  EXPECT_EQ(back.request.line_layers, mesh.request.line_layers);
+  EXPECT_EQ(to_json(check(back, {}, k_context)), to_json(check(mesh, {}, k_context)));
+}
+
+/// A wing from side to side of a room, an edge above its floor: layers of both end on the sides.
+TriMesh room_with_low_wing() {
+  return room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; },
+              [](int i, int, int k) { return i >= 8 && i < 14 && k >= 1 && k < 3; });
+}
+
+TEST(Truncation, StepsEndOnSidesInTriangles) {
+  for (const bool is_periodic : {false, true}) {
+    MeshCase mesh_case = layers(10, 1e-3);
+    mesh_case.prisms.truncate = "always";
+    if (is_periodic) mesh_case.periodic = {{"left", "right"}};
+    const VolumeMeshResult result = volume_mesh(room_with_low_wing(), mesh_case, k_context);
+    ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);
+    EXPECT_EQ(largest_step(result.mesh.layers), 1);
+    EXPECT_GT(result.layer.truncated_area, 0.0);
+    EXPECT_EQ(result.check.periodic.size(), is_periodic ? 1u : 0u);
+    EXPECT_GT(count_cells(result.mesh).pyramids, 0);
+  }
+}
+
+TEST(Truncation, OpenedRidgesKeepTheirLayers) {
+  MeshCase mesh_case = layers(12, 1e-3);
+  mesh_case.farfield.farfield_radius = 10.0;
+  mesh_case.ridges.open_ridges = "always";
+  TriMesh wall = sharp_wing(30.0, 8);
+  const TriMesh other = wall;  // another one, little above it
+  for (const Point& p : other.points) wall.points.push_back(p + Vec3{0.0, 0.0, 1.15 * box_height(other)});
+  for (const TriangleVertices& v : other.triangles) {
+    const auto shifted = [&](VertexId w) { return VertexId(w.index() + other.n_vertices()); };
+    wall.triangles.push_back({shifted(v[0]), shifted(v[1]), shifted(v[2])});
+    wall.triangle_patch.push_back(PatchId(0));
+  }
+  mesh_case.prisms.truncate = "always";
+  const VolumeMeshResult result = volume_mesh(wall, mesh_case, k_context);
+  ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);
+  EXPECT_GT(result.layer.truncated_area, 0.0);
+  EXPECT_GT(count_cells(result.mesh).hexahedra, 0);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

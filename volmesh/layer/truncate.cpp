@@ -1,0 +1,179 @@
+#include "volmesh/layer/truncate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/constants.h"
+#include "volmesh/case/growth_law.h"
+#include "volmesh/layer/layer_line.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// Of the height of a regular tetrahedron on the top: the last cell that is wanted, the least whose step is a good cell (the angle of a tetrahedron that steps
+/// up by it is some 6 degrees), and the tallest that fewer layers may make of one that is not taller anyway.
+constexpr double k_wanted_last = 0.5, k_least_step = 0.12, k_most_last = 1.5;
+constexpr double k_rounding = 1.0 + 1e-9;  ///< of heights that are compared with n h0, and of growth
+constexpr double k_used_growth = 0.98;     ///< of max_growth: the rest is for curved lines, whose cells grow by more than their heights
+
+/// Numbers of layers that a line may have.
+struct LineChoice {
+  int wanted = 0;     ///< by itself
+  int least = 0;      ///< with neighbours of fewer layers
+  int thin_from = 0;  ///< from this number on its last cell has less than k_least_step
+};
+
+class LineTruncation {
+ public:
+  LineTruncation(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation)
+      : base_(base), scale_(scale), envelope_(envelope), truncation_(truncation) {}
+
+  LineChoice choose(VertexId v) const {
+    const int all = scale_.n(v);
+    const double height = normal_height(base_, envelope_, v), h0 = scale_.h0(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
+    const auto last = [&](int n) {
+      const double growth = growth_for_height(h0, height, n);
+      return growth > 1.0 ? h0 * std::pow(growth, n - 1) : height / n;
+    };
+    // Growth and last cell fall with the number of layers.
+    const auto least_with_growth = [&](double most) {
+      return first_of(1, all, [&](int n) { return n == 1 ? height <= h0 * k_rounding : growth_for_height(h0, height, n) <= most * k_rounding; });
+    };
+    const double most_growth = std::max(1.0, k_used_growth * scale_.max_growth(v));
+    const int least = least_with_growth(most_growth);
+    LineChoice choice;
+    choice.least = first_of(least, all, [&](int n) { return last(n) <= k_most_last * regular; });
+    if (truncation_ == Truncation::always) {
+      choice.wanted = least_with_growth(std::min(most_growth, growth_for_height(h0, envelope_.target[v], all)));
+      choice.thin_from = all + 1;
+    } else {
+      const auto first_below = [&](double share) { return first_of(least, all + 1, [&](int n) { return n > all || last(n) < share * regular; }); };
+      choice.thin_from = first_below(k_least_step);
+      choice.wanted = choice.thin_from <= least ? all : std::max(least, first_below(k_wanted_last) - 1);
+    }
+    choice.least = std::min(choice.least, choice.wanted);
+    return choice;
+  }
+
+ private:
+  /// The least n in [low, high] for which a condition holds that holds from some n on, at `high` in any case.
+  template <class IsTrue>
+  static int first_of(int low, int high, const IsTrue& is_true) {
+    while (low < high) {
+      const int middle = low + (high - low) / 2;
+      if (is_true(middle)) high = middle;
+      else low = middle + 1;
+    }
+    return low;
+  }
+
+  const LayerBase& base_;
+  const EnvelopeScale& scale_;
+  const Envelope& envelope_;
+  Truncation truncation_;
+};
+
+/// Around fans all columns have all layers: close_fans.h makes cells of its own there.
+void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<std::uint16_t>& least) {
+  if (base.ridges == nullptr) return;
+  std::vector<std::uint8_t> is_of_fan(least.size(), 0);
+  for (const VertexId v : base.ridges->end_vertices) is_of_fan[v.index()] = 1;
+  for (const VertexId v : base.wall.points.ids())
+    if (base.fan_of(v) != nullptr) is_of_fan[v.index()] = 1;
+  for (const TriangleVertices& t : base.wall.triangles)
+    if (std::ranges::any_of(t, [&](VertexId v) { return is_of_fan[v.index()] != 0; }))
+      for (const VertexId v : t) least[v.index()] = static_cast<std::uint16_t>(scale.n(v));
+}
+
+}  // namespace
+
+Truncation truncation_of(std::string_view text) {
+  if (text == "auto") return Truncation::automatic;
+  if (text == "never") return Truncation::never;
+  if (text == "always") return Truncation::always;
+  throw_bad_argument("truncating the layer", "there is no \"" + std::string(text) + "\"", {}, "auto, never or always");
+}
+
+LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context)
+    : base_(base), layers_(base.wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), is_fixed_(layers_.size(), 0) {
+  const LineTruncation lines(base, scale, envelope, truncation);
+  parallel_for(context, layers_.size(), [&](std::size_t i) {
+    const VertexId v(i);
+    const int all = scale.n(v);
+    LineChoice choice{all, all, all + 1};
+    is_fixed_[i] = envelope.is_collapsed(v) || base.topology.outgoing(v).empty();
+    if (!is_fixed_[i] && truncation != Truncation::never) choice = lines.choose(v);
+    layers_[i] = static_cast<std::uint16_t>(choice.wanted);
+    least_[i] = static_cast<std::uint16_t>(choice.least);
+    thin_from_[i] = static_cast<std::uint16_t>(choice.thin_from);
+  });
+  if (truncation == Truncation::never) return;
+  keep_fans(base, scale, least_);
+  for (std::size_t i = 0; i < layers_.size(); ++i) layers_[i] = std::max(layers_[i], least_[i]);
+  close_downwards();
+  close_upwards();
+}
+
+namespace {
+
+/// Calls visit(v, queue) for all vertices, then for those that it has put into the queue, until there are none.
+template <class Visit>
+void visit_until_settled(const LayerBase& base, const Visit& visit) {
+  std::vector<VertexId> changed;
+  for (const VertexId v : base.wall.points.ids()) changed.push_back(v);
+  while (!changed.empty()) {
+    std::vector<VertexId> next;
+    for (const VertexId v : changed) visit(v, next);
+    changed = std::move(next);
+  }
+}
+
+}  // namespace
+
+/// Lowers numbers towards those of neighbours, as far as their lines may: to one more, to as many where one more is thin. The result is the largest below what
+/// is given, in whatever order.
+void LayerNumbers::close_downwards() {
+  visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
+    if (is_fixed_[v.index()]) return;
+    const int own = layers_[v.index()];
+    for_each_edge(base_.topology, v, [&](HalfedgeId, VertexId neighbour) {
+      int most = own;
+      for_each_alike(base_, neighbour, [&](VertexId w) { most = std::max<int>(most, least_[w.index()]); });
+      if (most == own) {
+        bool is_thin = false;
+        for_each_alike(base_, neighbour, [&](VertexId w) { is_thin = is_thin || own + 1 >= thin_from_[w.index()]; });
+        most += is_thin ? 0 : 1;
+      }
+      for_each_alike(base_, neighbour, [&](VertexId w) {
+        if (is_fixed_[w.index()] || layers_[w.index()] <= most) return;
+        layers_[w.index()] = static_cast<std::uint16_t>(most);
+        next.push_back(w);
+      });
+    });
+  });
+}
+
+/// Raises numbers towards those of neighbours: to one less, to as many where those are thin.
+void LayerNumbers::close_upwards() {
+  visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
+    if (is_fixed_[v.index()]) return;
+    const int own = layers_[v.index()], beside = own - (own >= thin_from_[v.index()] ? 0 : 1);
+    const auto raise = [&](VertexId w, int least) {
+      if (is_fixed_[w.index()] || layers_[w.index()] >= least) return;
+      layers_[w.index()] = static_cast<std::uint16_t>(least);
+      next.push_back(w);
+    };
+    for_each_alike(base_, v, [&](VertexId w) { raise(w, own); });
+    for_each_edge(base_.topology, v, [&](HalfedgeId, VertexId w) { raise(w, beside); });
+  });
+}
+
+void LayerNumbers::raise(const std::vector<std::uint16_t>& least) {
+  for (std::size_t i = 0; i < layers_.size(); ++i)
+    if (!is_fixed_[i]) layers_[i] = std::max(layers_[i], least[i]);
+  close_upwards();
+}
+
+}  // namespace sterna::volmesh
