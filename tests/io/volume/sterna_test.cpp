@@ -182,9 +182,9 @@ TEST(Sterna, DamageIsFound) {
     damaged(text);
   }
   std::string later = bytes;
-  later[16] = 3;
+  later[16] = 4;
   std::ofstream(path, std::ios::binary) << later;
-  test::expect_error(ErrorCode::unsupported_format, "version 3 of the container", [&] { read_sterna(path, k_context); });
+  test::expect_error(ErrorCode::unsupported_format, "version 4 of the container", [&] { read_sterna(path, k_context); });
 }
 
 template <class T>
