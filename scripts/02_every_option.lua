@@ -194,7 +194,7 @@ mesh:check{ intersections = true, quality = true, cell_centred = true, findings_
 print(pcall(report, { mesh, "every_option.html", title = "every option", cuts = { "nose", { x = 1 } }, automatic_cuts = true, times = true,
   max_triangles = 250000, max_polygons = 100000 }))
 -- mesh:check{ wall = wall } compares the walls with the model, where wall is of surface_mesh: below.
-mesh:write "every_option.vtu"
+mesh:write{ "every_option.vtu", numbering = "automatic" }  -- lines, bandwidth, both: order of nodes and cells in the file
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
 
 -- Pictures (docs/draw.md).

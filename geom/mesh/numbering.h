@@ -42,6 +42,7 @@ NumberingMeasure measure_numbering(const NeighbourGraph& graph, const std::vecto
 NeighbourGraph node_graph(const HybridMesh& mesh, const RunContext& context);
 
 /// The same mesh with other numbers. `both`: lines as wholes and the other nodes by bandwidth_order; columns, cells and boundary faces by their lowest node.
+/// Of a mesh without columns, read from a file, the lines are those of the stacks of prisms on its walls, and prisms of a stack follow each other.
 /// `bandwidth`: the same of all nodes, which leaves no columns. `lines`: as it is.
 HybridMesh renumbered(const HybridMesh& mesh, Numbering numbering, const RunContext& context);
 

@@ -11,6 +11,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/numbering.h"
 #include "geom/mesh/surface_soup.h"
 #include "geom/mesh/tri_mesh.h"
 
@@ -20,6 +21,7 @@ using SurfaceReader = SurfaceSoup (*)(const std::filesystem::path&, const RunCon
 using SurfaceWriter = void (*)(const TriMesh&, const std::filesystem::path&, const RunContext&);
 using VolumeReader = HybridMesh (*)(const std::filesystem::path&, const RunContext&);
 using VolumeWriter = void (*)(const HybridMesh&, const std::filesystem::path&, const RunContext&);
+using NumberedWriter = void (*)(const HybridMesh&, const std::filesystem::path&, Numbering, const RunContext&);
 /// The files of a mesh that is more than one, in a fixed order.
 using FileList = std::vector<std::filesystem::path> (*)(const std::filesystem::path&);
 /// Throws Error(write_failed) where `path` must not be written; called before the work whose result it is to hold.
@@ -38,6 +40,7 @@ struct Format {
   bool carries_patch_names = false;
   FileList files = nullptr;
   OutputTest require_output = nullptr;
+  NumberedWriter write_numbered = nullptr;  ///< of formats that number the cells of all kinds as one: the same as write_volume, with an order of the cells
 
   bool is_read() const { return read_surface || read_volume; }
 };

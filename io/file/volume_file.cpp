@@ -16,10 +16,11 @@ HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext&
   return format.read_volume(path, context.part("read", 0.0, 1.0));
 }
 
-void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name) {
+void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name, Numbering cells) {
   const Format& format = format_to_write(path, FormatUse::write_volume, format_name);
   const StageTimer timer(context, "write");
-  format.write_volume(mesh, path, context.part("write", 0.0, 1.0));
+  if (format.write_numbered) format.write_numbered(mesh, path, cells, context.part("write", 0.0, 1.0));
+  else format.write_volume(mesh, path, context.part("write", 0.0, 1.0));
 }
 
 }  // namespace sterna::io

@@ -6,6 +6,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/numbering.h"
 
 namespace sterna::io {
 
@@ -15,8 +16,9 @@ namespace sterna::io {
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes a volume mesh; format by extension, or named. Writes to a temporary name in the same folder, syncs, renames: an existing file stays as it was on
-/// failure.
-/// \throws Error unsupported_format, write_failed, overflow.
-void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {});
+/// failure. Nodes keep their numbers (renumbered() gives others); so do cells, but formats that number cells of all kinds as one (OpenFOAM, Fluent) take
+/// `cells`, as MeshFaces::order_cells has it. \throws Error unsupported_format, write_failed, overflow.
+void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {},
+                       Numbering cells = Numbering::lines);
 
 }  // namespace sterna::io

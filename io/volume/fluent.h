@@ -5,6 +5,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/numbering.h"
 #include "geom/mesh/surface_soup.h"
 
 namespace sterna::io {
@@ -20,5 +21,8 @@ SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunCont
 /// Writes text; cells are numbered column by column, faces have their normal into the first cell.
 /// \throws Error overflow (2^31 faces), mesh_invalid (faces that do not match), write_failed, cancelled
 void write_volume_fluent(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
+/// The same with the cells in another order (MeshFaces::order_cells); nodes as they are.
+void write_numbered_fluent(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context);
 
 }  // namespace sterna::io

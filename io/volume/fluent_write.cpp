@@ -71,8 +71,9 @@ char* put_face(char* at, std::span<const NodeId> nodes, std::uint64_t inner, std
 
 class FluentWriter {
  public:
-  FluentWriter(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context)
+  FluentWriter(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context)
       : mesh_(mesh), faces_(mesh, context.part("faces", 0.0, 0.3)), by_patch_(mesh) {
+    if (numbering != Numbering::lines) faces_.order_cells(numbering, context.part("numbering", 0.3, 0.3));
     n_faces_ = faces_.n_internal() + mesh.boundary_triangles.size() + mesh.boundary_quads.size();
     require_count(mesh.points.size(), k_max_int32, "nodes", "Fluent", path.string());
     require_count(n_faces_, k_max_int32, "faces", "Fluent", path.string());
@@ -181,9 +182,13 @@ void warn_of_lost_kinds(const HybridMesh& mesh, const std::vector<std::string>& 
 }  // namespace
 
 void write_volume_fluent(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_numbered_fluent(mesh, path, Numbering::lines, context);
+}
+
+void write_numbered_fluent(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context) {
   const std::vector<std::string> names = names_by_rules(mesh.patches, {.format = "Fluent", .forbidden = "()\"'`,;\\#|", .may_have_blanks = false}, context);
   warn_of_lost_kinds(mesh, names, context);
-  FluentWriter writer(mesh, path, context);
+  FluentWriter writer(mesh, path, numbering, context);
   const std::vector<OutputSection> sections = writer.sections(names);
   AtomicFile file(path);
   write_sections(file, sections, context.part("write", 0.3, 1.0));

@@ -198,6 +198,8 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   add_schema_options(*command, all_options(surface, volume), mesh.options);
+  WriteOptions writing;
+  add_schema_options(*command, sterna::options_of(writing), mesh.writing);
   add_set_option(*command, set);
   add_cache_options(*command, mesh.cache);
   add_patch_option(*command, mesh.patches,
@@ -212,7 +214,11 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
     for (auto& [names, options] : mesh.patches)
       for (auto& [name, text] : options) text = with_degrees(name, text);
     for (const auto& [name, value] : set)
-      (name.starts_with("half.") ? mesh.half : name.starts_with("remesh.") ? mesh.remesh : mesh.options).emplace_back(name, value);
+      (name.starts_with("half.")     ? mesh.half
+       : name.starts_with("remesh.") ? mesh.remesh
+       : name.starts_with("write.")  ? mesh.writing
+                                     : mesh.options)
+          .emplace_back(name, value);
     request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
     request.trouble = beside(mesh.outputs.front());
   });
@@ -419,6 +425,8 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   ReadCadOptions reading;
   WriteCadOptions writing;
   for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing)}) add_schema_options(*command, table, convert.options);
+  WriteOptions of_mesh;
+  add_schema_options(*command, sterna::options_of(of_mesh), convert.writing);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(convert, context); };
     request.trouble = beside(convert.output);

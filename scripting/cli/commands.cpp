@@ -412,13 +412,17 @@ int execute(const RunCommand& command, const CommandContext& context) {
 
 int execute(const MeshCommand& command, const CommandContext& context) {
   for (const auto& output : command.outputs) require_mesh_output(output);
+  WriteOptions writing;
+  CommandContext of_files = context;  // --show-options shows those of the stages, further on
+  of_files.only_options = false;
+  set_options(sterna::options_of(writing), command.writing, of_files);
   const Clock::time_point start = Clock::now();
   const StageContent steps = steps_of(command, context);
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
   const Reuse reuse{.cache = cache.get(), .lines = nullptr};
   const MeshValue mesh = steps.envelope ? continue_mesh(steps, command, reuse, context) : make_mesh(command, reuse, context);
   const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
-  for (const auto& output : command.outputs) write_mesh(mesh, output, write_part);
+  for (const auto& output : command.outputs) write_mesh(mesh, output, writing, write_part);
   const RunMeasure measure{
       .wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
 
@@ -658,11 +662,13 @@ int execute(const InfoCommand& command, const CommandContext& context) {
 
 int execute(const ConvertCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return convert_model(command, context);
+  ConvertSettings settings = command.settings;
+  set_options(sterna::options_of(settings.writing), command.writing, context);
   if (!command.options.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "convert",
                  .problem = "option " + command.options.front().first + " is for models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is none"});
-  const std::string what = convert({command.input, command.input}, command.output, command.settings, context.run);
+  const std::string what = convert({command.input, command.input}, command.output, settings, context.run);
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + what);
   return k_exit_success;

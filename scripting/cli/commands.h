@@ -54,6 +54,7 @@ struct MeshCommand {
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   bool is_remeshed = false;           ///< the surface gets new triangles first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
+  OptionOverrides writing;            ///< --numbering and --set write.numbering=both
   CacheChoice cache;
 };
 
@@ -131,6 +132,7 @@ struct ConvertCommand {
   std::filesystem::path output;
   ConvertSettings settings;
   OptionOverrides options;  ///< of models: --unit, --tolerance ...
+  OptionOverrides writing;  ///< of volume meshes: --numbering
 };
 
 /// `sterna info` and `sterna check` of a model file (model_commands.cpp): what it holds with its reference data; whether it is closed, with every open edge.

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double k_convert_read_end = 0.5;  // reading and writing take about the same time
 
-std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
-  io::write_volume_file(mesh, output, context, format);
+std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context) {
+  write_mesh_alone(mesh, output, settings.format, settings.writing, context);
   return fmt::format("volume mesh, {} nodes, {} cells, {} patches", count_text(static_cast<std::int64_t>(mesh.points.size())),
                      count_text(count_cells(mesh).total()), mesh.patches.size());
 }
@@ -56,7 +56,7 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
                  .attempted = "converting " + input.name + " into " + output.string(),
                  .problem = "the input is a volume mesh of " + count_text(count_cells(mesh).total()) + " cells, the output's format holds surfaces only",
                  .hint = "--surface writes the boundary; volume meshes are written as " + io::list_formats_with(io::FormatUse::write_volume)});
-  return convert_volume(mesh, output, settings.format, context.part("write", k_convert_read_end, 1.0));
+  return convert_volume(mesh, output, settings, context.part("write", k_convert_read_end, 1.0));
 }
 
 }  // namespace sterna::scripting

@@ -117,7 +117,7 @@ int execute(const PentagrowCommand& command, const CommandContext& context) {
 
   const MeshValue mesh = make_volume_mesh(wall, given.options, {}, context.run.part("volume_mesh", k_pentagrow_read_end, k_pentagrow_mesh_end));
   const RunContext write_part = context.run.part("write", k_pentagrow_mesh_end, 1.0);
-  for (const auto& output : given.outputs) write_mesh(mesh, output, write_part);
+  for (const auto& output : given.outputs) write_mesh(mesh, output, {}, write_part);
   io::write_surface_file(envelope_of(mesh.mesh), "outermost.vtu", write_part);
   io::write_surface_file(tetrahedra_boundary(mesh.mesh), "boundaries.smesh", write_part);
   io::write_whole("sumcos.txt", skew_text(mesh.mesh));

@@ -185,14 +185,22 @@ ScriptValue write_surface_files(const ScriptCall& call) {
 
 ScriptValue write_mesh_files(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
-  const auto names = output_names(call);
+  WriteOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  const auto names = output_names(call, schema);
+  apply_overrides(call, schema);
   for (const auto& name : names) require_mesh_output(name);
   finish_checks(call);
   for (const auto& name : names) {
-    write_mesh(*mesh, name, call.session.context);
+    write_mesh(*mesh, name, options, call.session.context);
     call.session.context.info("wrote " + name.string() + " and " + name.string() + ".json");
   }
   return mesh;
+}
+
+std::string write_files_help() {
+  WriteOptions options;
+  return options_help(sterna::options_of(options));
 }
 
 std::string check_help() {
@@ -359,8 +367,8 @@ constexpr ScriptVerb k_write_surface = {"surface:write", "wall:write \"wall.vtu\
 constexpr std::array<ScriptVerb, 4> k_mesh_methods = {{
     {"mesh:check", "mesh:check()  or  mesh:check{ wall = wall }",
      "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
-    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr,
-     true, "self"},
+    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")  or  mesh:write{ \"mesh.su2\", numbering = \"both\" }",
+     "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, write_files_help, true, "self"},
     {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.",
      write_su2_config, su2_config_help, true, "self"},
     {"mesh:foam_case", k_foam_case_usage,

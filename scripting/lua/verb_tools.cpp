@@ -58,7 +58,7 @@ std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {
   return files;
 }
 
-std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
+std::vector<std::filesystem::path> output_names(const ScriptCall& call, const OptionTable& schema) {
   std::vector<std::filesystem::path> names;
   const auto add = [&](const ScriptValue& value) {
     if (const auto* name = std::get_if<std::string>(&value)) names.push_back(output_path(call, *name));
@@ -67,9 +67,13 @@ std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
   for (std::size_t i = 1; i < call.arguments.size(); ++i) {
     const auto* table = std::get_if<TableHandle>(&call.arguments[i]);
     if (!table) add(call.arguments[i]);
-    else if (!(*table)->fields.empty()) reject(call, "takes file names and no options (\"" + (*table)->fields.begin()->first + "\")");
-    else
-      for (const ScriptValue& item : (*table)->items) add(item);
+    else {
+      if (schema.empty() && !(*table)->fields.empty()) reject(call, "takes file names and no options (\"" + (*table)->fields.begin()->first + "\")");
+      TableReader reader(**table, call.attempted());
+      for (const ScriptValue& item : reader.items()) add(item);
+      reader.read_options(schema);
+      reader.finish();
+    }
   }
   if (names.empty()) reject(call, "needs at least one file name");
   for (const auto& name : names) note_output(call, name);

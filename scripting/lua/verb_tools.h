@@ -37,8 +37,8 @@ InputPath find_input(const ScriptCall& call, const std::string& name);
 std::filesystem::path output_path(const ScriptCall& call, const std::string& name);
 /// The unnamed entries of a table as names of input files; notes problems.
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader);
-/// mesh:write("a.su2", "b.vtu") or mesh:write{...}: the names after the object.
-std::vector<std::filesystem::path> output_names(const ScriptCall& call);
+/// mesh:write("a.su2", "b.vtu") or mesh:write{...}: the names after the object; in a table also the options of the schema.
+std::vector<std::filesystem::path> output_names(const ScriptCall& call, const OptionTable& schema = {});
 
 /// The command line's --set values for these options; they win over the script.
 void apply_overrides(const ScriptCall& call, const OptionTable& options);

@@ -136,7 +136,19 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context) {
 void require_mesh_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_volume); }
 void require_surface_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_surface); }
 
-void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const RunContext& context) {
+void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path, std::string_view format_name, const WriteOptions& options,
+                      const RunContext& context) {
+  const io::Format& format = io::format_to_write(path, io::FormatUse::write_volume, format_name);
+  const Numbering numbering = options.numbering != "automatic" ? numbering_of(options.numbering)
+                              : format.name == "OpenFOAM"      ? Numbering::both
+                                                               : Numbering::lines;
+  if (numbering == Numbering::lines || format.name == "sterna") return io::write_volume_file(mesh, path, context, format_name);
+  // Cells that are numbered as one have an order of their own, which needs the columns; solvers with values in cells hardly feel the nodes.
+  const HybridMesh numbered = renumbered(mesh, format.write_numbered ? Numbering::both : numbering, context);
+  io::write_volume_file(numbered, path, context, format_name, numbering);
+}
+
+void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const WriteOptions& options, const RunContext& context) {
   const std::filesystem::path path = given.has_filename() ? given : given.parent_path();  // a folder may end in a slash
   const StageTimer timer(context, "write");
   const RunContext part = context.part("write " + path.filename().string(), 0.0, 1.0);
@@ -147,7 +159,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
                       .quality = mesh.check ? to_json(*mesh.check) : std::string()},
                      path, part);
   } else {
-    io::write_volume_file(mesh.mesh, given, part);  // its slash tells a folder that is still to be made
+    write_mesh_alone(mesh.mesh, given, {}, options, part);  // its slash tells a folder that is still to be made
   }
   write_manifest(mesh, path, context);
 }

@@ -15,6 +15,7 @@
 #include "scripting/cache/provenance.h"
 #include "scripting/lua/handles.h"
 #include "scripting/lua/input_path.h"
+#include "scripting/values/write_options.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/remesh/remesh_surface.h"
@@ -112,9 +113,14 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context);
 void require_mesh_output(const std::filesystem::path& path);
 
 /// Writes the mesh and, once that is done, its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file appears whole or
-/// not at all.
+/// not at all. A .sterna file keeps the numbers of nodes and cells, whatever the options say.
 /// \throws Error of io.
-void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
+void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const WriteOptions& options, const RunContext& context);
+
+/// A mesh without a manifest, in a format by its name in the table, or by the extension where that is empty.
+/// \throws Error of io.
+void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path, std::string_view format, const WriteOptions& options,
+                      const RunContext& context);
 
 /// \throws Error unsupported_format or write_failed when a surface cannot be written to a file of this name. Before the work.
 void require_surface_output(const std::filesystem::path& path);

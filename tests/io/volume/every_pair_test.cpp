@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <sstream>
 
 #include "geom/mesh/check.h"
+#include "geom/mesh/numbering.h"
 #include "io/file/format_table.h"
 #include "io/file/volume_file.h"
 #include "io/names/patch_names.h"
@@ -15,6 +17,7 @@
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/half_shapes.h"
+#include "tests/support/hybrid_shapes.h"
 
 namespace sterna::io {
 namespace {
@@ -39,7 +42,8 @@ std::vector<Variant> variants() {
 }
 
 /// Writes and reads; what was told on the way.
-HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::filesystem::path& folder, std::vector<std::string>* told = nullptr) {
+HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::filesystem::path& folder, std::vector<std::string>* told = nullptr,
+                   Numbering cells = Numbering::lines) {
   const RunContext context({.threads = 2, .log = [told](LogLevel level, std::string_view text) {
                               if (told && level == LogLevel::warning) told->emplace_back(text);
                             }});
@@ -48,7 +52,7 @@ HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::fi
                                                                         : folder / "case" / "constant" / variant.extension;
   std::filesystem::remove_all(path);
   std::filesystem::create_directories(path.parent_path());
-  write_volume_file(mesh, path, context, variant.format->name);
+  write_volume_file(mesh, path, context, variant.format->name, cells);
   return read_volume_file(path, context);
 }
 
@@ -215,6 +219,61 @@ TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
     const HybridMesh back = through(mesh, variant, test::scratch(), &told);
     expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
   }
+}
+
+/// The same whatever the numbers are: each cell as its points.
+std::vector<std::vector<std::array<double, 3>>> cells_by_points(const HybridMesh& mesh) {
+  std::vector<std::vector<std::array<double, 3>>> cells;
+  for_each_cell(mesh, [&](const Cell& cell) {
+    std::vector<std::array<double, 3>> points;
+    for (const NodeId node : cell.span()) points.push_back({mesh.points[node].x, mesh.points[node].y, mesh.points[node].z});
+    std::ranges::sort(points);
+    cells.push_back(std::move(points));
+  });
+  std::ranges::sort(cells);
+  return cells;
+}
+
+/// How often the next prism of a file does not stand on the one before: the number of columns where these are whole.
+std::size_t count_stacks(const HybridMesh& mesh) {
+  std::size_t n = 0;
+  std::vector<NodeId> before;
+  for_each_cell(mesh, [&](const Cell& cell) {
+    if (cell.kind != CellKind::prism) return;
+    std::vector<NodeId> nodes(cell.span().begin(), cell.span().end()), common;
+    std::ranges::sort(nodes);
+    std::ranges::set_intersection(nodes, before, std::back_inserter(common));
+    n += common.size() == 3 ? 0 : 1;
+    before = std::move(nodes);
+  });
+  return n;
+}
+
+/// What line-implicit solvers need of a file: the nodes of each line, and the prisms of each column, follow each other from the wall on.
+TEST(EveryVolumeFormat, KeepsTheOrderForSolvers) {
+  const HybridMesh mesh = test::sphere_shell(6, {.n_layers = 5});
+  const RunContext context({.threads = 2});
+  const auto given = cells_by_points(mesh);
+  for (const Numbering numbering : {Numbering::bandwidth, Numbering::both}) {
+    const HybridMesh numbered = renumbered(mesh, numbering, context);
+    ASSERT_TRUE(cells_by_points(numbered) == given);
+    EXPECT_LT(measure_numbering(node_graph(numbered, context)).mean_profile, 0.7 * measure_numbering(node_graph(mesh, context)).mean_profile);
+    const Content content(numbered);
+    for (const Variant& variant : variants()) {
+      SCOPED_TRACE(variant.name());
+      const HybridMesh back = through(numbered, variant, test::scratch(), nullptr, numbering);
+      expect_same_content(back, content, 8.0 * precision_of(variant));
+      if (numbering == Numbering::both) EXPECT_EQ(count_stacks(back), mesh.layers.n_columns());
+    }
+  }
+  // Where a file has lost the columns, the lines are found by the prisms that stand on walls.
+  const HybridMesh found = renumbered(explicit_cells(renumbered(mesh, Numbering::bandwidth, context)), Numbering::both, context);
+  EXPECT_TRUE(cells_by_points(found) == given);
+  EXPECT_EQ(count_stacks(found), mesh.layers.n_columns());
+  std::size_t n_steps = 0;
+  for (const auto& prism : found.prisms)
+    for (std::size_t k = 0; k < 3; ++k) n_steps += prism[k + 3].value() == prism[k].value() + 1 ? 1 : 0;
+  EXPECT_EQ(n_steps, 3 * found.prisms.size()) << "each node has the next number of the one below it";
 }
 
 TEST(EveryVolumeFormat, EveryPairKeepsCellsFacesAndNames) {

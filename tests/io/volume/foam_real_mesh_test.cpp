@@ -101,7 +101,7 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
                              "\", split_angle = 60*deg }\n"
                              "local mesh = volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length }, "
                              "stages = \"case.sterna\" }\n"
-                             "mesh:write(\"case.bin.foam\", \"text.foam\")\n";
+                             "mesh:write{ \"case.bin.foam\", \"text.foam\", numbering = \"lines\" }\n";  // tetrahedra are told by their numbers
   std::ofstream(folder / "case.lua") << script;
   test::make_foam_case(folder / "case.bin.foam");
   test::make_foam_case(folder / "text.foam");
