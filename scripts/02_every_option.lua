@@ -126,6 +126,7 @@ local mesh = volume_mesh{ wall,
   },
   prisms = {
     wall_perpendicularity = 1.0,
+    truncate = "never",
   },
   patches = {                         -- what patches with such names ask for instead; of two patterns that match the one with more letters counts
     ["*"] = {

@@ -90,7 +90,7 @@ std::string skew_text(const HybridMesh& mesh) {
   std::int64_t n = 0;
   const LayerBlock& layers = mesh.layers;
   for (std::size_t c = 0; c < layers.n_columns(); ++c) {
-    for (int j = 0, n = layers.ends_of_column(c)[0]; j < n; ++j) {
+    for (int j = 0, n_prisms = layers.ends_of_column(c)[0]; j < n_prisms; ++j) {
       const Cell cell = layers.cell(c, j);
       WedgePoints corners;
       for (std::size_t k = 0; k < 6; ++k) corners[k] = mesh.points[cell.nodes[k]];
