@@ -137,6 +137,7 @@ const std::map<std::string, Change> k_changes = {
     {"envelope.membrane_weight", {"0"}},
     {"envelope.barrier_weight", {"0.5"}},
     {"prisms.wall_perpendicularity", {"0.4"}},
+    {"prisms.truncate", {"always", "cubes"}},
     {"farfield.farfield_shape", {"cylinder"}},
     {"farfield.farfield_radius", {"9"}},
     {"farfield.farfield_edge", {"1.5"}},
