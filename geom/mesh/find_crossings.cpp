@@ -300,4 +300,11 @@ CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::
   return found;
 }
 
+CrossingPairs find_crossings(const TriMesh& mesh, const RunContext& context, std::size_t limit) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(mesh.n_triangles());
+  for (const TriangleVertices& v : mesh.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
+  return find_crossings(mesh.points.raw(), triangles, context, limit);
+}
+
 }  // namespace sterna

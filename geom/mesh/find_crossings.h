@@ -12,6 +12,8 @@
 
 namespace sterna {
 
+struct TriMesh;
+
 /// All crossing pairs (i < j) by triangles_cross, sorted; parallel over a tree of boxes, about 1e6 triangles/s/core measured on clean surfaces. At most `limit`
 /// pairs are returned (the first in order), `total` counts all.
 struct CrossingPairs {
@@ -21,5 +23,7 @@ struct CrossingPairs {
 /// \throws Error(bad_argument) for an index out of range or a triangle's point that is not finite.
 CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, const RunContext& context,
                              std::size_t limit = static_cast<std::size_t>(-1));
+/// The same of a mesh.
+CrossingPairs find_crossings(const TriMesh& mesh, const RunContext& context, std::size_t limit = static_cast<std::size_t>(-1));
 
 }  // namespace sterna

@@ -28,7 +28,7 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
   using O = surfmesh::PatchSurfaceOptions;
   static constexpr std::string_view stage = "patches";
   static constexpr std::string_view as_all = "as of all patches";
-  static constexpr std::array fields = {
+  static constexpr std::array own_fields = {
       Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of faces"},
       Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = as_all},
       Field<O>{.name = "min_edge",
@@ -62,42 +62,6 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
                .max = 1.0,
                .help = "of the longest edge, at trailing edges",
                .automatic = as_all},
-      Field<O>{.name = "leading_edge_chordwise",
-               .member = &O::leading_edge_chordwise,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "first cell beside leading edges",
-               .automatic = as_all},
-      Field<O>{.name = "leading_edge_stretch",
-               .member = &O::leading_edge_stretch,
-               .min = 1.0,
-               .max = 50.0,
-               .help = "longest cell along : first cell across",
-               .automatic = as_all},
-      Field<O>{.name = "leading_edge_growth",
-               .member = &O::leading_edge_growth,
-               .min = 1.01,
-               .max = 1.2,
-               .help = "ratio of rows that follow each other",
-               .automatic = as_all},
-      Field<O>{.name = "trailing_edge_chordwise",
-               .member = &O::trailing_edge_chordwise,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "first cell beside trailing edges",
-               .automatic = as_all},
-      Field<O>{.name = "trailing_edge_stretch",
-               .member = &O::trailing_edge_stretch,
-               .min = 1.0,
-               .max = 50.0,
-               .help = "longest cell along : first cell across",
-               .automatic = as_all},
-      Field<O>{.name = "trailing_edge_growth",
-               .member = &O::trailing_edge_growth,
-               .min = 1.01,
-               .max = 1.2,
-               .help = "ratio of rows that follow each other",
-               .automatic = as_all},
       Field<O>{.name = "trailing_edge_cells",
                .member = &O::trailing_edge_cells,
                .min = 1.0,
@@ -105,6 +69,7 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
                .help = "cells across the base of blunt trailing edges",
                .automatic = as_all},
   };
+  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(as_all, as_all, as_all));
 };
 
 }  // namespace sterna

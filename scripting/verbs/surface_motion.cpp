@@ -27,9 +27,7 @@ std::vector<volmesh::PlacedPart> parts_of(const SurfaceValue& surface) {
 }
 
 void require_apart(const TriMesh& mesh, const RunContext& context) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const TriangleVertices& v : mesh.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
-  const CrossingPairs found = find_crossings(mesh.points.raw(), triangles, context, k_most_pairs);
+  const CrossingPairs found = find_crossings(mesh, context, k_most_pairs);
   if (found.total == 0) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = "putting surfaces side by side",

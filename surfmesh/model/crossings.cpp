@@ -192,10 +192,7 @@ TroubleGeometry draw(const SurfaceMesh& mesh, const MeshCrossings& crossings) {
 }  // namespace
 
 MeshCrossings find_mesh_crossings(const Model& model, const SurfaceMesh& mesh, const RunContext& context) {
-  std::vector<std::array<std::uint32_t, 3>> triangles(mesh.mesh.n_triangles());
-  for (const TriangleId t : mesh.mesh.triangles.ids())
-    for (std::size_t k = 0; k < 3; ++k) triangles[t.index()][k] = mesh.mesh.triangles[t][k].value();
-  const CrossingPairs found = find_crossings(mesh.mesh.points.raw(), triangles, context, k_most_pairs);
+  const CrossingPairs found = find_crossings(mesh.mesh, context, k_most_pairs);
   MeshCrossings result{{}, found.total, {}};
   if (found.pairs.empty()) return result;
   const Parts parts = parts_of(model);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/joined.h"
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
@@ -178,11 +179,58 @@ std::string to_text(const SurfaceMeshReport& report);
 
 namespace sterna {
 
+namespace surfmesh {
+
+/// The options of rows at leading and trailing edges, of every struct that has them. The texts say what it means when nothing is given.
+template <class O>
+constexpr std::array<Field<O>, 6> edge_row_fields(std::string_view no_first, std::string_view no_stretch, std::string_view no_growth = {}) {
+  return {{{.name = "leading_edge_chordwise",
+            .member = &O::leading_edge_chordwise,
+            .unit = Unit::metre,
+            .min = 1e-9,
+            .help = "first cell beside leading edges, in rows of stretched triangles",
+            .automatic = no_first},
+           {.name = "leading_edge_stretch",
+            .member = &O::leading_edge_stretch,
+            .min = 1.0,
+            .max = 50.0,
+            .help = "longest cell along : first cell across",
+            .automatic = no_stretch},
+           {.name = "leading_edge_growth",
+            .member = &O::leading_edge_growth,
+            .min = 1.01,
+            .max = 1.2,
+            .help = "ratio of rows that follow each other",
+            .automatic = no_growth},
+           {.name = "trailing_edge_chordwise",
+            .member = &O::trailing_edge_chordwise,
+            .unit = Unit::metre,
+            .min = 1e-9,
+            .help = "first cell beside trailing edges, on both sides, or beside the base of blunt ones",
+            .automatic = no_first},
+           {.name = "trailing_edge_stretch",
+            .member = &O::trailing_edge_stretch,
+            .min = 1.0,
+            .max = 50.0,
+            .help = "longest cell along : first cell across",
+            .automatic = no_stretch},
+           {.name = "trailing_edge_growth",
+            .member = &O::trailing_edge_growth,
+            .min = 1.01,
+            .max = 1.2,
+            .help = "ratio of rows that follow each other",
+            .automatic = no_growth}}};
+}
+
+inline constexpr std::string_view k_no_rows = "no rows, or the longest edge by the stretch", k_no_row_stretch = "no rows, or 10";
+
+}  // namespace surfmesh
+
 template <>
 struct Schema<surfmesh::SurfaceMeshOptions> {
   using O = surfmesh::SurfaceMeshOptions;
   static constexpr std::string_view stage = "surface_mesh";
-  static constexpr std::array fields = {
+  static constexpr std::array own_fields = {
       Field<O>{.name = "max_edge",
                .member = &O::max_edge,
                .unit = Unit::metre,
@@ -257,39 +305,14 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
                .min = 1,
                .max = 2e9,
                .help = "more than that are an error, at once where sizes and areas foretell it"},
-      Field<O>{.name = "leading_edge_chordwise",
-               .member = &O::leading_edge_chordwise,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "first cell beside leading edges of wings, in a band of stretched triangles",
-               .automatic = "no band, or the longest edge by the stretch"},
-      Field<O>{.name = "leading_edge_stretch",
-               .member = &O::leading_edge_stretch,
-               .min = 1.0,
-               .max = 50.0,
-               .help = "longest cell along : first cell across",
-               .automatic = "no band, or 10"},
-      Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
-      Field<O>{.name = "trailing_edge_chordwise",
-               .member = &O::trailing_edge_chordwise,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "first cell beside trailing edges of wings, on both sides",
-               .automatic = "no band, or the longest edge by the stretch"},
-      Field<O>{.name = "trailing_edge_stretch",
-               .member = &O::trailing_edge_stretch,
-               .min = 1.0,
-               .max = 50.0,
-               .help = "longest cell along : first cell across",
-               .automatic = "no band, or 10"},
-      Field<O>{.name = "trailing_edge_growth", .member = &O::trailing_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
       Field<O>{.name = "trailing_edge_cells",
                .member = &O::trailing_edge_cells,
                .min = 1.0,
                .max = 100.0,
                .help = "cells across the base of blunt trailing edges (rounded to a whole number)",
-               .automatic = "as sizes say; with a band its first cell"},
+               .automatic = "as sizes say; with rows their first cell"},
   };
+  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch));
 };
 
 }  // namespace sterna

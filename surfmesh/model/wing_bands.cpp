@@ -18,24 +18,9 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
-/// Normals at so many places of an edge decide what it is; one may say something else (a nick at a junction).
-constexpr int k_looks = 9, k_agreeing = 8;
 constexpr double k_smooth_turn = 20.0 * k_degree;
-/// "Sharp" as in method.md section 1.
-constexpr double k_sharp_turn = 120.0 * k_degree;
-/// Between a base and the sides of the wing.
-constexpr double k_base_turn_from = 40.0 * k_degree, k_base_turn_to = 140.0 * k_degree;
-/// Component along the flow (x) of where an edge looks: wings may be swept by 78 degrees.
-constexpr double k_looks_along = 0.2;
-/// A nose's radius is at most this part of the width of its faces: RAE 2822 has 0.008, a half cylinder 0.32.
-constexpr double k_nose_radius = 0.125;
-/// A base is this much longer than wide, and narrower than this part of the faces beside it (when its role does not say that it is one).
-constexpr double k_strip_length = 3.0, k_strip_width = 0.1;
 /// Triangles beyond that are of no use even below prisms (recipes.md section 2).
 constexpr double k_largest_stretch = 50.0;
-/// Of the distance to the opposite border, what rows of one band may take.
-constexpr double k_share_of_chord = 0.4;
-
 /// A use of an edge, or of one that is the same.
 struct Side {
   EdgeUsePlace place;
@@ -71,7 +56,7 @@ Look look(const Model& model, const Side& side, double share) {
 
 /// The same for the faces of a solid and those of the fluid around it, whose normals look the other way.
 struct BandShape {
-  int n_smooth = 0, n_sharp = 0;
+  std::size_t n_smooth = 0, n_sharp = 0;
   int n_base = 0;          ///< convex ones less concave ones
   double looks = 0.0;      ///< mean x of where the edge looks
   double curvature = 0.0;  ///< mean across, the lesser side's
@@ -80,7 +65,7 @@ struct BandShape {
 BandShape shape_of(const Model& model, const Side& a, const Side& b) {
   BandShape shape;
   int n = 0;
-  for (int k = 1; k <= k_looks; ++k) {
+  for (std::size_t k = 1; k <= k_looks; ++k) {
     const double share = static_cast<double>(k) / (k_looks + 1);
     const Look p = look(model, a, share), q = look(model, b, share);
     if (!p.is_valid || !q.is_valid) continue;
@@ -192,7 +177,7 @@ std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
     if (face.role != FaceRole::trailing_edge && strip.width > k_strip_width * area_of(finding, other->place.face) / use.length) return std::nullopt;
     looks -= 0.5 * look(model, *other, 0.5).inwards.x;
   }
-  if (std::abs(n_base) < 2 * k_agreeing || looks < k_looks_along) return std::nullopt;
+  if (std::abs(n_base) < 2 * static_cast<int>(k_agreeing) || looks < k_looks_along) return std::nullopt;
   for (std::size_t i = 0; i < uses.size(); ++i) {
     if (i == a || i == b) continue;
     if (k_strip_length * uses[i].length > std::min(uses[a].length, uses[b].length)) return std::nullopt;

@@ -11,6 +11,7 @@
 #include "surfmesh/face/band_rows.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/model_topology.h"
+#include "surfmesh/model/wing_edges.h"
 
 namespace sterna::surfmesh {
 
@@ -19,8 +20,6 @@ inline constexpr double k_largest_kink = 70.0 * std::numbers::pi / 180.0;
 
 /// Sine between a band and edges that leave it, at least.
 inline constexpr double k_steep_sine = 0.42;
-
-enum class BandKind { leading, trailing };
 
 /// An edge with rows of triangles on faces beside it.
 struct BandEdge {

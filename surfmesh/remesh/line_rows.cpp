@@ -7,36 +7,24 @@
 
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
+#include "surfmesh/face/band_rows.h"
 #include "surfmesh/model/band_wish.h"
+#include "surfmesh/model/wing_edges.h"
 #include "surfmesh/remesh/remesh_sizes.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-/// A line is looked at in so many places; one of nine may say something else.
-constexpr std::size_t k_row_looks = 9;
-constexpr double k_row_agreeing = 8.0 / 9.0;
-/// As of edges of CAD (wing_bands.cpp): sharp, between a base and the sides of the wing, and the part of x in where an edge looks.
-constexpr double k_sharp_line = 120.0 * k_degree;
-constexpr double k_base_from = 40.0 * k_degree, k_base_to = 140.0 * k_degree;
-constexpr double k_looks_aft = 0.2;
-/// A base is longer than wide by this, and narrower than this part of what is beside it.
-constexpr double k_base_length = 3.0, k_base_width = 0.1;
-/// A nose's radius is at most this part of the width beside it, as of CAD (wing_bands.cpp), seen over this part of it, and it is longer than this part of it.
-constexpr double k_widest_nose = 0.125, k_nose_probe = 0.01, k_nose_length = 0.25;
+/// A nose is looked at over this part of the width beside it, and is longer than that part of it.
+constexpr double k_nose_probe = 0.01, k_nose_length = 0.25;
 /// Sides of a leading edge are as wide as each other within this factor.
 constexpr double k_alike_width = 3.0;
-/// Change of the length along by distance where rows of a nose end.
-constexpr double k_change_at_ends = 0.3;
 /// Triangles that one way across the surface passes.
 constexpr int k_most_passed = 100'000;
 
-enum class LineKind { leading, trailing };
-
 /// A line at one place.
 struct LineLook {
-  std::array<TriangleId, 2> triangle;  ///< left, right
-  double turn = 0.0;                   ///< rad
+  double turn = 0.0;  ///< rad
   bool is_convex = false;
   Vec3 looks;                   ///< unit: away from both sides, in the middle between them
   std::array<Vec3, 2> normal;   ///< of the surface beside it
@@ -51,7 +39,6 @@ LineLook look_at_line(const Reference& r, const FeatureLine& line, std::size_t s
   std::array<Vec3, 2> inwards;
   for (std::size_t k = 0; k < 2; ++k) {
     const HalfedgeId h = sides[k];
-    look.triangle[k] = triangle_of(h);
     look.normal[k] = normalized(r.normals[h] + r.normals[next(h)]);
     const Vec3 along = r.mesh->points[r.topology.to(h)] - r.mesh->points[r.topology.from(h)];
     inwards[k] = normalized(cross(look.normal[k], along));
@@ -64,36 +51,31 @@ LineLook look_at_line(const Reference& r, const FeatureLine& line, std::size_t s
 }
 
 struct LineShape {
-  std::size_t n = 0, n_sharp = 0, n_convex = 0, n_corner = 0;
-  double looks = 0.0;                     ///< mean x
-  std::array<double, 2> looks_of_side{};  ///< mean x of each side's normal
-  std::array<double, 2> width{};          ///< m, mean
+  std::size_t n_sharp = 0, n_convex = 0, n_corner = 0;  ///< of k_looks
+  double looks = 0.0;                                   ///< mean x
+  std::array<double, 2> looks_of_side{};                ///< mean x of each side's normal
+  std::array<double, 2> width{};                        ///< m, mean
 };
 
-LineShape shape_of_line(const Reference& r, const FeatureLine& line) {
+/// Where on a line the k-th look is, as a segment.
+std::uint32_t segment_of_look(const Reference& r, std::int32_t line, std::size_t k) {
+  const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(k_looks);
+  return r.line_place(line, share * r.lines[static_cast<std::size_t>(line)].length()).segment;
+}
+
+/// \param most m, widths above are of no interest
+LineShape shape_of_line(const Reference& r, std::int32_t number, double most) {
   LineShape shape;
-  const std::size_t n_segments = line.halfedges.size();
-  for (std::size_t k = 0; k < k_row_looks; ++k) {
-    const double s = line.length() * (static_cast<double>(k) + 0.5) / static_cast<double>(k_row_looks);
-    const auto after = std::upper_bound(line.lengths.begin() + 1, line.lengths.end() - 1, s);
-    const std::size_t segment = std::min(static_cast<std::size_t>(after - line.lengths.begin()) - 1, n_segments - 1);
-    const LineLook look =
-        look_at_line(r, line, segment, line.length() + 1e3 * distance(r.mesh->points[line.vertices.front()], r.mesh->points[line.vertices[1]]));
-    ++shape.n;
-    if (look.turn > k_sharp_line) ++shape.n_sharp;
-    if (look.turn < k_base_to && look.is_convex) ++shape.n_convex;
-    if (look.turn > k_base_from && look.turn < k_base_to && look.is_convex) ++shape.n_corner;
-    shape.looks += look.looks.x;
+  for (std::size_t k = 0; k < k_looks; ++k) {
+    const LineLook look = look_at_line(r, r.lines[static_cast<std::size_t>(number)], segment_of_look(r, number, k), most);
+    if (look.turn > k_sharp_turn) ++shape.n_sharp;
+    if (look.turn < k_base_turn_to && look.is_convex) ++shape.n_convex;
+    if (look.turn > k_base_turn_from && look.turn < k_base_turn_to && look.is_convex) ++shape.n_corner;
+    shape.looks += look.looks.x / k_looks;
     for (std::size_t i = 0; i < 2; ++i) {
-      shape.looks_of_side[i] += look.normal[i].x;
-      shape.width[i] += look.width[i];
+      shape.looks_of_side[i] += look.normal[i].x / k_looks;
+      shape.width[i] += look.width[i] / k_looks;
     }
-  }
-  const auto n = static_cast<double>(shape.n);
-  shape.looks /= n;
-  for (std::size_t i = 0; i < 2; ++i) {
-    shape.looks_of_side[i] /= n;
-    shape.width[i] /= n;
   }
   return shape;
 }
@@ -101,18 +83,15 @@ LineShape shape_of_line(const Reference& r, const FeatureLine& line) {
 /// The narrow side, where a line is the side of a base that looks aft.
 std::optional<std::size_t> base_side(const LineShape& shape, double length) {
   for (std::size_t i = 0; i < 2; ++i)
-    if (shape.looks_of_side[i] > k_looks_aft && shape.width[i] < k_base_width * shape.width[1 - i] && length > k_base_length * shape.width[i]) return i;
+    if (shape.looks_of_side[i] > k_looks_along && shape.width[i] < k_strip_width * shape.width[1 - i] && length > k_strip_length * shape.width[i]) return i;
   return std::nullopt;
 }
 
 /// m, of the bend over `reach` to each side; the mean of all places.
-double radius_across(const Reference& r, const FeatureLine& line, double reach) {
+double radius_across(const Reference& r, std::int32_t number, double reach) {
   double sum = 0.0;
-  int n = 0;
-  for (std::size_t k = 0; k < k_row_looks; ++k) {
-    const double s = line.length() * (static_cast<double>(k) + 0.5) / static_cast<double>(k_row_looks);
-    const auto after = std::upper_bound(line.lengths.begin() + 1, line.lengths.end() - 1, s);
-    const HalfedgeId h = line.halfedges[std::min(static_cast<std::size_t>(after - line.lengths.begin()) - 1, line.halfedges.size() - 1)];
+  for (std::size_t k = 0; k < k_looks; ++k) {
+    const HalfedgeId h = r.lines[static_cast<std::size_t>(number)].halfedges[segment_of_look(r, number, k)];
     std::array<Vec3, 2> normals;
     std::size_t i = 0;
     for (const HalfedgeId e : {h, r.topology.twin(h)}) {
@@ -121,36 +100,18 @@ double radius_across(const Reference& r, const FeatureLine& line, double reach) 
       normals[i++] = r.normal(r.nearest(0.5 * (a + b) + reach * normalized(cross(n, b - a)), triangle_of(e)));
     }
     sum += angle_between(normals[0], normals[1]);
-    ++n;
   }
-  return sum > 0.0 ? 2.0 * reach * n / sum : std::numeric_limits<double>::infinity();
+  return sum > 0.0 ? 2.0 * reach * k_looks / sum : std::numeric_limits<double>::infinity();
 }
 
 /// Whether the surface looks forward along the line.
 bool is_ahead(const Reference& r, const FeatureLine& line) {
   std::size_t n = 0;
-  for (const HalfedgeId h : line.halfedges) n += r.normals[h].x < -k_looks_aft ? 1 : 0;
-  return static_cast<double>(n) >= k_row_agreeing * static_cast<double>(line.halfedges.size());
+  for (const HalfedgeId h : line.halfedges) n += r.normals[h].x < -k_looks_along ? 1 : 0;
+  return n * k_looks >= k_agreeing * line.halfedges.size();
 }
 
 }  // namespace
-
-std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& rows) {
-  std::vector<SizeSite> sites;
-  for (const LineRows& l : rows.lines) {
-    const double length = reference.lines[static_cast<std::size_t>(l.line)].length();
-    const auto size_at = [&](double s) {
-      if (!l.is_nose) return l.longest;
-      double size = l.longest;
-      if (!l.is_going_on[0]) size = std::min(size, l.at_ends + k_change_at_ends * s);
-      if (!l.is_going_on[1]) size = std::min(size, l.at_ends + k_change_at_ends * (length - s));
-      return size;
-    };
-    for (double s = 0.0; s < length; s += size_at(s)) sites.push_back({reference.line_point(l.line, s), size_at(s)});
-    sites.push_back({reference.line_point(l.line, length), size_at(length)});
-  }
-  return sites;
-}
 
 double width_across(const Reference& r, HalfedgeId h, double most) {
   const auto& points = r.mesh->points;
@@ -197,6 +158,7 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     is_trailing_asked = is_trailing_asked || wishes.back().trailing.is_any();
   }
   if (!is_leading_asked && !is_trailing_asked) return found;
+  const double length = body_length(*r.mesh);
   bool is_leading_found = false, is_trailing_found = false;
   for (std::size_t l = 0; l < r.lines.size(); ++l) {
     const FeatureLine& line = r.lines[l];
@@ -206,38 +168,38 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
       is_free = is_free && o.is_valid() && r.is_kept[triangle_of(h)] == 0 && r.is_kept[triangle_of(o)] == 0;
     }
     if (!is_free) continue;
-    const LineShape shape = shape_of_line(r, line);
-    const double agreeing = k_row_agreeing * static_cast<double>(shape.n);
-    std::optional<LineKind> kind;
+    const auto number = static_cast<std::int32_t>(l);
+    const LineShape shape = shape_of_line(r, number, length);
+    std::optional<BandKind> kind;
     std::optional<std::size_t> base;
     double nose_radius = 0.0;
     const double width = std::min(shape.width[0], shape.width[1]);
-    if (static_cast<double>(shape.n_sharp) >= agreeing && std::abs(shape.looks) > k_looks_aft) {
-      kind = shape.looks > 0.0 ? LineKind::trailing : LineKind::leading;
-    } else if ((line.is_nose ? is_ahead(r, line) : static_cast<double>(shape.n_convex) >= agreeing && shape.looks < -k_looks_aft) &&
-               line.length() > k_nose_length * width && std::max(shape.width[0], shape.width[1]) < k_alike_width * width) {
-      nose_radius = radius_across(r, line, k_nose_probe * width);
-      if (nose_radius <= k_widest_nose * width) kind = LineKind::leading;
-    } else if (static_cast<double>(shape.n_corner) >= agreeing && (base = base_side(shape, line.length()))) {
-      kind = LineKind::trailing;
+    if (shape.n_sharp >= k_agreeing && std::abs(shape.looks) > k_looks_along) {
+      kind = shape.looks > 0.0 ? BandKind::trailing : BandKind::leading;
+    } else if ((line.is_nose ? is_ahead(r, line) : shape.n_convex >= k_agreeing && shape.looks < -k_looks_along) && line.length() > k_nose_length * width &&
+               std::max(shape.width[0], shape.width[1]) < k_alike_width * width) {
+      nose_radius = radius_across(r, number, k_nose_probe * width);
+      if (nose_radius <= k_nose_radius * width) kind = BandKind::leading;
+    } else if (shape.n_corner >= k_agreeing && (base = base_side(shape, line.length()))) {
+      kind = BandKind::trailing;
     }
     if (!kind) continue;
-    LineRows rows{.line = static_cast<std::int32_t>(l), .sides = {}, .longest = std::numeric_limits<double>::infinity()};
+    LineRows rows{.line = number, .sides = {}, .longest = std::numeric_limits<double>::infinity()};
     HalfedgeId left = line.halfedges.front();
     if (r.topology.from(left) != line.vertices.front()) left = r.topology.twin(left);
     const std::array<TriangleId, 2> beside{triangle_of(left), triangle_of(r.topology.twin(left))};
     for (std::size_t i = 0; i < 2; ++i) {
       if (base && *base == i) continue;
       const BandWishes& wish = wishes[r.mesh->triangle_patch[beside[i]].index()];
-      const BandWish& band = *kind == LineKind::leading ? wish.leading : wish.trailing;
+      const BandWish& band = *kind == BandKind::leading ? wish.leading : wish.trailing;
       if (!band.is_any()) continue;
       const SurfaceLimits& limits = limits_of.of(beside[i]);
       rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
       rows.longest = std::min(rows.longest, band.longest(limits.max_edge));
       // All rows of one side fit into their share of its width.
-      const double room = k_rows_of_width * shape.width[i];
+      const double room = k_share_of_chord * shape.width[i];
       rows.longest =
-          std::min(rows.longest, std::max(rows.sides[i].first, (room * (band.growth - 1.0) + rows.sides[i].first) / (k_last_row_height * band.growth)));
+          std::min(rows.longest, std::max(rows.sides[i].first, (room * (band.growth - 1.0) + rows.sides[i].first) / (k_isotropic_height * band.growth)));
     }
     if (!rows.sides[0].is_any && !rows.sides[1].is_any) continue;
     if (nose_radius > 0.0) {
@@ -246,7 +208,7 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
       for (const SideRows& side : rows.sides)
         if (side.is_any) rows.at_ends = std::min(rows.at_ends, std::max(side.curvature_angle * nose_radius, side.min_edge));
     }
-    (*kind == LineKind::leading ? is_leading_found : is_trailing_found) = true;
+    (*kind == BandKind::leading ? is_leading_found : is_trailing_found) = true;
     found.lines.push_back(rows);
   }
   // Rows go on where another line with rows begins.

@@ -12,11 +12,6 @@
 
 namespace sterna::surfmesh {
 
-/// Where a row would be as high as this part of the length of its edges along the line, rows end (the same as k_isotropic_height of rows on CAD).
-inline constexpr double k_last_row_height = 0.9;
-/// Of the distance to the next line across the surface, what rows of one line may take.
-inline constexpr double k_rows_of_width = 0.4;
-
 /// Rows on one side of a line.
 struct SideRows {
   bool is_any = false;
@@ -44,15 +39,6 @@ struct RowLines {
 /// side only; lines that were laid on smooth noses (is_nose) where the surface is bent as a nose is. Lines of kept triangles have none.
 RowLines find_row_lines(const Reference& reference, const SurfaceLimitTable& limits, const RemeshOptions& options,
                         std::span<const PatchSurfaceOptions> patches);
-
-/// Lengths that edges along lines with rows are to have, at places no further apart than that; smaller towards the ends of noses, where rows end.
-std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& rows);
-
-/// How far rows climb from a place of a line.
-struct RowReach {
-  Point point;
-  double height = 0.0;  ///< m
-};
 
 /// Metres across the surface, at right angles from the middle of a half-edge into its triangle, to the next line or `most`.
 double width_across(const Reference& reference, HalfedgeId h, double most);

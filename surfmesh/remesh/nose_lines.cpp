@@ -5,6 +5,9 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
+#include "surfmesh/model/band_wish.h"
+#include "surfmesh/remesh/line_rows.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -180,6 +183,27 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
   }
   std::sort(cut.edges.begin(), cut.edges.end());
   cut.edges.erase(std::unique(cut.edges.begin(), cut.edges.end()), cut.edges.end());
+  return cut;
+}
+
+std::optional<NoseCut> cut_noses_if_asked(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
+                                          std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  const bool is_asked = std::ranges::any_of(wall.patches, [&](const Patch& patch) { return band_wishes(patch.name, options, patches).leading.is_any(); });
+  if (!is_asked) return std::nullopt;
+  const Reference reference(wall, reference_options, {}, {}, context);
+  NoseCut cut = cut_noses(reference, !options.smooth, context);
+  // The curve between the given vertices may meet another sheet; the triangles themselves do not.
+  if (options.smooth && find_crossings(cut.mesh, context).total > 0) cut = cut_noses(reference, true, context);
+  // Of the candidates those that are noses of wings.
+  ReferenceOptions with_all = reference_options;
+  with_all.noses = std::move(cut.edges);
+  const Reference all(cut.mesh, with_all, {}, {}, context);
+  cut.edges.clear();
+  for (const LineRows& rows : find_row_lines(all, SurfaceLimitTable(cut.mesh, all.topology, options, patches), options, patches).lines) {
+    if (!all.lines[static_cast<std::size_t>(rows.line)].is_nose) continue;
+    const std::vector<VertexId>& line = all.lines[static_cast<std::size_t>(rows.line)].vertices;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) cut.edges.push_back({line[i], line[i + 1]});
+  }
   return cut;
 }
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "surfmesh/remesh/reference.h"
+#include "surfmesh/remesh/remesh_surface.h"
 
 namespace sterna::surfmesh {
 
@@ -16,5 +19,9 @@ struct NoseCut {
 /// Noses are where the direction across the strongest bend has no part along x. Points of noses lie on the reference's smooth surface; where it `is_flat`, on
 /// the triangles. What is no nose of a wing after all (find_row_lines decides) is among them, too.
 NoseCut cut_noses(const Reference& reference, bool is_flat, const RunContext& context);
+
+/// The wall with smooth leading edges of wings as lines of edges; nothing where no rule and no option asks for rows there.
+std::optional<NoseCut> cut_noses_if_asked(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
+                                          std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -13,13 +13,13 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
-#include "surfmesh/model/band_wish.h"
 #include "surfmesh/remesh/line_rows.h"
 #include "surfmesh/remesh/nose_lines.h"
 #include "surfmesh/remesh/remesh_demand.h"
 #include "surfmesh/remesh/remesh_report.h"
 #include "surfmesh/remesh/remesh_sizes.h"
 #include "surfmesh/remesh/remesher.h"
+#include "surfmesh/remesh/row_sizes.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -49,8 +49,6 @@ constexpr std::int64_t k_most_crossings = 1;
 /// Triangles made for each one foretold, at most.
 constexpr double k_foretold_share = 1.5;
 constexpr double k_half_turn = std::numbers::pi;
-/// Of the largest height of rows: sizes must be positive.
-constexpr double k_reach_offset = 1e-3;
 constexpr int k_angle_digits = 3;
 
 /// What the rounds before have found.
@@ -73,40 +71,6 @@ void narrow_strips(const Remesher& remesher, const RemeshOptions& options, Remes
     if (size < sizes(strip.point, strip.triangle)) sizes.lower(strip.triangle, strip.point, size);
   }
   sizes.carry();
-}
-
-/// Vertices of the reference nearer to noses than rows climb there: rows answer for their curvature.
-Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std::span<const RowReach> reaches, const RunContext& context) {
-  Column<VertexId, std::uint8_t> covered;
-  if (reaches.empty()) return covered;
-  covered.assign(reference.mesh->n_vertices(), 0);
-  double largest = 0.0;
-  for (const RowReach& reach : reaches) largest = std::max(largest, reach.height);
-  // Sizes that grow by 1 with the distance, from what is left to the largest height: at most that within the height.
-  std::vector<SizeSite> sites;
-  for (const RowReach& reach : reaches)
-    if (reach.height > 0.0) sites.push_back({reach.point, (largest - reach.height) + k_reach_offset * largest});
-  if (sites.empty()) return covered;
-  const SizeSites tree(sites, 1.0, context);
-  parallel_for(context, covered.size(), [&](std::size_t v) {
-    covered[VertexId(v)] = tree.smallest(reference.mesh->points[VertexId(v)], {.cap = 2.0 * largest}) <= (1.0 + k_reach_offset) * largest ? 1 : 0;
-  });
-  return covered;
-}
-
-/// The same before there are rows: as high as their law makes them.
-std::vector<RowReach> foreseen_reaches(const Reference& reference, const RowLines& rows) {
-  std::vector<RowReach> reaches;
-  RowLines noses;
-  for (const LineRows& l : rows.lines) {
-    if (!l.is_nose) continue;
-    double height = 0.0;
-    for (const SideRows& side : l.sides)
-      if (side.is_any) height = std::max(height, (k_last_row_height * l.longest * side.growth - side.first) / (side.growth - 1.0));
-    noses.lines = {l};
-    for (const SizeSite& site : sites_of_rows(reference, noses)) reaches.push_back({site.point, height * site.size / l.longest});
-  }
-  return reaches;
 }
 
 /// Rows, and sizes that grow from their outer ends.
@@ -164,17 +128,9 @@ void run_passes(Remesher& remesher, const Reference& reference, const RemeshOpti
   }
 }
 
-std::vector<std::array<std::uint32_t, 3>> indices_of(const TriMesh& mesh) {
-  std::vector<std::array<std::uint32_t, 3>> list;
-  for (const TriangleVertices& v : mesh.triangles) list.push_back({v[0].value(), v[1].value(), v[2].value()});
-  return list;
-}
-
-CrossingPairs crossings_of(const TriMesh& mesh, const RunContext& context) { return find_crossings(mesh.points.raw(), indices_of(mesh), context); }
-
 void require_clear(const TriMesh& wall, const RunContext& context) {
   if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_attempted), .problem = "it has no triangles"});
-  const CrossingPairs pairs = crossings_of(wall, context);
+  const CrossingPairs pairs = find_crossings(wall, context);
   if (pairs.total == 0) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = std::string(k_attempted),
@@ -223,28 +179,6 @@ NeedleCount forced_needles(const Reference& reference) {
   return forced;
 }
 
-/// The wall with smooth leading edges as lines of edges, where rows are asked for there.
-std::optional<NoseCut> cut_if_asked(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
-                                    std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
-  const bool is_asked = std::ranges::any_of(wall.patches, [&](const Patch& patch) { return band_wishes(patch.name, options, patches).leading.is_any(); });
-  if (!is_asked) return std::nullopt;
-  const Reference reference(wall, reference_options, {}, {}, context);
-  NoseCut cut = cut_noses(reference, !options.smooth, context);
-  // The curve between the given vertices may meet another sheet; the triangles themselves do not.
-  if (options.smooth && crossings_of(cut.mesh, context).total > 0) cut = cut_noses(reference, true, context);
-  // Of the candidates those that are noses of wings.
-  ReferenceOptions with_all = reference_options;
-  with_all.noses = std::move(cut.edges);
-  const Reference all(cut.mesh, with_all, {}, {}, context);
-  cut.edges.clear();
-  for (const LineRows& rows : find_row_lines(all, SurfaceLimitTable(cut.mesh, all.topology, options, patches), options, patches).lines) {
-    if (!rows.is_nose) continue;
-    const std::vector<VertexId>& line = all.lines[static_cast<std::size_t>(rows.line)].vertices;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) cut.edges.push_back({line[i], line[i + 1]});
-  }
-  return cut;
-}
-
 }  // namespace
 
 void require_near(const RemeshReport& report, const RemeshDemand& demand) {
@@ -270,7 +204,7 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
   const StageTimer timer(context, "remesh");
   require_clear(given, context);
   ReferenceOptions reference_options{options.feature_angle, least_edge(given, options, patches, context), options.smooth, {}};
-  const std::optional<NoseCut> cut = cut_if_asked(given, reference_options, options, patches, context);
+  const std::optional<NoseCut> cut = cut_noses_if_asked(given, reference_options, options, patches, context);
   const TriMesh& wall = cut ? cut->mesh : given;
   if (cut) reference_options.noses = cut->edges;
   Trouble trouble;
@@ -301,7 +235,7 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
     report.n_lines = static_cast<std::int64_t>(reference.lines.size());
     report.n_corners = std::count(reference.is_corner.begin(), reference.is_corner.end(), 1);
     require_worth(count_needles(result.mesh), "the new triangles have", demand);
-    const CrossingPairs pairs = crossings_of(result.mesh, context);
+    const CrossingPairs pairs = find_crossings(result.mesh, context);
     if (pairs.total == 0) {
       report.needles = remesher.needles(k_needle_angle);
       report.rows = remesher.row_report();

@@ -126,7 +126,7 @@ template <>
 struct Schema<surfmesh::RemeshOptions> {
   using O = surfmesh::RemeshOptions;
   static constexpr std::string_view stage = "remesh";
-  static constexpr std::array fields = {
+  static constexpr std::array own_fields = {
       Field<O>{.name = "max_edge",
                .member = &O::max_edge,
                .unit = Unit::metre,
@@ -191,33 +191,8 @@ struct Schema<surfmesh::RemeshOptions> {
                .min = 1,
                .max = 2e9,
                .help = "more than that are an error, at once where sizes and areas foretell it"},
-      Field<O>{.name = "leading_edge_chordwise",
-               .member = &O::leading_edge_chordwise,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "first cell beside leading edges, in rows of stretched triangles",
-               .automatic = "no rows, or the longest edge by the stretch"},
-      Field<O>{.name = "leading_edge_stretch",
-               .member = &O::leading_edge_stretch,
-               .min = 1.0,
-               .max = 50.0,
-               .help = "longest cell along : first cell across",
-               .automatic = "no rows, or 10"},
-      Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
-      Field<O>{.name = "trailing_edge_chordwise",
-               .member = &O::trailing_edge_chordwise,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "first cell beside trailing edges, on both sides, or beside the base of blunt ones",
-               .automatic = "no rows, or the longest edge by the stretch"},
-      Field<O>{.name = "trailing_edge_stretch",
-               .member = &O::trailing_edge_stretch,
-               .min = 1.0,
-               .max = 50.0,
-               .help = "longest cell along : first cell across",
-               .automatic = "no rows, or 10"},
-      Field<O>{.name = "trailing_edge_growth", .member = &O::trailing_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
   };
+  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch));
 };
 
 }  // namespace sterna

@@ -7,6 +7,7 @@
 #include "geom/base/run_context.h"
 #include "surfmesh/remesh/line_rows.h"
 #include "surfmesh/remesh/remesh_sizes.h"
+#include "surfmesh/remesh/row_sizes.h"
 #include "surfmesh/remesh/work_mesh.h"
 
 namespace sterna::surfmesh {
@@ -108,6 +109,7 @@ class Remesher {
     double climbed = 0.0;         ///< m
     const SideRows* wish = nullptr;
     bool is_growing = true;
+    bool is_nose = false;
     std::size_t n_rows() const { return rows.size() - 1; }
   };
   /// An edge of a line with rows on this side, from a to b with the face to the left: vertices of the border.

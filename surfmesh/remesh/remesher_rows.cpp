@@ -6,6 +6,7 @@
 
 #include "geom/math/measures.h"
 #include "surfmesh/face/band_rows.h"
+#include "surfmesh/model/wing_edges.h"
 #include "surfmesh/remesh/remesher.h"
 
 namespace sterna::surfmesh {
@@ -109,6 +110,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
     // The line's vertex seen from this side: the hints of triangles may be from the other one, where both are in one smooth piece.
     const std::int32_t l = mesh_.line[b.out];
     const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
+    column.is_nose = rows_of[static_cast<std::size_t>(l)]->is_nose;
     const double s_here = s_on_line(column.vertex, l);
     const std::size_t segment = r_.line_place(l, s_here).segment;
     HalfedgeId h = line.halfedges[segment];
@@ -117,7 +119,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
     foot.foot = r_.nearest(p, triangle_of(h));
     foot.normal = r_.normal(foot.foot);
     column.rows.push_back(foot);
-    column.room = k_rows_of_width * width_across(r_, h, 1e3 * column.spacing);
+    column.room = k_share_of_chord * width_across(r_, h, 1e3 * column.spacing);
   }
   for (const Cut& cut : cuts) {
     if (cut.side == nullptr) continue;
@@ -289,7 +291,7 @@ bool Remesher::grow_column(LineColumn& c, std::size_t row) {
   }
   const double wide =
       0.5 * (distance(row_at(c.before, c.before_column, row - 1).point, top.point) + distance(row_at(c.after, c.after_column, row - 1).point, top.point));
-  if (height > k_last_row_height * std::min(c.spacing, wide) || c.climbed + height > c.room || row > k_max_rows) return false;
+  if (height > k_isotropic_height * std::min(c.spacing, wide) || c.climbed + height > c.room || row > k_max_rows) return false;
   if (!is_step_good(c, target, row)) return false;
   target.size = std::min(target.size, c.spacing);
   return advance(c, target, height);
@@ -341,11 +343,8 @@ std::vector<SizeSite> Remesher::row_ends() const {
 
 std::vector<RowReach> Remesher::nose_reaches() const {
   std::vector<RowReach> reaches;
-  for (const LineColumn& c : columns_) {
-    const WorkVertex& foot = c.rows.front();
-    if (foot.kind != VertexKind::line || !r_.lines[static_cast<std::size_t>(foot.line)].is_nose) continue;
-    reaches.push_back({foot.point, c.climbed});
-  }
+  for (const LineColumn& c : columns_)
+    if (c.is_nose) reaches.push_back({c.rows.front().point, c.climbed});
   return reaches;
 }
 

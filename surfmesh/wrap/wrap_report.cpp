@@ -235,9 +235,7 @@ void prove_wrap(const TriMesh& mesh, const WrapReport& report, const RunContext&
     }
     if (!info.places.empty()) throw Error(std::move(info));
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const TriangleVertices& t : mesh.triangles) triangles.push_back({t[0].value(), t[1].value(), t[2].value()});
-  const CrossingPairs crossings = find_crossings(mesh.points.raw(), triangles, context, k_max_geometry);
+  const CrossingPairs crossings = find_crossings(mesh, context, k_max_geometry);
   if (crossings.total == 0) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = "wrapping",

@@ -32,9 +32,7 @@ RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, st
 }
 
 std::int64_t n_crossings(const TriMesh& mesh) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const TriangleVertices& v : mesh.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
-  return find_crossings(mesh.points.raw(), triangles, k_context).total;
+  return find_crossings(mesh, k_context).total;
 }
 
 /// Manifold (or Topology throws), every vertex used by one fan, closed as the input was, clear of itself, the same patches.
