@@ -38,8 +38,8 @@ double box_height(const TriMesh& mesh) {
   return high - low;
 }
 
-MeshCase ball_case(const char* truncate) {
-  MeshCase mesh_case = layers(20, 1e-4);
+MeshCase ball_case(const char* truncate, int n_layers = 20) {
+  MeshCase mesh_case = layers(n_layers, 1e-4);
   mesh_case.farfield.farfield_radius = 20.0;
   mesh_case.prisms.truncate = truncate;
   return mesh_case;
@@ -56,13 +56,14 @@ int largest_step(const LayerBlock& layers) {
 }
 
 TEST(Truncation, GapsGetFewerAndTallerLayersInTheSameHeight) {
-  const TriMesh wall = two_balls(0.1);
-  const VolumeMeshResult whole = volume_mesh(wall, ball_case("never"), k_context);
+  constexpr int k_many = 30;
+  const TriMesh wall = two_balls(0.2);
+  const VolumeMeshResult whole = volume_mesh(wall, ball_case("never", k_many), k_context);
   EXPECT_TRUE(whole.mesh.layers.is_uniform());
   EXPECT_EQ(whole.layer.truncated_area, 0.0);
   for (const char* const truncate : {"auto", "always"}) {
     SCOPED_TRACE(truncate);
-    const VolumeMeshResult result = volume_mesh(wall, ball_case(truncate), k_context);
+    const VolumeMeshResult result = volume_mesh(wall, ball_case(truncate, k_many), k_context);
     ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);
     EXPECT_TRUE(result.certificate.is_proved()) << to_text(result.certificate);
     const LayerBlock& layers = result.mesh.layers;
@@ -75,13 +76,13 @@ TEST(Truncation, GapsGetFewerAndTallerLayersInTheSameHeight) {
     // No height is given up; what the layer has is better used.
     EXPECT_NEAR(result.layer.coverage, whole.layer.coverage, 1e-3);
     EXPECT_NEAR(result.layer.mean_height, whole.layer.mean_height, 1e-3 * whole.layer.mean_height);
-    EXPECT_GE(result.layer.interface.within, whole.layer.interface.within - 1e-3);
+    EXPECT_GT(result.layer.interface.within, whole.layer.interface.within);
     // Told.
     EXPECT_GT(result.layer.truncated_area, 0.0);
     ASSERT_EQ(result.layer.patches.size(), 1u);
     EXPECT_NEAR(result.layer.patches[0].truncated, result.layer.truncated_area, 1e-9);
     EXPECT_EQ(result.layer.patches[0].least_layers, *std::ranges::min_element(layers.line_layers));
-    EXPECT_EQ(result.mesh.request.line_layers, std::vector<std::uint16_t>(layers.n_lines(), 20));
+    EXPECT_EQ(result.mesh.request.line_layers, std::vector<std::uint16_t>(layers.n_lines(), k_many));
   }
 }
 
