@@ -256,10 +256,10 @@ class NeedleSplitter {
 
   /// Flips edges of needles among these faces, and of those that change by it, as long as that helps. Returns all of these faces, ascending.
   std::vector<FaceId> flip_around(std::vector<FaceId> faces) {
-    std::vector<FaceId> todo(faces.rbegin(), faces.rend());
-    while (!todo.empty()) {
-      const FaceId f = todo.back();
-      todo.pop_back();
+    std::vector<FaceId> waiting(faces.rbegin(), faces.rend());
+    while (!waiting.empty()) {
+      const FaceId f = waiting.back();
+      waiting.pop_back();
       if (!is_needle(f)) continue;
       SideId best = k_none;
       double least = k_endless_cotangent;
@@ -274,7 +274,7 @@ class NeedleSplitter {
       const FaceId g = face_of(twin(best));
       flip(best);
       for (const FaceId changed : {g, f}) {
-        todo.push_back(changed);
+        waiting.push_back(changed);
         faces.push_back(changed);
       }
     }
