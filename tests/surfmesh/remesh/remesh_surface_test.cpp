@@ -31,9 +31,7 @@ RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, st
   return remesh_surface(wall, options, patches, asked, k_context);
 }
 
-std::int64_t n_crossings(const TriMesh& mesh) {
-  return find_crossings(mesh, k_context).total;
-}
+std::int64_t n_crossings(const TriMesh& mesh) { return find_crossings(mesh, k_context).total; }
 
 /// Manifold (or Topology throws), every vertex used by one fan, closed as the input was, clear of itself, the same patches.
 void expect_sound(const TriMesh& wall, const TriMesh& mesh) {
