@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
@@ -10,30 +12,55 @@
 namespace sterna::tets {
 namespace {
 
-constexpr std::size_t k_most_blocks = 64;
-/// Every other pass has its limits in the middle of the blocks before. Later ones have fewer seeds and so fewer and larger blocks: where tetrahedra are large.
-constexpr int k_most_block_passes = 4;
-constexpr std::size_t k_block_seeds = 2048;
-/// Of a mesh with more, finding the owners takes longer than another thread saves.
-constexpr std::size_t k_tets_per_seed = 1000;  ///< at least, in the mean
+constexpr int k_most_halvings = 6;
+/// Lower parts of halves, pass after pass: planes are elsewhere, and most of what they barred is inside of a block next time.
+constexpr std::array<double, 3> k_shares = {0.5, 0.4, 0.6};
+constexpr std::size_t k_block_seeds = 4096;  ///< at least, in the mean
 /// New places that a block gets for each seed: a point makes six and a half tetrahedra more in the mean, and not every seed is inserted.
 constexpr std::size_t k_places_per_seed = 3;
 constexpr std::size_t k_more_places = 256;
 constexpr std::size_t k_stop_seeds = 4096;  ///< between two looks at the stop token
 
-/// Where a tetrahedron belongs that reaches far: at most of its corners.
-std::uint32_t at_shortest_edge(const TetMesh& mesh, const Corners& v) {
-  std::uint32_t at = v[0];
+/// Where a tetrahedron belongs that reaches far: the corner that is nearest to another one.
+std::uint8_t nearest_corner(const TetMesh& mesh, const Corners& v) {
+  std::uint8_t at = 0;
   double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
+  for (std::uint8_t i = 0; i < 4; ++i) {
+    for (std::uint8_t j = 0; j < i; ++j) {
       const double length = norm2(mesh.points[v[i]] - mesh.points[v[j]]);
       if (length >= shortest) continue;
       shortest = length;
-      at = v[j];
+      at = j;
     }
   }
   return at;
+}
+
+/// Where corner i comes when `last` becomes the last one and the sense stays.
+std::size_t corner_after(std::size_t i, std::uint8_t last) {
+  if (last == 3) return i;
+  if (i == last) return 3;
+  if (i == 3) return last;
+  return 3 - last - i;
+}
+
+/// The corners of each tetrahedron such that the last one tells where it belongs. Those that are gone belong nowhere.
+void put_owners_last(TetMesh& mesh, const RunContext& context) {
+  const std::size_t n = mesh.nodes.size();
+  std::vector<std::uint8_t> last(n, 3);
+  parallel_for(context, n, [&](std::size_t t) {
+    if (mesh.is_alive(static_cast<std::uint32_t>(t))) last[t] = nearest_corner(mesh, mesh.nodes[t]);
+  });
+  parallel_for(context, n, [&](std::size_t t) {
+    const Corners nodes = mesh.nodes[t], neighbours = mesh.neighbours[t];
+    const bool is_gone = nodes[0] == k_none;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t to = corner_after(i, last[t]);
+      const std::uint32_t n_i = neighbours[i];
+      mesh.nodes[t][to] = is_gone ? k_none : nodes[i];
+      mesh.neighbours[t][to] = is_gone || n_i == k_none ? k_none : n_i / 4 * 4 + static_cast<std::uint32_t>(corner_after(n_i % 4, last[n_i / 4]));
+    }
+  });
 }
 
 }  // namespace
@@ -44,12 +71,15 @@ BulkInserter::BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32
   mark_.assign(n, 0);
   state_.assign(n, 0);
   is_changed_.assign(n / k_chunk + 1, 1);
-  key_.assign(n, 0);
-  parallel_for(context, n, [&](std::size_t t) {
-    if (mesh_.nodes[t][0] != k_none) key_[t] = curve_.key(mesh_.points[at_shortest_edge(mesh_, mesh_.nodes[t])]);
-  });
+  put_owners_last(mesh_, context);
   for (std::size_t t = n; t-- > 0;)
     if (mesh.nodes[t][0] == k_none) free_.push_back(static_cast<std::uint32_t>(t));
+}
+
+std::uint32_t BulkInserter::first_alive() const {
+  std::uint32_t t = 0;
+  while (!mesh_.is_alive(t)) ++t;
+  return t;
 }
 
 void BulkInserter::make_room(std::size_t n_places) {
@@ -58,134 +88,147 @@ void BulkInserter::make_room(std::size_t n_places) {
                  .attempted = "refining tetrahedra",
                  .problem = std::to_string(n_places) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
                  .hint = "a size, or a source, is very small in a large region"});
-  if (n_places > mesh_.nodes.capacity()) {  // an eighth more, not twice: memory
-    const std::size_t capacity = n_places + n_places / 8;
+  if (n_places > mesh_.nodes.capacity()) {  // a quarter more, not twice: memory
+    const std::size_t capacity = n_places + n_places / 4;
     mesh_.nodes.reserve(capacity);
     mesh_.neighbours.reserve(capacity);
     for (std::vector<std::uint8_t>* bytes : {&mark_, &state_}) bytes->reserve(capacity);
-    key_.reserve(capacity);
   }
   mesh_.nodes.resize(n_places, {k_none, k_none, k_none, k_none});
   mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});
   mark_.resize(n_places, 0);
   state_.resize(n_places, 0);
   is_changed_.resize(n_places / k_chunk + 1, 0);
-  key_.resize(n_places, 0);
 }
 
-/// Block of a key: how many splitters are not above it.
-void BulkInserter::set_owners(std::vector<std::uint64_t> splitters, const RunContext& context) {
-  splitters.resize(k_most_blocks - 1, ~std::uint64_t{0});
-  owner_.resize(key_.size());
-  parallel_for(
-      context, key_.size(),
-      [&](std::size_t t) {
-        std::size_t block = 0;  // without branches: no two neighbours in the list need be near to each other
-        for (std::size_t step = k_most_blocks / 2; step > 0; step /= 2) block += splitters[block + step - 1] <= key_[t] ? step : 0;
-        owner_[t] = static_cast<std::uint8_t>(block);
-      },
-      std::size_t{1} << 16);
+/// The free places: where a tetrahedron was, to its block, so that who starts from there is near; the others in equal parts.
+std::vector<std::vector<std::uint32_t>> BulkInserter::dealt_out(const Blocks& blocks, const RunContext& context) {
+  std::vector<std::vector<std::uint32_t>> free(blocks.size());
+  if (blocks.size() == 1) {
+    free[0] = std::move(free_);
+    free_.clear();
+    return free;
+  }
+  constexpr std::uint8_t k_anybody = 255;
+  std::vector<std::uint8_t> owner(free_.size());
+  parallel_for(context, free_.size(), [&](std::size_t i) {
+    const std::uint32_t v = mesh_.nodes[free_[i]][3];
+    owner[i] = v == k_none ? k_anybody : static_cast<std::uint8_t>(blocks.find(mesh_.points[v]));
+  });
+  const auto n_new = static_cast<std::size_t>(std::ranges::count(owner, k_anybody));
+  for (std::size_t i = 0, k = 0; i < free_.size(); ++i)
+    if (owner[i] == k_anybody) free[k++ * blocks.size() / n_new].push_back(free_[i]);
+  for (std::size_t i = 0; i < free_.size(); ++i)
+    if (owner[i] != k_anybody) free[owner[i]].push_back(free_[i]);
+  free_.clear();
+  return free;
 }
 
 /// The seeds that are to be tried later, in the same order.
-std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, std::span<const Ordered> order, std::size_t n_blocks, bool is_shifted,
+std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, std::span<const std::uint32_t> order, const Blocks& blocks,
                                                   std::uint32_t first_point, std::vector<Insertion>& results, const RunContext& context) {
-  // Shifted blocks have their limits in the middle of the others'.
-  const std::size_t n = order.size(), shift = is_shifted ? n / n_blocks / 2 : 0;
-  std::vector<std::uint64_t> splitters;
-  std::vector<std::size_t> first = {0};
-  for (std::size_t i = 1; i < n_blocks; ++i) {
-    const std::size_t at = i * n / n_blocks + shift;
-    splitters.push_back(order[at].key);
-    // A key belongs to one block.
-    first.push_back(static_cast<std::size_t>(std::ranges::lower_bound(order, order[at].key, {}, &Ordered::key) - order.begin()));
-  }
-  first.push_back(n);
-  if (n_blocks > 1) set_owners(splitters, context);
+  const std::size_t n_blocks = blocks.size();
+  struct Start {
+    std::uint8_t block;
+    bool is_own;  ///< where the seed starts belongs to its block, too
+  };
+  std::vector<Start> starts(order.size());
+  parallel_for(context, order.size(), [&](std::size_t i) {
+    const Seed& seed = seeds[order[i]];
+    const std::size_t block = blocks.find(seed.position);
+    starts[i] = {static_cast<std::uint8_t>(block), seed.start < mesh_.nodes.size() && mesh_.nodes[seed.start][3] != k_none && is_in(seed.start, blocks[block])};
+  });
+  std::vector<std::vector<std::uint32_t>> own(n_blocks);  // places in the order
+  for (std::size_t i = 0; i < order.size(); ++i) own[starts[i].block].push_back(static_cast<std::uint32_t>(i));
 
-  // Places that are free are dealt out by their owners' blocks; each block has new ones behind.
-  std::vector<std::vector<std::uint32_t>> free(n_blocks);
+  std::vector<std::vector<std::uint32_t>> free = dealt_out(blocks, context);
   std::size_t n_places = mesh_.nodes.size();
   std::vector<std::uint32_t> first_new(n_blocks + 1);
-  if (n_blocks == 1) free[0] = std::move(free_);
-  for (std::size_t i = 0; n_blocks > 1 && i < free_.size(); ++i) free[owner_[free_[i]]].push_back(free_[i]);
   for (std::size_t block = 0; block < n_blocks; ++block) {
     const std::size_t wanted =
-        k_places_per_seed * (first[block + 1] - first[block]) + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: enough for any point
+        k_places_per_seed * own[block].size() + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: enough for any point
     first_new[block] = static_cast<std::uint32_t>(n_places);
     if (wanted > free[block].size()) n_places += wanted - free[block].size();
   }
   first_new[n_blocks] = static_cast<std::uint32_t>(n_places);
   make_room(n_places);
 
-  const InsertTarget target{mesh_, mark_, state_, is_changed_, key_, n_corners_, first_point, most_effort_, n_blocks > 1 ? &owner_ : nullptr};
-  std::vector<std::vector<std::uint32_t>> later(n_blocks);
+  const InsertTarget target{mesh_, mark_, state_, is_changed_, n_corners_, first_point, most_effort_};
   parallel_chunks(context, n_blocks, 1, [&](std::size_t block, std::size_t) {
-    Inserter inserter(target, static_cast<std::uint8_t>(block), std::move(free[block]), first_new[block], first_new[block + 1]);
-    for (std::size_t i = first[block]; i < first[block + 1]; ++i) {
-      if ((i - first[block] + 1) % k_stop_seeds == 0) context.check_stop();
-      const std::uint32_t seed = order[i].seed;
-      results[seed] = inserter.insert(first_point + seed, order[i].key, seeds[seed].start, seeds[seed].room);
-      if (results[seed] == Insertion::foreign) later[block].push_back(static_cast<std::uint32_t>(i));
+    const std::uint32_t first_start = n_blocks == 1 ? first_alive() : k_none;
+    Inserter inserter(target, blocks[block], std::move(free[block]), first_new[block], first_new[block + 1], first_start);
+    std::size_t n_done = 0;
+    for (const std::uint32_t i : own[block]) {
+      if (++n_done % k_stop_seeds == 0) context.check_stop();
+      const std::uint32_t seed = order[i];
+      results[seed] = inserter.insert(first_point + seed, starts[i].is_own ? seeds[seed].start : k_none, seeds[seed].room);
     }
     free[block] = inserter.take_free();
   });
-  free_.clear();
-  std::vector<std::uint32_t> all_later;
-  for (std::size_t block = 0; block < n_blocks; ++block) {
-    free_.insert(free_.end(), free[block].begin(), free[block].end());
-    all_later.insert(all_later.end(), later[block].begin(), later[block].end());
-  }
-  return all_later;
+  for (const std::vector<std::uint32_t>& left : free) free_.insert(free_.end(), left.begin(), left.end());
+  std::vector<std::uint32_t> later;
+  for (const std::uint32_t seed : order)
+    if (results[seed] == Insertion::foreign) later.push_back(seed);
+  return later;
 }
 
-std::vector<BulkInserter::Ordered> BulkInserter::ordered(std::span<const Seed> seeds, const RunContext& context) const {
-  std::vector<Ordered> order(seeds.size());
-  parallel_for(context, seeds.size(), [&](std::size_t i) { order[i] = {curve_.key(seeds[i].position), static_cast<std::uint32_t>(i)}; });
-  parallel_sort(context, order, [](const Ordered& a, const Ordered& b) { return a.key != b.key ? a.key < b.key : a.seed < b.seed; });
+std::vector<std::uint32_t> BulkInserter::order_along_curve(std::span<const Seed> seeds, const RunContext& context) const {
+  struct Ordered {
+    std::uint64_t key;
+    std::uint32_t seed;
+  };
+  std::vector<Ordered> along(seeds.size());
+  parallel_for(context, seeds.size(), [&](std::size_t i) { along[i] = {curve_.key(seeds[i].position), static_cast<std::uint32_t>(i)}; });
+  parallel_sort(context, along, [](const Ordered& a, const Ordered& b) { return a.key != b.key ? a.key < b.key : a.seed < b.seed; });
+  std::vector<std::uint32_t> order(seeds.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = along[i].seed;
   return order;
 }
 
 void BulkInserter::find_starts(std::span<Seed> seeds, const RunContext& context) const {
-  std::vector<Ordered> tets;
+  struct Place {
+    std::uint64_t key;
+    std::uint32_t tet;
+  };
+  std::vector<Place> places;
   for (std::uint32_t t = 0; t < mesh_.nodes.size(); ++t)
-    if (mesh_.is_alive(t)) tets.push_back({key_[t], t});
-  parallel_sort(context, tets, [](const Ordered& a, const Ordered& b) { return a.key != b.key ? a.key < b.key : a.seed < b.seed; });
+    if (mesh_.is_alive(t)) places.push_back({0, t});
+  parallel_for(context, places.size(), [&](std::size_t i) { places[i].key = curve_.key(mesh_.points[mesh_.nodes[places[i].tet][3]]); });
+  parallel_sort(context, places, [](const Place& a, const Place& b) { return a.key != b.key ? a.key < b.key : a.tet < b.tet; });
   parallel_for(context, seeds.size(), [&](std::size_t i) {
-    const auto at = std::ranges::lower_bound(tets, curve_.key(seeds[i].position), {}, &Ordered::key);
-    seeds[i].start = at == tets.end() ? tets.back().seed : at->seed;
+    const auto at = std::ranges::lower_bound(places, curve_.key(seeds[i].position), {}, &Place::key);
+    seeds[i].start = at == places.end() ? places.back().tet : at->tet;
   });
 }
 
-std::vector<std::uint32_t> BulkInserter::order_along_curve(std::span<const Seed> seeds, const RunContext& context) const {
-  std::vector<std::uint32_t> order;
-  order.reserve(seeds.size());
-  for (const Ordered& o : ordered(seeds, context)) order.push_back(o.seed);
-  return order;
+std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, const RunContext& context) {
+  return insert(seeds, order_along_curve(seeds, context), context);
 }
 
-std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, const RunContext& context) {
+std::vector<Insertion> BulkInserter::insert_in_order(std::span<const Seed> seeds, const RunContext& context) {
+  std::vector<std::uint32_t> order(seeds.size());
+  std::iota(order.begin(), order.end(), 0u);
+  return insert(seeds, std::move(order), context);
+}
+
+std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, std::vector<std::uint32_t> order, const RunContext& context) {
   const std::size_t first_point = mesh_.points.size();
   if (first_point + seeds.size() >= k_none)
     throw Error({.code = ErrorCode::overflow, .attempted = "refining tetrahedra", .problem = std::to_string(first_point + seeds.size()) + " points"});
   if (first_point + seeds.size() > mesh_.points.capacity()) mesh_.points.reserve((first_point + seeds.size()) * 9 / 8);
-  std::vector<Ordered> order = ordered(seeds, context);
   for (const Seed& seed : seeds) mesh_.points.push_back(seed.position);
 
   std::vector<Insertion> results(seeds.size(), Insertion::foreign);
-  for (int pass = 0; pass < k_most_block_passes; ++pass) {
-    const std::size_t n_blocks = std::min(k_most_blocks, order.size() / k_block_seeds);
-    if (n_blocks < 2 || order.size() < mesh_.nodes.size() / k_tets_per_seed) break;
-    const std::vector<std::uint32_t> later = run_pass(seeds, order, n_blocks, pass % 2 == 1, static_cast<std::uint32_t>(first_point), results, context);
-    for (std::size_t i = 0; i < later.size(); ++i) order[i] = order[later[i]];
-    order.resize(later.size());
+  for (const double share : k_shares) {
+    int n_halvings = 0;
+    while (n_halvings < k_most_halvings && order.size() >> (n_halvings + 1) >= k_block_seeds) ++n_halvings;
+    if (n_halvings == 0) break;
+    std::vector<Vec3> places(mesh_.points.begin() + static_cast<std::ptrdiff_t>(first_point), mesh_.points.end());
+    order = run_pass(seeds, order, Blocks(std::move(places), n_halvings, share, context), static_cast<std::uint32_t>(first_point), results, context);
   }
   n_serial_ += static_cast<std::int64_t>(order.size());
-  while (!order.empty()) {  // more than once only where the new places were too few
-    const std::vector<std::uint32_t> later = run_pass(seeds, order, 1, false, static_cast<std::uint32_t>(first_point), results, context);
-    for (std::size_t i = 0; i < later.size(); ++i) order[i] = order[later[i]];
-    order.resize(later.size());
-  }
+  // More than once only where the new places were too few.
+  while (!order.empty()) order = run_pass(seeds, order, Blocks({}, 0, 0.5, context), static_cast<std::uint32_t>(first_point), results, context);
   return results;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/tets/blocks.h"
 #include "geom/tets/curve.h"
 #include "geom/tets/insert.h"
 #include "geom/tets/tet_mesh.h"
@@ -19,9 +20,10 @@ struct Seed {
   Room room;
 };
 
-/// Inserts into one mesh, time after time. While it lives nobody else adds or removes tetrahedra. 43 bytes for each tetrahedron with the mesh's own.
+/// Inserts into one mesh, time after time. While it lives nobody else adds or removes tetrahedra. 34 bytes for each tetrahedron with the mesh's own.
 class BulkInserter {
  public:
+  /// \post the mesh is the same but for the order of corners within tetrahedra
   /// \p n_corners: the first points, those of the boundary, for Room::to_corners
   /// \p most_effort: as InsertTarget
   explicit BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners = 0, std::size_t most_effort = k_largest_cavity);
@@ -30,6 +32,8 @@ class BulkInserter {
   /// rest is inserted one by one. \return what became of each; never foreign
   /// \post mesh.points has one more for each seed, in no order; those that were not inserted are used by no tetrahedron
   std::vector<Insertion> insert(std::span<const Seed> seeds, const RunContext& context);
+  /// The same in the order given. \pre neighbours in it are near to each other
+  std::vector<Insertion> insert_in_order(std::span<const Seed> seeds, const RunContext& context);
 
   /// For seeds of which nothing is known: each begins at a tetrahedron that is near to it on the curve.
   void find_starts(std::span<Seed> seeds, const RunContext& context) const;
@@ -44,22 +48,19 @@ class BulkInserter {
   std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could take; for reports
 
  private:
-  struct Ordered {
-    std::uint64_t key;
-    std::uint32_t seed;  ///< or tetrahedron
-  };
-  std::vector<Ordered> ordered(std::span<const Seed> seeds, const RunContext& context) const;
-  std::vector<std::uint32_t> run_pass(std::span<const Seed> seeds, std::span<const Ordered> order, std::size_t n_blocks, bool is_shifted,
-                                      std::uint32_t first_point, std::vector<Insertion>& results, const RunContext& context);
+  std::vector<Insertion> insert(std::span<const Seed> seeds, std::vector<std::uint32_t> order, const RunContext& context);
+  std::vector<std::uint32_t> run_pass(std::span<const Seed> seeds, std::span<const std::uint32_t> order, const Blocks& blocks, std::uint32_t first_point,
+                                      std::vector<Insertion>& results, const RunContext& context);
+  std::uint32_t first_alive() const;
   void make_room(std::size_t n_places);
-  void set_owners(std::vector<std::uint64_t> splitters, const RunContext& context);
+  std::vector<std::vector<std::uint32_t>> dealt_out(const Blocks& blocks, const RunContext& context);
+  bool is_in(std::uint32_t t, const Block& block) const { return block.holds(mesh_.points[mesh_.nodes[t][3]]); }
 
   TetMesh& mesh_;
   std::uint32_t n_corners_;
   std::size_t most_effort_;
   Curve curve_;
-  std::vector<std::uint8_t> mark_, state_, owner_, is_changed_;
-  std::vector<std::uint64_t> key_;
+  std::vector<std::uint8_t> mark_, state_, is_changed_;
   std::vector<std::uint32_t> free_;
   std::int64_t n_serial_ = 0;
 };

@@ -37,11 +37,9 @@ int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t
   return -1;  // the point is at a corner's place
 }
 
-Insertion Inserter::insert(std::uint32_t point, std::uint64_t key, std::uint32_t start, const Room& room) {
-  if (start >= mesh_.nodes.size() || is_foreign(start) || !mesh_.is_alive(start)) start = last_;
-  if (!target_.owner && !mesh_.is_alive(start))
-    for (start = 0; !mesh_.is_alive(start);) ++start;
-  if (is_foreign(start) || !mesh_.is_alive(start)) return Insertion::foreign;
+Insertion Inserter::insert(std::uint32_t point, std::uint32_t start, const Room& room) {
+  if (start == k_none || !mesh_.is_alive(start)) start = last_;
+  if (start == k_none) return Insertion::foreign;
   Insertion why = Insertion::done;
   const Vec3 p = mesh_.points[point];
   const std::uint32_t base = locate(p, start, why);
@@ -51,7 +49,7 @@ Insertion Inserter::insert(std::uint32_t point, std::uint64_t key, std::uint32_t
   why = gather(point, base, room);
   if (why == Insertion::done) why = shrink(p, base, room);
   if (why == Insertion::done && faces_.size() > cavity_.size() + free_.size() + (end_ - next_)) why = Insertion::foreign;
-  if (why == Insertion::done) fill(point, key);
+  if (why == Insertion::done) fill(point);
   unmark();
   return why;
 }
@@ -181,7 +179,7 @@ void Inserter::link(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
 }
 
 /// One tetrahedron on each face of the cavity.
-void Inserter::fill(std::uint32_t point, std::uint64_t key) {
+void Inserter::fill(std::uint32_t point) {
   if (2 * faces_.size() > edges_.size() / 2) edges_.assign(8 * faces_.size() | 1023, {});  // made a power of two below
   if ((edges_.size() & (edges_.size() - 1)) != 0) {
     std::size_t size = 1024;
@@ -210,7 +208,6 @@ void Inserter::fill(std::uint32_t point, std::uint64_t key) {
     target_.mark[t] = 0;
     target_.state[t] = 0;
     std::atomic_ref(target_.is_changed[t / k_chunk]).store(1, std::memory_order_relaxed);  // chunks have places of several blocks
-    target_.key[t] = key;
     if (face.outer != k_none) mesh_.neighbours[face.outer / 4][face.outer % 4] = 4 * t + 3;
     link(face.nodes[1], face.nodes[2], 4 * t);
     link(face.nodes[0], face.nodes[2], 4 * t + 1);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/tets/blocks.h"
 #include "geom/tets/tet_mesh.h"
 
 namespace sterna::tets {
@@ -29,18 +30,16 @@ enum class Insertion : std::uint8_t {
   foreign,     ///< another block's tetrahedra are in the way, or there is no room: to be tried later
 };
 
-/// What insertions of a whole pass work on. Each place of a tetrahedron belongs to one block, which alone reads and writes it while blocks work at the same
-/// time.
+/// What insertions of a whole pass work on. Each place belongs to the block that holds the last corner of its tetrahedron, or of the one that was there. That
+/// block alone changes it while blocks work at the same time; others read of it at most the corners, next to their own, where it does not change.
 struct InsertTarget {
   TetMesh& mesh;
-  std::vector<std::uint8_t>& mark;                   ///< of each place: 0 between insertions
-  std::vector<std::uint8_t>& state;                  ///< of each place: set to 0 for each new tetrahedron
-  std::vector<std::uint8_t>& is_changed;             ///< of each chunk of k_chunk places: set to 1 where a tetrahedron is made
-  std::vector<std::uint64_t>& key;                   ///< of each place: set to that of the point for each new tetrahedron
-  std::uint32_t n_corners = 0;                       ///< points of the boundary: the first
-  std::uint32_t first_new_point = k_none;            ///< of the pass's points
-  std::size_t most_effort = k_largest_cavity;        ///< tetrahedra of a cavity, and steps of a walk, at most
-  const std::vector<std::uint8_t>* owner = nullptr;  ///< block of each place that was there when the pass began; null: all is one block
+  std::vector<std::uint8_t>& mark;             ///< of each place: 0 between insertions
+  std::vector<std::uint8_t>& state;            ///< of each place: set to 0 for each new tetrahedron
+  std::vector<std::uint8_t>& is_changed;       ///< of each chunk of k_chunk places: set to 1 where a tetrahedron is made
+  std::uint32_t n_corners = 0;                 ///< points of the boundary: the first
+  std::uint32_t first_new_point = k_none;      ///< of the pass's points
+  std::size_t most_effort = k_largest_cavity;  ///< tetrahedra of a cavity, and steps of a walk, at most
 };
 
 /// What a point may come near to.
@@ -53,18 +52,18 @@ struct Room {
 /// Inserts points for one block. Keeps its memory.
 class Inserter {
  public:
-  /// `free` and [`first_new`, `end_new`): places where this block may put new tetrahedra.
-  Inserter(const InsertTarget& target, std::uint8_t block, std::vector<std::uint32_t> free, std::uint32_t first_new, std::uint32_t end_new)
-      : target_(target), mesh_(target.mesh), block_(block), free_(std::move(free)), next_(first_new), end_(end_new) {}
+  /// `free` and [`first_new`, `end_new`): places where this block may put new tetrahedra; `first_start`: where points begin of which nothing better is known,
+  /// or k_none.
+  Inserter(const InsertTarget& target, const Block& block, std::vector<std::uint32_t> free, std::uint32_t first_new, std::uint32_t end_new,
+           std::uint32_t first_start)
+      : target_(target), mesh_(target.mesh), block_(block), free_(std::move(free)), next_(first_new), end_(end_new), last_(first_start) {}
 
-  /// \p point: its place is in mesh.points already; \p start: a tetrahedron near to it, alive or not.
+  /// \p point: its place is in mesh.points already, in the block; \p start: a place of the block near to it, or k_none
   /// \post with another answer than done the mesh is as before
-  Insertion insert(std::uint32_t point, std::uint64_t key, std::uint32_t start, const Room& room);
+  Insertion insert(std::uint32_t point, std::uint32_t start, const Room& room);
 
   /// Places that were not used, ascending behind those that were given back.
   std::vector<std::uint32_t> take_free();
-  /// One of the tetrahedra that were made last.
-  std::uint32_t last() const { return last_; }
 
  private:
   struct CavityFace {
@@ -78,7 +77,7 @@ class Inserter {
     std::uint32_t face = 0;
   };
 
-  bool is_foreign(std::uint32_t t) const { return target_.owner && t < target_.owner->size() && (*target_.owner)[t] != block_; }
+  bool is_foreign(std::uint32_t t) const { return !block_.holds(mesh_.points[mesh_.nodes[t][3]]); }
   /// done where it is not
   Insertion nearness(std::uint32_t v, const Vec3& p, const Room& room) const {
     const double least = v < target_.n_corners ? room.to_corners : room.to_points;
@@ -90,16 +89,16 @@ class Inserter {
   Insertion shrink(const Vec3& p, std::uint32_t base, const Room& room);
   void collect_faces();
   void reach(std::uint32_t base);
-  void fill(std::uint32_t point, std::uint64_t key);
+  void fill(std::uint32_t point);
   void link(std::uint32_t a, std::uint32_t b, std::uint32_t face);
   void unmark();
 
   InsertTarget target_;
   TetMesh& mesh_;
-  std::uint8_t block_;
+  Block block_;
   std::vector<std::uint32_t> free_;
   std::uint32_t next_, end_;
-  std::uint32_t last_ = 0;
+  std::uint32_t last_;
   std::vector<std::uint32_t> cavity_, touched_;
   std::vector<CavityFace> faces_;
   std::vector<EdgeEntry> edges_ = std::vector<EdgeEntry>(512);

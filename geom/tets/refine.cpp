@@ -96,7 +96,7 @@ class Refiner {
   }
 
  private:
-  double bytes() const { return static_cast<double>(mesh_.nodes.capacity()) * 43.0 + static_cast<double>(mesh_.points.capacity()) * 24.0; }
+  double bytes() const { return static_cast<double>(mesh_.nodes.capacity()) * 34.0 + static_cast<double>(mesh_.points.capacity()) * 24.0; }
   std::array<Vec3, 4> corners(std::size_t t) const {
     const Corners& v = mesh_.nodes[t];
     return {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]};
@@ -189,15 +189,20 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
 
 /// Without those that are too near to a corner of their own tetrahedron: it is given up where it has nothing else to propose.
 void Refiner::drop_hopeless(std::vector<Seed>& proposed) {
-  std::erase_if(proposed, [&](const Seed& seed) {
-    const auto is_near = [&](std::uint32_t v) {
+  std::vector<std::uint8_t> is_hopeless(proposed.size());
+  parallel_for(context_, proposed.size(), [&](std::size_t i) {
+    const Seed& seed = proposed[i];
+    is_hopeless[i] = std::ranges::any_of(mesh_.nodes[seed.start], [&](std::uint32_t v) {
       const double least = v < n_corners_ ? seed.room.to_corners : seed.room.to_points;
       return norm2(mesh_.points[v] - seed.position) < least * least;
-    };
-    if (!std::ranges::any_of(mesh_.nodes[seed.start], is_near)) return false;
-    count_proposal(seed.start);
-    return true;
+    });
   });
+  std::size_t n_kept = 0;
+  for (std::size_t i = 0; i < proposed.size(); ++i) {
+    if (is_hopeless[i]) count_proposal(proposed[i].start);
+    else proposed[n_kept++] = proposed[i];
+  }
+  proposed.resize(n_kept);
 }
 
 /// \return -1: nobody had anything to propose
@@ -225,7 +230,7 @@ std::int64_t Refiner::round(bool needs_front) {
     before.push_back(state[seed.start]);
     count_proposal(seed.start);
   }
-  const std::vector<Insertion> results = inserter_.insert(seeds, context_);
+  const std::vector<Insertion> results = inserter_.insert_in_order(seeds, context_);
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (results[i] == Insertion::beaten && state[seeds[i].start] != k_unseen) state[seeds[i].start] = before[i];
   const std::int64_t n_inserted = std::ranges::count(results, Insertion::done);

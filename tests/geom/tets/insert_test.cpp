@@ -117,8 +117,8 @@ TEST(TetInsert, TellsWhyNot) {
   const RunContext context;
   const TetSoup cube = cube_of_tets(3, [](const Vec3& p) { return distance(p, {0.5, 0.5, 0.5}) < 0.1; });  // a cell is missing in the middle
   TetMesh mesh = connect(cube.points, cube.tetrahedra, context);
-  const std::vector<Corners> before = mesh.nodes;
   BulkInserter inserter(mesh, context);
+  const std::vector<Corners> before = mesh.nodes;
   const std::vector<Seed> seeds = {{.position = {2.0, 0.5, 0.5}, .start = 0, .room = {}},
                                    {.position = {0.5, 0.5, 0.5}, .start = 0, .room = {}},
                                    {.position = {0.02, 0.02, 0.01}, .start = 0, .room = {.to_points = 0.1}},
