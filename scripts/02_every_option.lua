@@ -81,6 +81,7 @@ local pre = inspect{ wall, layers = 30, first_height = 1e-6 * wall.length,
   lowered_area = 0.05,              -- share of the wall
   top_ratio = 3,                    -- last layer over the tetrahedra above it
   wanted_y_plus = 1,                -- with flow = flow{ ... }
+  base_ratio = 20,
   least_length = 1e-3,              -- of the body, else the unit is doubted
   largest_length = 1000,
   max_places = 5,                   -- listed of each finding
@@ -262,9 +263,10 @@ mesh:su2_config{ "every_option.cfg", cruise,
   cfl = 10,
   restart = false,                  -- true: from restart_flow of an earlier run
   boundaries = {},                  -- by patches: { prop = { thrust = 800 } }, or pressure_jump = 120, temperature_jump = 0; of openings pressure = 1e5, total_pressure = 1.1e5, total_temperature = 300
+  kinds = {},                       -- what patches are to the solver: { ["top*"] = "slip" }
 }
 
-mesh:foam_case{ "every_option_case", cruise,  -- a folder; of the rest of the table: the entries of su2_config but its first four and the last
+mesh:foam_case{ "every_option_case", cruise,  -- a folder; of the rest of the table: the entries of su2_config but mesh, solver, turbulence, cfl and restart
   model = "automatic",              -- laminar, euler, SpalartAllmaras, kOmegaSST
   steady = true,                    -- false: in time
   compressible = "automatic",       -- yes, no; by itself from Mach 0.3 on

@@ -18,6 +18,7 @@
 #include "geom/cad/write_cad.h"
 #include "geom/mesh/half.h"
 #include "io/file/format_table.h"
+#include "scripting/cli/case_commands.h"
 #include "scripting/cli/cli_gates.h"
 #include "scripting/cli/cli_scripts.h"
 #include "scripting/cli/commands.h"
@@ -494,7 +495,10 @@ int execute_request(const Request& request, const CommonSettings& common) {
 /// The commands of the program by name, or the long options that a command takes.
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.push_back(command->get_name());
+    for (const std::string& alias : command->get_aliases()) names.push_back(alias);
+  }
   return names;
 }
 std::vector<std::string> long_options(const CLI::App& app) {
@@ -557,6 +561,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   ConvertCommand convert;
   DrawCommand draw;
   ReportCommand report;
+  CaseCommands cases;
   PentagrowCommand pentagrow;
   OptionOverrides set;
   Request request;
@@ -581,6 +586,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_convert_command(app, convert, request);
   add_draw_command(app, draw, request);
   add_report_command(app, report, request);
+  add_case_commands(app, cases, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.

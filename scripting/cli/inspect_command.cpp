@@ -10,6 +10,7 @@
 #include "scripting/values/layer_options.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
+#include "scripting/verbs/source_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -57,6 +58,13 @@ void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std
   command.add_flag("--strict", inspect.is_strict, "exit status 1 also for warnings");
   command.add_option("--flow", inspect.flow, "flow conditions, for the y+ of the first height, e.g. --flow \"mach=0.78 altitude=11000 length=4.2\"")
       ->type_name("CONDITIONS");
+  command
+      .add_option(
+          "--source", inspect.sources,
+          "shorter edges in a region, as of `sterna mesh`, e.g. --source \"cylinder from=1,0,0 to=8,0,0 radius=0.5 size=5cm\"; may be given several times")
+      ->type_name("SOURCE")
+      ->allow_extra_args(false)
+      ->take_all();
   surfmesh::StitchOptions surface;
   volmesh::InspectRequest request;
   add_schema_options(command, inspect_options(surface, request), inspect.options);
@@ -78,6 +86,7 @@ int execute(const InspectCommand& command, const CommandContext& context) {
   volmesh::InspectRequest request;
   ReadCadOptions reading;
   SurfaceRecipe recipe;
+  for (const std::string& source : command.sources) request.volume.sources.push_back(source_of_text(source));
   request.volume.patches = layer_rules_of(command.patches, is_model ? &recipe.patches : nullptr);
   set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), command.options, context);
   choose_solve_for(

@@ -69,20 +69,20 @@ std::string with_degrees(const std::string& name, const std::string& text) {
                .hint = "write " + text + "deg or " + text + "rad"});
 }
 
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
+void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help, const std::string& name) {
   command
       .add_option_function<std::vector<std::string>>(
-          "--patch",
-          [&patches](const std::vector<std::string>& texts) {
+          name,
+          [&patches, name](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) {
               const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
               if (equals == std::string::npos || colon == std::string::npos || colon == 0)
-                throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
+                throw CLI::ValidationError(name, "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
               auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
               std::istringstream list(text.substr(colon + 1));
               for (std::string entry; std::getline(list, entry, ',');) {
                 const std::size_t at = entry.find('=');
-                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
+                if (at == std::string::npos || at == 0) throw CLI::ValidationError(name, "\"" + entry + "\" is not OPTION=VALUE");
                 options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
               }
             }

@@ -22,6 +22,8 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
 /// \throws Error(bad_argument)
 std::string with_degrees(const std::string& name, const std::string& text);
 /// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help);
+/// \param name of the option, where it is another one of the same form
+void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help,
+                      const std::string& name = "--patch");
 
 }  // namespace sterna::scripting

@@ -27,6 +27,28 @@ std::string short_name(const Option& option) {
   return name.starts_with(prefix) ? name.substr(prefix.size()) : name;
 }
 
+std::string_view kind_text(OptionKind kind) {
+  switch (kind) {
+    case OptionKind::boolean: return "true or false";
+    case OptionKind::integer: return "a whole number";
+    case OptionKind::number: return "a number";
+    case OptionKind::text: return "a text";
+  }
+  return "a value";
+}
+
+/// What a list of texts is to be written as where one text is expected; else empty.
+std::string as_one_text(const Option& option, const ScriptValue& value) {
+  const auto* list = std::get_if<TableHandle>(&value);
+  if (option.kind != OptionKind::text || !list || (*list)->items.empty()) return {};
+  std::string text;
+  for (const ScriptValue& item : (*list)->items) {
+    if (!std::holds_alternative<std::string>(item)) return {};
+    text += (text.empty() ? "" : " ") + std::get<std::string>(item);
+  }
+  return "; write " + std::string(option.name) + " = \"" + text + "\"";
+}
+
 bool contains(const std::vector<std::string>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
 }  // namespace
@@ -100,7 +122,9 @@ void TableReader::set(const Option& option, const std::string& key, const Script
     else if (const auto* quantity = std::get_if<QuantityHandle>(&value);
              quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre)
       set_option(option, (*quantity)->metres);
-    else add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here (" + std::string(option.help) + ")");
+    else
+      add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here, expected " + std::string(kind_text(option.kind)) + " (" +
+                  std::string(option.help) + ")" + as_one_text(option, value));
     if (check_) check_->options.push_back({attempted_, std::string(option.stage) + "." + std::string(option.name), option.get()});
   } catch (const Error& error) {
     const bool is_angle_in_degrees = option.unit == Unit::radian && !std::holds_alternative<std::string>(value);

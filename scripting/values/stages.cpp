@@ -20,6 +20,7 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/summary.h"
+#include "volmesh/case/bare_wake.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/layer/assemble.h"
 
@@ -406,11 +407,8 @@ namespace {
 
 /// What the body leaves behind is resolved by nothing but the growth of tetrahedra, unless a source asks for it.
 void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
-  const std::string& shape = options.farfield.farfield_shape;
-  if (!options.sources.empty() || shape == "none" || shape == "surface") return;
-  for (const Patch& patch : wall.mesh.patches)
-    if (patch.kind == PatchKind::inflow || patch.kind == PatchKind::outflow) return;  // a tunnel, or a body with engines
-  context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }");
+  if (volmesh::has_bare_wake(wall.mesh, options))
+    context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }");
 }
 
 }  // namespace

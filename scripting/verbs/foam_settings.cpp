@@ -18,7 +18,7 @@ constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_rat
 constexpr double k_prandtl = 0.72;          ///< of air
 constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
 constexpr double k_first_step = 1e-3;       ///< of a run in time, over length and speed; afterwards steps follow from the Courant number
-constexpr double k_transonic = 0.6;         ///< from here on the pressure equation has its convective part
+constexpr double k_transonic = 0.6;         ///< from here on there may be shocks, and the pressure equation has its convective part
 
 std::string dictionary(std::string_view object, std::string_view location, const std::string& text) {
   return io::foam_header(object, "dictionary", location) + text;
@@ -64,6 +64,8 @@ class FoamSettings {
   }
 
  private:
+  bool is_transonic() const { return s_.is_compressible && s_.flow.mach >= k_transonic; }
+
   std::string turbulence() const {
     if (!s_.is_turbulent) return "simulationType laminar;\n";
     return "simulationType RAS;\nRAS\n{\n    RASModel " + s_.model + ";\n    turbulence on;\n    printCoeffs on;\n}\n";
@@ -138,13 +140,15 @@ class FoamSettings {
     std::string text =
         std::string("ddtSchemes { default ") + (is_steady_ ? "steadyState" : "backward") + "; }\n\n" +
         "// Least squares over all cells that share a point. Gauss linear is not exact for linear fields on tetrahedra and on prisms over curved walls:\n"
-        "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n"
-        "gradSchemes { default pointCellsLeastSquares; }\n\n";
+        "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n" +
+        (is_transonic() ? "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n"
+                          "gradSchemes { default cellLimited pointCellsLeastSquares 1; }\n\n"
+                        : "gradSchemes { default pointCellsLeastSquares; }\n\n");
     text +=
-        "// Second order upwind for the velocity; of compressible flow along its steepest direction, without which a start from uniform flow diverges. "
-        "Turbulence is limited, so that it stays positive, as first order is only where it has to be.\n"
+        "// Second order upwind for the velocity, along its steepest direction: component by component a start from uniform flow diverges in gases and over "
+        "sharp trailing edges. Turbulence is limited, so that it stays positive, as first order is only where it has to be.\n"
         "divSchemes\n{\n    default none;\n    div(phi,U) " +
-        bounded + (s_.is_compressible ? "Gauss linearUpwindV grad(U);\n" : "Gauss linearUpwind grad(U);\n");
+        bounded + "Gauss linearUpwindV grad(U);\n";
     if (s_.is_compressible) {
       text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
               "Gauss limitedLinear 1;\n    div(phid,p) Gauss upwind;\n    div((phi|interpolate(rho)),p) " + bounded +
@@ -167,8 +171,7 @@ class FoamSettings {
     const std::string smooth = "{ solver smoothSolver; smoother symGaussSeidel; tolerance " + tolerance + "; relTol 0.1; maxIter 20; }\n";
     const std::string multigrid = "{ solver GAMG; smoother GaussSeidel; tolerance " + tolerance + "; relTol 0.05; }\n";
     const std::string krylov = "{ solver PBiCGStab; preconditioner DILU; tolerance " + tolerance + "; relTol 0.1; }\n";
-    const bool is_transonic = s_.is_compressible && s_.flow.mach >= k_transonic;
-    std::string text = "solvers\n{\n    p " + (is_transonic ? krylov : multigrid) + "    Phi " + multigrid + "    \"(U|e|nuTilda|k|omega)\" " +
+    std::string text = "solvers\n{\n    p " + (is_transonic() ? krylov : multigrid) + "    Phi " + multigrid + "    \"(U|e|nuTilda|k|omega)\" " +
                        (s_.is_compressible ? krylov : smooth);
     if (!is_steady_) {
       text += "    pFinal { $p; relTol 0; }\n    \"(U|e|nuTilda|k|omega)Final\" { $U; relTol 0; }\n";
@@ -176,7 +179,7 @@ class FoamSettings {
     }
     text += "}\n\npotentialFlow { nNonOrthogonalCorrectors 20; PhiRefCell 0; PhiRefValue 0; }\n\n";
     const std::string limits =
-        s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (is_transonic ? "yes" : "no") + ";\n" : "";
+        s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (is_transonic() ? "yes" : "no") + ";\n" : "";
     const std::string reference = "    pRefCell 0;\n    pRefValue " + (s_.is_compressible ? case_number(s_.flow.pressure) : std::string("0")) + ";\n";
     if (!is_steady_)
       return text + "PIMPLE\n{\n    nOuterCorrectors 2;\n    nCorrectors 2;\n    nNonOrthogonalCorrectors 1;\n    consistent yes;\n" + limits + reference +

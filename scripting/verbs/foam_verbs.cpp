@@ -22,22 +22,6 @@ namespace {
 
 constexpr std::string_view k_proof = "system/controlDict";  ///< of a case
 
-/// A case that was run holds what took hours: it is not replaced.
-void require_no_results(const std::filesystem::path& folder, const std::string& attempted) {
-  std::vector<std::string> results;
-  std::error_code status;  // of a folder that is not there: there are no results
-  for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_time = name != "0" && std::ranges::all_of(name, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == 'e' || c == '-'; });
-    if (entry.is_directory(status) && (is_time || name == "postProcessing" || name.starts_with("processor"))) results.push_back(name);
-  }
-  if (results.empty()) return;
-  throw Error({.code = ErrorCode::write_failed,
-               .attempted = attempted,
-               .problem = "the case " + folder.string() + " has results (" + *std::ranges::min_element(results) + "), which a new one would replace",
-               .hint = "remove them with its Allclean, or choose another name"});
-}
-
 /// Cells whose middle lies in a region of short edges: for cellZones, as sources of momentum and for pictures.
 std::vector<io::FoamZone> zones_of(const HybridMesh& mesh, const std::vector<volmesh::SizeSource>& sources) {
   std::vector<io::FoamZone> zones;
@@ -60,11 +44,13 @@ std::vector<io::FoamZone> zones_of(const HybridMesh& mesh, const std::vector<vol
   return zones;
 }
 
-void write_case(const MeshValue& mesh, const FoamCase& files, const FoamOptions& options, const std::filesystem::path& path, const RunContext& context) {
+/// \param mesh as the solver is to see it, \param made where it comes from
+void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& files, const FoamOptions& options, const std::filesystem::path& path,
+                const RunContext& context) {
   const Numbering numbering = numbering_of(options.numbering);
   // Nodes by lines also where cells are not: what the mesh knows of its columns stays, and solvers with values in cells hardly feel the nodes.
-  const HybridMesh numbered = renumbered(mesh.mesh, numbering == Numbering::lines ? numbering : Numbering::both, context);
-  const auto zones = zones_of(numbered, mesh.origin ? mesh.origin->options.sources : std::vector<volmesh::SizeSource>{});
+  const HybridMesh numbered = renumbered(mesh, numbering == Numbering::lines ? numbering : Numbering::both, context);
+  const auto zones = zones_of(numbered, made.origin ? made.origin->options.sources : std::vector<volmesh::SizeSource>{});
   io::AtomicFolder folder(path, k_proof);
   const std::filesystem::path polymesh = folder.path() / "constant" / "polyMesh";
   std::filesystem::create_directories(polymesh);
@@ -78,47 +64,72 @@ void write_case(const MeshValue& mesh, const FoamCase& files, const FoamOptions&
                                    std::filesystem::perm_options::add);
   }
   io::write_whole(folder.path() / (path.filename().string() + ".foam"), "");  // by which ParaView opens it
-  io::write_whole(folder.path() / "mesh.json", manifest_json(mesh, path, context.seed()));
+  io::write_whole(folder.path() / "mesh.json", manifest_json(made, path, context.seed()));
   folder.commit();
 }
 
 }  // namespace
+
+std::filesystem::path case_folder(const std::filesystem::path& path) { return path.has_filename() ? path : path.parent_path(); }
+
+void require_new_case(const std::filesystem::path& folder, const std::string& attempted) {
+  std::vector<std::string> results;
+  std::error_code status;  // of a folder that is not there: there are no results
+  for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_time = name != "0" && std::ranges::all_of(name, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == 'e' || c == '-'; });
+    if (entry.is_directory(status) && (is_time || name == "postProcessing" || name.starts_with("processor"))) results.push_back(name);
+  }
+  if (results.empty()) return;
+  throw Error({.code = ErrorCode::write_failed,
+               .attempted = attempted,
+               .problem = "the case " + folder.string() + " has results (" + *std::ranges::min_element(results) + "), which a new one would replace",
+               .hint = "remove them with its Allclean, or choose another name"});
+}
+
+void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const CaseRequest& request, const std::filesystem::path& folder,
+                       const std::string& attempted, const RunContext& context) {
+  require_new_case(folder, attempted);
+  const std::optional<HybridMesh> changed = with_kinds(mesh.mesh, request.kinds, attempted);
+  const HybridMesh& seen = changed ? *changed : mesh.mesh;
+  FoamCase files;
+  try {
+    files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context);
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.attempted = attempted;
+    throw Error(std::move(info));
+  }
+  write_case(seen, mesh, files, options, folder, context);
+  context.info("wrote the case " + folder.string() + " for " + files.application + ": run " + (folder / "Allrun").string());
+}
 
 ScriptValue write_foam_case(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
   const ScriptTable table = table_argument(call, 1, k_foam_case_usage);
   TableReader reader(table, call.attempted());
   FoamOptions options;
-  CaseOptions common;
+  CaseRequest request;
   reader.read_options(sterna::options_of(options));
-  reader.read_options(sterna::options_of(common));
+  reader.read_options(sterna::options_of(request.options));
   const auto flow = read_flow(reader, 1);
   const auto* name = reader.items().empty() ? nullptr : std::get_if<std::string>(&reader.items().front());
   if (!name) reader.add_problem("entry 1: expected the name of the folder of the case, \"case\"");
-  const CaseReference reference = read_case_reference(call, reader, common);
-  const CaseBoundaries boundaries = read_case_boundaries(reader);
+  request.reference = read_case_reference(call, reader, request.options);
+  request.boundaries = read_case_boundaries(reader);
+  request.kinds = read_case_kinds(reader);
   CaseProblems of_flow;
   if (flow) require_foam_flow(options, *flow, of_flow);
   for (const std::string& problem : of_flow.all()) reader.add_problem(problem);
   std::filesystem::path path;
   if (name) {
-    path = output_path(call, *name);
-    if (!path.has_filename()) path = path.parent_path();  // a folder may end in a slash
+    path = case_folder(output_path(call, *name));
     note_output(call, path);
-    require_no_results(path, call.attempted());
+    require_new_case(path, call.attempted());
   }
   reader.finish();
-  const RunContext part = call.session.context.part("foam_case", 0.0, 1.0);
-  FoamCase files;
-  try {
-    files = foam_case(mesh->mesh, options, common, *flow, reference, boundaries, part);
-  } catch (const Error& error) {
-    ErrorInfo info = error.info();
-    info.attempted = call.attempted();
-    throw Error(std::move(info));
-  }
-  write_case(*mesh, files, options, path, part);
-  part.info("wrote the case " + path.string() + " for " + files.application + ": run " + (path / "Allrun").string());
+  request.flow = *flow;
+  write_foam_folder(*mesh, options, request, path, call.attempted(), call.session.context.part("foam_case", 0.0, 1.0));
   return mesh;
 }
 

@@ -51,6 +51,12 @@ std::set<PatchId> beside_openings(const HybridMesh& mesh) {
   return result;
 }
 
+std::vector<std::string> names_of_patches(const HybridMesh& mesh) {
+  std::vector<std::string> names;
+  for (const Patch& patch : mesh.patches) names.push_back(patch.name);
+  return names;
+}
+
 void find_half(const CaseOptions& options, int n_symmetry, CaseSite& site, CaseProblems& problems) {
   site.is_half = options.half == "yes" || (options.half == "automatic" && n_symmetry > 0);
   if (options.half == "automatic" && n_symmetry > 1)
@@ -66,14 +72,21 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
   std::vector<std::string> patterns;
   std::istringstream words(options.monitor);
   for (std::string word; words >> word;) patterns.push_back(word);
+  std::set<std::string> used;
   for (const PatchId p : mesh.patches.ids()) {
     if (site.facts[p].n_faces == 0 || is_periodic(mesh, p)) continue;
     if (patterns.empty() && mesh.patches[p].kind == PatchKind::wall) (of_tunnel.contains(p) ? site.unmonitored : site.monitored).push_back(p);
-    if (std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches_glob(mesh.patches[p].name, pattern); })) site.monitored.push_back(p);
+    bool is_named = false;
+    for (const std::string& pattern : patterns) {
+      if (!matches_glob(mesh.patches[p].name, pattern)) continue;
+      is_named = true;
+      used.insert(pattern);
+    }
+    if (is_named) site.monitored.push_back(p);
   }
-  if (site.monitored.empty())
-    problems.add(patterns.empty() ? "no wall is left whose forces count: name some with monitor"
-                                  : "no patch has a name like \"" + options.monitor + "\" (monitor)");
+  for (const std::string& pattern : patterns)
+    if (!used.contains(pattern)) problems.add("monitor: no patch has a name like \"" + pattern + "\" (" + names_hint(names_of_patches(mesh), pattern) + ")");
+  if (site.monitored.empty() && patterns.empty()) problems.add("no wall is left whose forces count: name some with monitor");
 }
 
 }  // namespace
@@ -82,6 +95,29 @@ void CaseProblems::require_none(const std::string& attempted) const {
   std::string text;
   for (const std::string& problem : all_) text += (text.empty() ? "" : "; ") + problem;
   if (!text.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = text});
+}
+
+std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKind> kinds, const std::string& attempted) {
+  if (kinds.empty()) return std::nullopt;
+  sort_by_pattern(kinds);
+  HybridMesh changed = mesh;
+  CaseProblems problems;
+  for (const CaseKind& rule : kinds) {
+    const std::string key = "kinds[\"" + rule.names + "\"]: ";
+    if (rule.kind == PatchKind::interface) problems.add(key + "an interface has cells on both sides, which only volume_mesh makes");
+    bool is_used = false;
+    for (const PatchId p : mesh.patches.ids()) {
+      if (!matches_glob(mesh.patches[p].name, rule.names)) continue;
+      is_used = true;
+      if (is_periodic(mesh, p) || mesh.patches[p].kind == PatchKind::interface)
+        problems.add(key + "patch \"" + mesh.patches[p].name + "\" is " + (is_periodic(mesh, p) ? "a periodic side" : "a side of an actuator disc") +
+                     ", which stays one");
+      changed.patches[p].kind = rule.kind;
+    }
+    if (!is_used) problems.add(key + "no patch has such a name (" + names_hint(names_of_patches(mesh), rule.names) + ")");
+  }
+  problems.require_none(attempted);
+  return changed;
 }
 
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems) {

@@ -44,6 +44,21 @@ struct CaseReference {
   std::string source;           ///< "wing "main"": for the file and the log
 };
 
+/// What patches with such names are to the solver, in place of what they were when the mesh was made.
+struct CaseKind {
+  std::string names;  ///< pattern; of two that match the one with more letters counts
+  PatchKind kind = PatchKind::wall;
+};
+
+/// What a case is asked to be, whatever the solver.
+struct CaseRequest {
+  CaseOptions options;
+  volmesh::FlowState flow;
+  CaseReference reference;
+  CaseBoundaries boundaries;
+  std::vector<CaseKind> kinds;
+};
+
 struct PatchFacts {
   std::size_t n_faces = 0;
   Vec3 area;          ///< m^2, sum of the faces' normals, out of the fluid
@@ -71,6 +86,10 @@ struct CaseSite {
   bool is_tunnel = false;  ///< openings and no farfield
   bool is_half = false;
 };
+
+/// The mesh with other kinds of patches; nothing where none is asked for. Cells stay as they are, so layers may stand on a slip wall.
+/// \throws Error(bad_argument) for a pattern that no patch is like, the kind interface, periodic sides and actuator discs
+std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKind> kinds, const std::string& attempted);
 
 /// \param mesh of which a plane of symmetry makes a half model
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);

@@ -13,44 +13,54 @@
 
 namespace sterna::scripting {
 
+std::string problem_of_su2_mesh(const std::string& name) {
+  return name.empty() || name.ends_with(".su2") || name.ends_with(".cgns") ? "" : "mesh: SU2 reads .su2 and .cgns, not \"" + name + "\"";
+}
+
+void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest& request, const std::filesystem::path& file, const std::string& attempted,
+                    const RunContext& context) {
+  if (options.mesh.empty()) options.mesh = file.stem().string() + ".su2";
+  const std::optional<HybridMesh> changed = with_kinds(mesh.mesh, request.kinds, attempted);
+  std::string text;
+  try {
+    text = su2_config(changed ? *changed : mesh.mesh, options, request.options, request.flow, request.reference, request.boundaries, context);
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.attempted = attempted;
+    throw Error(std::move(info));
+  }
+  io::write_whole(file, text);
+  const std::filesystem::path of_mesh = file.parent_path() / options.mesh;
+  std::error_code none;
+  context.info("wrote " + file.string() + " for the mesh " + options.mesh +
+               (std::filesystem::exists(of_mesh, none) ? "" : ", which is not there yet: mesh:write \"" + of_mesh.string() + "\""));
+}
+
 ScriptValue write_su2_config(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
   const ScriptTable table = table_argument(call, 1, k_su2_config_usage);
   TableReader reader(table, call.attempted());
   Su2Options options;
-  CaseOptions common;
+  CaseRequest request;
   reader.read_options(sterna::options_of(options));
-  reader.read_options(sterna::options_of(common));
+  reader.read_options(sterna::options_of(request.options));
   const auto flow = read_flow(reader, 1);
   const auto* file = reader.items().empty() ? nullptr : std::get_if<std::string>(&reader.items().front());
   if (!file) reader.add_problem("entry 1: expected the name of the configuration, \"case.cfg\"");
-  const CaseReference reference = read_case_reference(call, reader, common);
-  const CaseBoundaries boundaries = read_case_boundaries(reader);
-  if (!options.mesh.empty() && !options.mesh.ends_with(".su2") && !options.mesh.ends_with(".cgns"))
-    reader.add_problem("mesh: SU2 reads .su2 and .cgns, not \"" + options.mesh + "\"");
+  request.reference = read_case_reference(call, reader, request.options);
+  request.boundaries = read_case_boundaries(reader);
+  request.kinds = read_case_kinds(reader);
+  if (const std::string problem = problem_of_su2_mesh(options.mesh); !problem.empty()) reader.add_problem(problem);
   if (file) note_output(call, output_path(call, *file));
   if (flow && call.session.check && !reader.has_problems()) {  // in a run the mesh says the rest, and all is told together
     CaseProblems needed;
     const bool asks_viscous = options.solver == "RANS" || options.solver == "NAVIER_STOKES";
-    require_su2_flow(*flow, reference, asks_viscous ? std::optional<bool>(true) : std::nullopt, needed);
+    require_su2_flow(*flow, request.reference, asks_viscous ? std::optional<bool>(true) : std::nullopt, needed);
     for (const std::string& problem : needed.all()) reader.add_problem(problem);
   }
   reader.finish();
-  const std::filesystem::path path = output_path(call, *file);
-  if (options.mesh.empty()) options.mesh = path.stem().string() + ".su2";
-  std::string text;
-  try {
-    text = su2_config(mesh->mesh, options, common, *flow, reference, boundaries, call.session.context);
-  } catch (const Error& error) {
-    ErrorInfo info = error.info();
-    info.attempted = call.attempted();
-    throw Error(std::move(info));
-  }
-  io::write_whole(path, text);
-  std::error_code none;
-  const bool is_there = std::filesystem::exists(path.parent_path() / options.mesh, none);
-  call.session.context.info("wrote " + path.string() + " for the mesh " + options.mesh +
-                            (is_there ? "" : ", which is not there yet: mesh:write \"" + (path.parent_path() / options.mesh).string() + "\""));
+  request.flow = *flow;
+  write_su2_file(*mesh, options, request, output_path(call, *file), call.attempted(), call.session.context);
   return mesh;
 }
 

@@ -146,7 +146,9 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
   sizes.limits.angle = angle;
   if (!is_automatic(error)) sizes.limits.chord_error = error;
   sizes.max_edge /= options.refinement;
-  for (double* edge : {&sizes.limits.min_edge, &sizes.limits.least_edge, &sizes.limits.error_edge}) *edge /= options.refinement;
+  // The automatic floor under what turns sharply stays in coarse members: round tips that the member of 1 has smooth, they have, too.
+  sizes.limits.least_edge /= is_automatic(min_edge) ? std::max(options.refinement, 1.0) : options.refinement;
+  for (double* edge : {&sizes.limits.min_edge, &sizes.limits.error_edge}) *edge /= options.refinement;
   sizes.limits.angle /= options.refinement;
   // The error of a chord falls with the square of its length.
   sizes.limits.chord_error /= options.refinement * options.refinement;

@@ -24,12 +24,16 @@ struct Cells {
   double top_ratio() const { return last / (k_regular_height * edge); }
 };
 
+double height_of(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
+  const double h0 = scale.h0(v), asked = scale.total_height(v);
+  const double height = is_automatic(asked) ? layer_height(h0, growth_for_edge(h0, base.mean_edge[v], scale.max_growth(v), n), n) : asked;
+  return std::min(height, scale.max_thickness(v));
+}
+
 /// With n layers.
 Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
   const double h0 = scale.h0(v), edge = base.mean_edge[v];
-  const double asked = scale.total_height(v);
-  double height = is_automatic(asked) ? layer_height(h0, growth_for_edge(h0, edge, scale.max_growth(v), n), n) : asked;
-  height = std::min(height, scale.max_thickness(v));
+  const double height = height_of(base, scale, v, n);
   if (height <= n * h0) return {height / n, height / n, edge};
   return {h0, h0 * std::pow(growth_for_height(h0, height, n), n - 1), edge};
 }
@@ -158,6 +162,8 @@ class CellSurvey {
 };
 
 }  // namespace
+
+double asked_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { return height_of(base, scale, v, scale.n(v)); }
 
 void survey_cells(const Survey& survey, const MeshingSite& site) { CellSurvey(survey, site).run(); }
 

@@ -142,6 +142,8 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
     return report;
   }
   survey_cells(survey, *site);
+  survey_bases(survey, *site);
+  survey_wake(survey);
   survey_heights(survey, *site);
   context.progress(1.0);
   return report;

@@ -18,6 +18,7 @@ struct InspectOptions {
   double lowered_area = 0.05;
   double top_ratio = 3.0;
   double wanted_y_plus = 1.0;
+  double base_ratio = 20.0;
   double least_length = 1e-3;
   double largest_length = 1e3;
   int max_places = 5;
@@ -74,6 +75,11 @@ struct Schema<volmesh::InspectOptions> {
                .min = 1e-3,
                .max = 1e4,
                .help = "y+ of the first height, which is looked at where the flow is given"},
+      Field<O>{.name = "base_ratio",
+               .member = &O::base_ratio,
+               .min = 1.0,
+               .max = 1e6,
+               .help = "largest ratio of the height of the layer to the thickness of a blunt base that it stands on"},
       Field<O>{
           .name = "least_length", .member = &O::least_length, .unit = Unit::metre, .min = 0.0, .help = "a shorter body is taken for a mistake in the unit"},
       Field<O>{

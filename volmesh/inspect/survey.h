@@ -109,6 +109,12 @@ void survey_visibility(const Survey& survey, const LayerBase& base, const WallMa
 void survey_heights(const Survey& survey, MeshingSite& site);
 /// cells.cpp: first height and last layer against the edges.
 void survey_cells(const Survey& survey, const MeshingSite& site);
+/// bases.cpp: blunt bases that are much thinner than the layer that is asked for on them.
+void survey_bases(const Survey& survey, const MeshingSite& site);
+/// wake.cpp: a body in a farfield without any source.
+void survey_wake(const Survey& survey);
+/// cells.cpp: height of the layer as asked for at a vertex, before anything lowers it, m.
+double asked_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v);
 /// cells.cpp: first height against the flow.
 void survey_y_plus(const Survey& survey);
 

@@ -225,7 +225,7 @@ TEST_F(InspectFiles, GiveScriptsATable) {
   const std::string printed = run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 18, first_height = 1e-4 }\n" +
                                   "print(pre.ok, pre.errors, #pre.findings, pre.coverage > 0.99, pre.collapsed, pre.is_closed, pre.parts)");
   EXPECT_THAT(printed, HasSubstr("volume_mesh will take it"));
-  EXPECT_THAT(printed, HasSubstr("true\t0\t0\ttrue\t0.0\ttrue\t1"));
+  EXPECT_THAT(printed, HasSubstr("true\t0\t1\ttrue\t0.0\ttrue\t1"));
   EXPECT_THAT(run("local pre = inspect(read_surface '" + path + "') print(pre.coverage, pre.findings[1].kind)"), HasSubstr("nil\tnot_looked_at"));
   const std::string far = write(test::sphere(6, 2000.0), "sphere.stl");
   EXPECT_THAT(run("local f = inspect('" + far +

@@ -84,6 +84,9 @@ TEST_F(CheckScript, SolversSayWhatTheyNeedBeforeMeshing) {
   EXPECT_THAT(problems(mesh + "m:foam_case{ 'a', mach = 0.5, reynolds = 1e6, length = 1 }"),
               testing::ElementsAre(testing::AllOf(HasSubstr("case.lua:2: mesh:foam_case"), HasSubstr("state of the gas"))));
   EXPECT_THAT(
+      problems(mesh + "m:foam_case{ 'a', reynolds = 1e6, length = 1, kinds = { top = 'slipp' }, boundaries = { prop = { trust = 1 } }, monitor = {'w'} }"),
+      testing::ElementsAre(testing::AllOf(HasSubstr("kinds[\"top\"]"), HasSubstr("did you mean \"thrust\"?"), HasSubstr("write monitor = \"w\""))));
+  EXPECT_THAT(
       problems(mesh + "m:su2_config{ 'a.cfg', mach = 0.5, altitude = 0, length = 1, reference_area = 1 } m:foam_case{ 'a', reynolds = 1e6, length = 1 }"),
       testing::IsEmpty());
 }

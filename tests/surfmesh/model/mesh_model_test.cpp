@@ -9,6 +9,7 @@
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/model/airfoil.h"
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "geom/model/smx.h"
@@ -257,6 +258,22 @@ TEST(MeshModel, TheDefaultNacellesLipIsResolved) {
     options.refinement = refinement;
     const SurfaceMesh mesh = mesh_model(make_body(nacelle_body("engine", {}, n), ComponentKind::nacelle), options, {}, k_context);
     EXPECT_LT(mesh.report.max_smooth_angle, 45 * k_degree) << to_text(mesh.report);
+  }
+}
+
+/// The floor under edges at a round tip's thin end stays in coarse members, so what is smooth in the member of 1 is smooth in them.
+TEST(MeshModel, CoarseMembersKeepRoundTipsSmooth) {
+  Wing wing{.name = "W", .is_symmetric = true, .trailing_edge = 0.0007};
+  for (const double y : {1.2, 0.0})
+    wing.sections.push_back({.name = "y", .leading_edge = {0.4 * y, y, 0.0}, .chord = 0.8 - 0.3 * y, .points = naca_airfoil("0010").points});
+  wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
+  const Model model = make_wing(wing);
+  SurfaceMeshOptions options;
+  options.max_edge = 0.045;
+  for (const double refinement : {0.5, 0.7, 1.0}) {
+    options.refinement = refinement;
+    const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+    EXPECT_LT(mesh.report.max_smooth_angle, 55 * k_degree) << refinement << ": " << to_text(mesh.report);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "tests/support/class_bodies.h"
 #include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "tests/support/voxels.h"
@@ -93,7 +94,7 @@ std::vector<Point> marked(const InspectReport& report, Kind kind) {
 TEST(Inspect, SaysNothingOfCleanShapes) {
   for (const TriMesh& mesh : {test::cube(16), test::sphere(10, 0.5)}) {
     const InspectReport report = inspect(mesh, request_of(20, 1e-4));
-    EXPECT_THAT(kinds(report), UnorderedElementsAre()) << (report.findings.empty() ? "" : report.findings.front().text);
+    EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::wake)) << (report.findings.empty() ? "" : report.findings.front().text);
     EXPECT_TRUE(report.is_ok() && report.is_closed && report.layer.is_known);
     EXPECT_EQ(report.n_bodies, 1);
     EXPECT_NEAR(report.length, 1.0, 0.05);
@@ -350,7 +351,7 @@ TEST(Inspect, MeasuresAGapAgainstTheLayers) {
   constexpr double gap = 0.03;
   const TriMesh plates = joined(moved(test::cube(16), {}, {1.0, 1.0, 0.2}), moved(test::cube(16), {0.0, 0.0, 0.2 + gap}, {1.0, 1.0, 0.2}));
   const InspectReport report = inspect(plates, request_of(20, 1e-4));
-  EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::bodies, Kind::lowered));
+  EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::bodies, Kind::lowered, Kind::wake));
   const Finding& lowered = the(report, Kind::lowered);
   EXPECT_EQ(lowered.severity, Severity::warn);
   EXPECT_GT(lowered.count, 2 * 15 * 15);
@@ -386,7 +387,7 @@ TEST(Inspect, TellsOfCompressedAndCollapsedLayers) {
 
 TEST(Inspect, ComparesFirstAndLastCellsWithTheEdges) {
   const TriMesh cube = test::cube(16);
-  EXPECT_THAT(kinds(inspect(cube, request_of(8, 1e-5))), UnorderedElementsAre(Kind::thin_top));
+  EXPECT_THAT(kinds(inspect(cube, request_of(8, 1e-5))), UnorderedElementsAre(Kind::thin_top, Kind::wake));
   InspectRequest one = request_of(8, 1e-5);
   one.volume.envelope.max_thickness = 1.0;  // m, out of the way
   const InspectReport few = inspect(cube, one);
@@ -412,11 +413,11 @@ TEST(Inspect, ComparesTheFirstHeightWithTheFlow) {
   InspectRequest request = request_of(20, 1e-4);
   request.flow = flow_state({.length = 1.0, .reynolds = 1e6});
   const InspectReport report = inspect(test::cube(16), request);
-  EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::y_plus));
+  EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::y_plus, Kind::wake));
   const double wanted = first_height({.y_plus = 1.0}, *request.flow).height;
   EXPECT_NEAR(the(report, Kind::y_plus).value, 1e-4 / wanted, 1e-9);
   request.limits.wanted_y_plus = 1e-4 / wanted;
-  EXPECT_THAT(kinds(inspect(test::cube(16), request)), UnorderedElementsAre());
+  EXPECT_THAT(kinds(inspect(test::cube(16), request)), UnorderedElementsAre(Kind::wake));
 }
 
 TEST(Inspect, RulesOfPatchesCount) {
@@ -472,6 +473,35 @@ TEST(Inspect, TrianglesThatCannotBeJoinedAreLookedAtOneByOne) {
   const InspectReport report = inspect_triangles(mesh, {}, RunContext({.threads = 1}));
   EXPECT_TRUE(report.find(Kind::not_looked_at));
   EXPECT_TRUE(report.find(Kind::needle)) << "a triangle without a place has no angle";
+}
+
+/// A layer of about 80 mm on a base of 1 mm, and on one of 40 mm; sharp edges and slabs with sides of their own are no bases.
+TEST(Inspect, FindsABaseTooThinForItsLayer) {
+  InspectRequest request = request_of(20, 1e-4);
+  request.volume.envelope.total_height = 0.08;
+  const InspectReport report = inspect(test::straight_wing(0.001), request);
+  const Finding& base = the(report, Kind::thin_base);
+  EXPECT_EQ(base.severity, Severity::warn);
+  EXPECT_NEAR(base.value, 80.0, 1.0);
+  EXPECT_EQ(base.count % 2, 0) << "both edges of the base";
+  ASSERT_FALSE(base.places.empty());
+  for (const FindingPlace& place : base.places) EXPECT_NEAR(place.position.x, 1.0, 1e-9);
+  EXPECT_NE(base.places.front().what.find("0.001 m thick under a layer of 0.08 m"), std::string::npos) << base.places.front().what;
+  for (const double thickness : {0.0, 0.04}) EXPECT_FALSE(inspect(test::straight_wing(thickness), request).find(Kind::thin_base)) << thickness;
+  EXPECT_FALSE(inspect(test::cube(8), request).find(Kind::thin_base));
+  request.limits.base_ratio = 100.0;
+  EXPECT_FALSE(inspect(test::straight_wing(0.001), request).find(Kind::thin_base));
+}
+
+TEST(Inspect, HintsAtAWakeThatNothingRefines) {
+  InspectRequest request = request_of(20, 1e-4);
+  EXPECT_EQ(the(inspect(test::cube(8), request), Kind::wake).severity, Severity::note);
+  request.volume.sources.push_back({.kind = SourceKind::point, .size = 0.1});
+  EXPECT_FALSE(inspect(test::cube(8), request).find(Kind::wake));
+  request = request_of(20, 1e-4);
+  TriMesh engine = test::cube(8);
+  engine.patches.push_back({"fan", PatchKind::outflow});
+  EXPECT_FALSE(inspect(engine, request).find(Kind::wake));
 }
 
 }  // namespace

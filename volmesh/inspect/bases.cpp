@@ -1,0 +1,138 @@
+// Blunt bases: strips between two sharp convex edges that run side by side, as the base of a trailing edge. A layer much taller than the strip is thick leans
+// out over both edges, and the sides of its prisms turn far from the lines between the middles of cells (non-orthogonality).
+// Steps: from the middle of each sharp convex edge straight across the facet beside it, over smooth edges, until the next sharp edge or further than matters;
+//        the strip is a base where that edge runs along the first one.
+#include <cmath>
+
+#include "geom/base/number_text.h"
+#include "geom/math/measures.h"
+#include "volmesh/inspect/survey.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_taper = 0.05;    ///< sine of the angle between the two edges of a base: beyond it the facet runs to a point, which no thickness mends
+constexpr double k_enough = 0.1;    ///< thickness over height that is advised: hardly a face leans there (docs/inspect.md)
+constexpr int k_most_steps = 1000;  ///< triangles on the way across; more are a surface, not an edge
+
+struct Base {
+  HalfedgeId edge;         ///< of the triangle on the strip
+  double thickness = 0.0;  ///< m
+  double height = 0.0;     ///< m, of the layer as asked for
+};
+
+class BaseSurvey {
+ public:
+  BaseSurvey(const Survey& survey, const MeshingSite& site)
+      : survey_(survey),
+        base_(site.base),
+        wall_(site.base.wall),
+        topology_(site.base.topology),
+        scale_(scale_of(site.base, site.options.envelope)),
+        map_(survey.mesh, site.domain),
+        sharp_cosine_(std::cos(site.options.envelope.feature_angle)) {}
+
+  void run() const {
+    const double ratio = survey_.request.limits.base_ratio;
+    std::vector<Base> bases = parallel_reduce(
+        survey_.context, topology_.n_halfedges(), std::vector<Base>{},
+        [&](std::size_t begin, std::size_t end) {
+          std::vector<Base> part;
+          for (std::size_t i = begin; i < end; ++i) {
+            const HalfedgeId h(static_cast<std::uint64_t>(i));
+            if (!is_ridge(h)) continue;
+            const double height = std::max(asked_height(base_, scale_, topology_.from(h)), asked_height(base_, scale_, topology_.to(h)));
+            if (const double t = thickness_behind(h, height / ratio); t > 0.0) part.push_back({h, t, height});
+          }
+          return part;
+        },
+        joined_lists<Base>);
+    if (!bases.empty()) add(bases);
+  }
+
+ private:
+  Vec3 normal(HalfedgeId h) const {
+    const auto [a, b, c] = corners(wall_, triangle_of(h));
+    return normalized(area_vector(a, b, c));
+  }
+  Vec3 along(HalfedgeId h) const { return wall_.points[topology_.to(h)] - wall_.points[topology_.from(h)]; }
+
+  bool is_sharp(HalfedgeId h) const { return dot(normal(h), normal(topology_.twin(h))) < sharp_cosine_; }
+  /// A sharp convex edge inside of the walls with layers.
+  bool is_ridge(HalfedgeId h) const { return !topology_.is_boundary(h) && is_sharp(h) && dot(cross(normal(h), normal(topology_.twin(h))), along(h)) > 0.0; }
+
+  /// Of the strip on whose border the half-edge lies, at its middle; 0: there is none, or it is thicker than `most`.
+  double thickness_behind(HalfedgeId first, double most) const {
+    const Vec3 edge = normalized(along(first));
+    Point place = 0.5 * (wall_.points[topology_.from(first)] + wall_.points[topology_.to(first)]);
+    Vec3 direction = cross(normal(first), edge);
+    double walked = 0.0;
+    HalfedgeId h = first;
+    for (int step = 0; step < k_most_steps; ++step) {
+      const auto [exit, to] = across(h, place, direction);
+      if (!exit.is_valid()) return 0.0;
+      walked += distance(place, to);
+      if (walked > most || topology_.is_boundary(exit)) return 0.0;
+      if (is_sharp(exit)) return is_ridge(exit) && norm(cross(edge, normalized(along(exit)))) < k_taper ? walked : 0.0;
+      place = to;
+      h = topology_.twin(exit);
+      const Vec3 n = normal(h);
+      direction = normalized(direction - dot(direction, n) * n);
+    }
+    return 0.0;
+  }
+
+  /// Where a straight line that enters the triangle over the half-edge `h` leaves it; invalid where it runs along an edge.
+  std::pair<HalfedgeId, Point> across(HalfedgeId h, const Point& place, const Vec3& direction) const {
+    const Vec3 side = cross(normal(h), direction);  // left of the way
+    const HalfedgeId second = next(h), third = next(second);
+    const Point& corner = wall_.points[topology_.to(second)];  // opposite to the edge that it came over
+    const HalfedgeId exit = dot(side, corner - place) > 0.0 ? second : third;
+    const Point &a = wall_.points[topology_.from(exit)], &b = wall_.points[topology_.to(exit)];
+    const double left = dot(side, a - place), right = dot(side, b - place);
+    if (left == right) return {HalfedgeId(), place};
+    return {exit, a + std::clamp(left / (left - right), 0.0, 1.0) * (b - a)};
+  }
+
+  void add(const std::vector<Base>& bases) const {
+    Finding finding{.kind = FindingKind::thin_base, .severity = Severity::warn, .limit = survey_.request.limits.base_ratio};
+    finding.count = static_cast<std::int64_t>(bases.size());
+    std::vector<Suspect<HalfedgeId>> suspects;
+    std::vector<TriangleId> where;
+    for (const Base& base : bases) {
+      suspects.push_back({base.edge, base.height / base.thickness});
+      where.push_back(map_.triangle(triangle_of(base.edge)));
+    }
+    const auto of = [&](HalfedgeId h) { return *std::ranges::find_if(bases, [&](const Base& base) { return base.edge == h; }); };
+    const auto listed = worst(suspects, std::max<std::size_t>(survey_.n_places(), 1));
+    for (const auto& s : listed) {
+      if (finding.places.size() >= survey_.n_places()) break;
+      const Base base = of(s.id);
+      finding.places.push_back({0.5 * (wall_.points[topology_.from(s.id)] + wall_.points[topology_.to(s.id)]),
+                                survey_.patch_of(map_.triangle(triangle_of(s.id))), s.badness,
+                                in_metres(base.thickness, k_text_digits) + " thick under a layer of " + in_metres(base.height, k_text_digits)});
+    }
+    const Base worst_base = of(listed.front().id);
+    finding.value = listed.front().badness;
+    finding.text = "a blunt base is thinner than its layer is high by up to " + number_text(finding.value, k_text_digits) + " times, along " +
+                   count_of(finding.count, "edge", "edges") + ": " + in_metres(worst_base.thickness, k_text_digits) + " under " +
+                   in_metres(worst_base.height, k_text_digits) + "; sides of prisms behind it lean beyond what solvers with values in cells bear";
+    finding.advice = "in the CAD model a base at least " + in_metres(k_enough * worst_base.height, k_advice_digits) +
+                     " thick, or a sharp edge; a lower layer changes little";
+    add_finding(survey_.report, std::move(finding), where);
+  }
+
+  const Survey& survey_;
+  const LayerBase& base_;
+  const TriMesh& wall_;
+  const Topology& topology_;
+  EnvelopeScale scale_;
+  WallMap map_;
+  double sharp_cosine_;
+};
+
+}  // namespace
+
+void survey_bases(const Survey& survey, const MeshingSite& site) { BaseSurvey(survey, site).run(); }
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,17 @@
+// What the body leaves behind: drag feels how well it is resolved (docs/verification.md).
+#include "volmesh/case/bare_wake.h"
+#include "volmesh/inspect/survey.h"
+
+namespace sterna::volmesh {
+
+void survey_wake(const Survey& survey) {
+  if (!has_bare_wake(survey.mesh, survey.request.volume)) return;
+  add_finding(survey.report,
+              {.kind = FindingKind::wake,
+               .severity = Severity::note,
+               .text = "no source keeps edges short behind the body: its wake is resolved by the growth of tetrahedra alone, and drag depends on that",
+               .advice = "sources = { wake{ wall, length = 2 } }, or --wake length=2 of `sterna mesh`"},
+              {});
+}
+
+}  // namespace sterna::volmesh
