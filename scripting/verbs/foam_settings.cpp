@@ -188,7 +188,9 @@ class FoamSettings {
     std::string fields = solved() + " ";
     for (std::size_t at = 0, end = fields.find(' '); end != std::string::npos; at = end + 1, end = fields.find(' ', at))
       controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.options.residual) + ";\n";
-    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") + ";\n    nNonOrthogonalCorrectors 0;\n" + limits + reference +
+    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") +
+            // Without a second solution for the pressure a half M6 became unstable after 150 iterations: faces above 80 degrees before its trailing edge.
+            (s_.is_turbulent && !s_.is_compressible ? ";\n    nNonOrthogonalCorrectors 1;\n" : ";\n    nNonOrthogonalCorrectors 0;\n") + limits + reference +
             "    residualControl\n    {\n" + controls + "    }\n}\n\n";
     return text + (s_.is_compressible
                        ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
