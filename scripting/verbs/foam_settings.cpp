@@ -145,10 +145,13 @@ class FoamSettings {
                           "gradSchemes { default cellLimited pointCellsLeastSquares 1; }\n\n"
                         : "gradSchemes { default pointCellsLeastSquares; }\n\n");
     text +=
-        "// Second order upwind for the velocity, along its steepest direction: component by component a start from uniform flow diverges in gases and over "
-        "sharp trailing edges. Turbulence is limited, so that it stays positive, as first order is only where it has to be.\n"
+        "// Second order upwind for the velocity. Component by component, laminar flow has it best (along its steepest direction a coarse sphere's drag is 2.5 "
+        "% "
+        "high); else along its steepest direction, because a start from uniform flow diverges in gases and over sharp trailing edges. Turbulence is limited, "
+        "so "
+        "that it stays positive, as first order is only where it has to be.\n"
         "divSchemes\n{\n    default none;\n    div(phi,U) " +
-        bounded + "Gauss linearUpwindV grad(U);\n";
+        bounded + (s_.model == "laminar" && !s_.is_compressible ? "Gauss linearUpwind grad(U);\n" : "Gauss linearUpwindV grad(U);\n");
     if (s_.is_compressible) {
       text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
               "Gauss limitedLinear 1;\n    div(phid,p) Gauss upwind;\n    div((phi|interpolate(rho)),p) " + bounded +
