@@ -82,18 +82,20 @@ std::uint32_t BulkInserter::first_alive() const {
   return t;
 }
 
+void BulkInserter::reserve(std::size_t n) {
+  mesh_.nodes.reserve(n);
+  mesh_.neighbours.reserve(n);
+  mark_.reserve(n);
+  state_.reserve(n);
+}
+
 void BulkInserter::make_room(std::size_t n_places) {
   if (n_places >= k_most_tets)
     throw Error({.code = ErrorCode::overflow,
                  .attempted = "refining tetrahedra",
                  .problem = std::to_string(n_places) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
                  .hint = "a size, or a source, is very small in a large region"});
-  if (n_places > mesh_.nodes.capacity()) {  // a quarter more, not twice: memory
-    const std::size_t capacity = n_places + n_places / 4;
-    mesh_.nodes.reserve(capacity);
-    mesh_.neighbours.reserve(capacity);
-    for (std::vector<std::uint8_t>* bytes : {&mark_, &state_}) bytes->reserve(capacity);
-  }
+  if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // not twice: memory
   mesh_.nodes.resize(n_places, {k_none, k_none, k_none, k_none});
   mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});
   mark_.resize(n_places, 0);

@@ -40,6 +40,8 @@ class BulkInserter {
   /// Indices of seeds along the curve.
   std::vector<std::uint32_t> order_along_curve(std::span<const Seed> seeds, const RunContext& context) const;
 
+  /// Room for so many tetrahedra.
+  void reserve(std::size_t n);
   /// A mark of each place for the caller's use, 0 for each new tetrahedron. Places without tetrahedron may have any.
   std::vector<std::uint8_t>& state() { return state_; }
   const std::vector<std::uint8_t>& state() const { return state_; }

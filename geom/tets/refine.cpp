@@ -31,6 +31,8 @@ constexpr double k_least_height = 0.6;
 constexpr double k_boundary_height = 0.4;
 /// A circumcentre that is at most so much further off than the front's point is taken instead: no second point would fit behind.
 constexpr double k_merge = 1.2;
+/// Proposals along the curve of which none is kept that is too near to another one; where two parts meet that shows at insertion.
+constexpr std::size_t k_thinned_together = 1 << 15;
 constexpr int k_most_rounds = 1000;
 
 // States of tetrahedra; from k_waiting on the number of points that it has proposed in vain.
@@ -72,8 +74,10 @@ Base base_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Refiner {
  public:
-  Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, double most_bytes, const RunContext& context)
-      : mesh_(mesh), sizes_(sizes), most_bytes_(most_bytes), context_(context), inserter_(mesh, context, n_corners), n_corners_(n_corners) {}
+  Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, double most_bytes, std::size_t expected, const RunContext& context)
+      : mesh_(mesh), sizes_(sizes), most_bytes_(most_bytes), context_(context), inserter_(mesh, context, n_corners), n_corners_(n_corners) {
+    inserter_.reserve(expected);
+  }
 
   RefineReport run() {
     bool needs_front = true;
@@ -96,7 +100,7 @@ class Refiner {
   }
 
  private:
-  double bytes() const { return static_cast<double>(mesh_.nodes.capacity()) * 34.0 + static_cast<double>(mesh_.points.capacity()) * 24.0; }
+  double bytes() const { return static_cast<double>(mesh_.nodes.size()) * 34.0 + static_cast<double>(mesh_.points.size()) * 24.0; }
   std::array<Vec3, 4> corners(std::size_t t) const {
     const Corners& v = mesh_.nodes[t];
     return {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]};
@@ -222,8 +226,13 @@ std::int64_t Refiner::round(bool needs_front) {
       1);
   if (proposed.empty()) return -1;
   drop_hopeless(proposed);
-  std::vector<Seed> seeds;
-  for (const std::uint32_t i : thinned(proposed, inserter_.order_along_curve(proposed, context_))) seeds.push_back(proposed[i]);
+  const std::vector<std::uint32_t> order = inserter_.order_along_curve(proposed, context_);
+  const std::vector<Seed> seeds = parallel_collect<Seed>(
+      context_, order.size(),
+      [&](std::size_t begin, std::size_t end, std::vector<Seed>& list) {
+        for (const std::uint32_t i : thinned(proposed, std::span(order).subspan(begin, end - begin))) list.push_back(proposed[i]);
+      },
+      k_thinned_together);
   // Whoever has proposed has done so; those that are still there and have gained nothing will know.
   std::vector<std::uint8_t> before;
   for (const Seed& seed : seeds) {
@@ -249,8 +258,9 @@ std::int64_t Refiner::round(bool needs_front) {
 
 }  // namespace
 
-RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context, double most_bytes) {
-  const RefineReport report = Refiner(mesh, n_kept_points, sizes, most_bytes, context).run();
+RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context, double most_bytes, std::size_t expected) {
+  mesh.points.reserve(mesh.points.size() + expected / 5);
+  const RefineReport report = Refiner(mesh, n_kept_points, sizes, most_bytes, expected, context).run();
   compact(mesh, n_kept_points);
   return report;
 }

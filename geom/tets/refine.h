@@ -1,6 +1,7 @@
 // Points inside a boundary until tetrahedra have the sizes that are asked for: by fronts from the boundary inwards, then circumcentres where they meet.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -39,9 +40,9 @@ struct RefineReport {
 /// wanted length in the geometric mean. Parallel, same bytes for any number of threads.
 /// \pre as connect() makes it; the first points, and those of the boundary, stay
 /// \post the same boundary; tetrahedra positive; new points behind the old ones, each used. Points in the volume may be gone.
-/// \p most_bytes: looked at after each round
+/// \p most_bytes: looked at after each round; \p expected: tetrahedra, for room to begin with, or 0
 /// \throws Error(cancelled); Error(overflow) for more tetrahedra than a mesh can have
 RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context,
-                    double most_bytes = std::numeric_limits<double>::infinity());
+                    double most_bytes = std::numeric_limits<double>::infinity(), std::size_t expected = 0);
 
 }  // namespace sterna::tets

@@ -20,6 +20,10 @@
 namespace sterna::volmesh {
 namespace {
 
+/// Of the size field: a third more tetrahedra than there are in the mean (docs/tetrahedra.md). What is not used costs no memory.
+constexpr double k_places_per_leaf = 40.0;
+constexpr double k_most_places = 5e7;  ///< to begin with
+
 EngineOutcome failed(FailureKind kind, ErrorInfo error) { return {std::nullopt, {kind, std::move(error)}}; }
 
 EngineOutcome no_sizes() {
@@ -126,7 +130,9 @@ bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes
   const auto start = std::chrono::steady_clock::now();
   const std::size_t n_boundary = input.boundary.points.size();
   const SizeField& field = input.sizes->get();
-  const tets::RefineReport report = tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes);
+  const double expected = k_places_per_leaf * static_cast<double>(field.view().header().n_leaves);
+  const tets::RefineReport report =
+      tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes, static_cast<std::size_t>(std::min(expected, k_most_places)));
   if (report.is_over_limit) return false;
   const double seconds = seconds_since(start);
   context.info(told(report, mesh.nodes.size(), result.engine_seconds, seconds));

@@ -70,8 +70,9 @@ TEST(TetInsert, PointsOnOneSphereHaveOneAnswer) {
   // Of the grid's own tetrahedra, whose spheres hold no corner of the cube, the numbers decide.
   for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
     if (!mesh.is_alive(t) || std::ranges::min(mesh.nodes[t]) < 8) continue;
-    for (std::uint32_t p = 8; p < mesh.points.size(); ++p)
+    for (std::uint32_t p = 8; p < mesh.points.size(); ++p) {
       if (std::ranges::find(mesh.nodes[t], p) == mesh.nodes[t].end()) ASSERT_LT(perturbed_sphere_side(mesh, mesh.nodes[t], p), 0);
+    }
   }
 }
 
