@@ -116,12 +116,12 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
   SizeSupply sizes(domain, site.options.sources, site.options.size, context);
-  Alongside<LayerProof> proof(context, [&sizes, &layer](const RunContext& side) {
+  const StepEnds ends = step_ends(context.threads());
+  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the engine needs them sooner
     return prove_layer(layer.mesh, side);
   });
-  const StepEnds ends = step_ends(context.threads());
-  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
   climb(site, envelope, makers, ladder, filling, context);
   filling.proof.emplace(proof.take());
   return filling;

@@ -17,22 +17,26 @@ namespace detail {
 void yield_to_others();
 }  // namespace detail
 
-/// Runs `work(context) -> T` beside the caller, on all threads of the context but one; with a single thread it runs before the caller goes on. Its priority is
-/// low. The result does not depend on that, because no kernel's does. The destructor stops the work.
+/// Runs `work(context) -> T` beside the caller, on all threads of the context but one, or on all; with a single thread it runs before the caller goes on. Its
+/// priority is low. The result does not depend on that, because no kernel's does. The destructor stops the work.
 template <class T>
 class Alongside {
  public:
+  /// For a caller that waits for another process, which needs a thread.
   template <class Work>
-  Alongside(const RunContext& context, Work work) {
+  Alongside(const RunContext& context, Work work) : Alongside(context, context.threads() - 1, std::move(work)) {}
+  /// On so many threads, as far as the caller's own parallel loops leave them idle. \pre n_threads > 0 where the context has more than one
+  template <class Work>
+  Alongside(const RunContext& context, int n_threads, Work work) {
     if (context.threads() == 1) {
       result_.emplace(work(context));
       ended_.count_down();
       return;
     }
-    thread_ = std::jthread([this, context, work = std::move(work)](std::stop_token stop) {
+    thread_ = std::jthread([this, context, n_threads, work = std::move(work)](std::stop_token stop) {
       detail::yield_to_others();
       try {
-        result_.emplace(work(context.beside(context.threads() - 1, std::move(stop))));
+        result_.emplace(work(context.beside(n_threads, std::move(stop))));
       } catch (...) {
         exception_ = std::current_exception();
       }

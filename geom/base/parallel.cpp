@@ -51,7 +51,7 @@ constexpr std::size_t k_allowed_threads = 256;
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int count) : threads(count), arena(count) {
+  ThreadPool(int count, bool is_beside) : threads(count), arena(count, 1, is_beside ? tbb::task_arena::priority::low : tbb::task_arena::priority::normal) {
     if (count > tbb::info::default_concurrency())
       allowance.emplace(tbb::global_control::max_allowed_parallelism, std::max(static_cast<std::size_t>(count), k_allowed_threads));
   }
@@ -68,7 +68,7 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int count) : threads(count) {}
+  ThreadPool(int count, bool) : threads(count) {}
   int threads;
 };
 
@@ -84,7 +84,8 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 #endif
 
-std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads)); }
+std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads), false); }
+std::shared_ptr<ThreadPool> make_side_pool(int threads) { return std::make_shared<ThreadPool>(threads, true); }
 int thread_count(const ThreadPool& pool) { return pool.threads; }
 
 void parallel_chunks(const RunContext& context, std::size_t n, std::size_t chunk, detail::RangeFunction f) {

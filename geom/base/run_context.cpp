@@ -33,7 +33,7 @@ RunContext::RunContext(RunSettings settings) : state_(std::make_shared<State>())
 
 RunContext RunContext::beside(int threads, std::stop_token stop) const {
   RunContext result = *this;
-  result.pool_ = make_thread_pool(threads);
+  result.pool_ = make_side_pool(threads);
   result.is_beside_ = true;
   result.beside_stop_ = std::move(stop);
   return result;

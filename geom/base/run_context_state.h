@@ -9,8 +9,10 @@
 
 namespace sterna {
 
-/// Threads of a run or beside one; 0 = all of the machine.
+/// Threads of a run; 0 = all of the machine.
 std::shared_ptr<ThreadPool> make_thread_pool(int threads);
+/// Threads beside a run: those that the run itself does not use at the time.
+std::shared_ptr<ThreadPool> make_side_pool(int threads);
 int thread_count(const ThreadPool& pool);
 
 struct RunContext::State {

@@ -224,6 +224,7 @@ TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const
     : state_(std::make_unique<State>(boundary, sizes, options, context)) {}
 TetraLadder::~TetraLadder() = default;
 
+bool TetraLadder::begins_here() const { return state_->rungs.front().engine == EngineKind::sterna; }
 TetraResult TetraLadder::next() { return state_->next(); }
 
 void TetraLadder::reject(const Error& reason) {

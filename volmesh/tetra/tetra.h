@@ -72,6 +72,8 @@ class TetraLadder {
   TetraLadder(const TetraLadder&) = delete;
   TetraLadder& operator=(const TetraLadder&) = delete;
 
+  /// Whether the first attempt is our own engine's, which takes all threads of the caller; the others run in a process of their own.
+  bool begins_here() const;
   /// The next candidate, proven. One with splits fills the boundary as split.
   /// \throws FillError when no attempt is left
   TetraResult next();

@@ -40,6 +40,13 @@ TEST(Alongside, LeavesOneThreadToTheCaller) {
   EXPECT_EQ(work.take(), 3);
 }
 
+TEST(Alongside, MayHaveAllThreads) {
+  const RunContext context({.threads = 4});
+  Alongside<int> work(context, 4, [](const RunContext& side) { return side.threads() + static_cast<int>(sum_of_squares(side) % 2); });
+  const std::size_t own = sum_of_squares(context);
+  EXPECT_EQ(work.take(), 4 + static_cast<int>(own % 2));
+}
+
 TEST(Alongside, ThrowsWhatTheWorkHasThrown) {
   Alongside<int> work(RunContext({.threads = 2}), [](const RunContext&) -> int { throw Error({.code = ErrorCode::bad_argument, .problem = "as wanted"}); });
   test::expect_error(ErrorCode::bad_argument, "as wanted", [&] { (void)work.take(); });
