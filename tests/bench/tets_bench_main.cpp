@@ -1,5 +1,5 @@
 // Our tetrahedral kernel beside the other engines: tetrahedra per second and how the time grows with the size, all on the same input in one run.
-// usage: tets_bench [--threads 2] [--millions 1,2,5] [--engines sterna,hxt,tetgen]
+// usage: tets_bench [--threads 2] [--millions 1,2,5] [--engines sterna,hxt,tetgen] [--insertion yes|no]
 // 1. Delaunay insertion of random points into a cube, along the curve in rounds of eight times as many: the kernel alone.
 // 2. A sphere in a farfield that a source fills with small tetrahedra: each engine's own seconds, and all that the processor spent (with transfer and proof);
 // of "sterna" recovery and refinement apart. An exponent is the slope of the logarithm of the seconds over that of the tetrahedra, least squares.
@@ -31,6 +31,7 @@ struct Settings {
   int threads = 2;
   std::vector<std::string> millions = {"1", "2", "5"};
   std::vector<std::string> engines = {"sterna", "hxt", "tetgen"};
+  bool has_insertion = true;
 };
 
 struct Timing {
@@ -154,20 +155,21 @@ int main(int argc, char** argv) {
     if (name == "--threads") settings.threads = std::atoi(argv[i + 1]);
     else if (name == "--millions") settings.millions = parts_of(argv[i + 1]);
     else if (name == "--engines") settings.engines = parts_of(argv[i + 1]);
+    else if (name == "--insertion") settings.has_insertion = std::string(argv[i + 1]) == "yes";
   }
   try {
     std::puts(
         "| work | engine | triangles | tets | s | k tets/s | recovery s | refinement s | k tets/s of it | processor s | edge / size | MB "
         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|");
     std::vector<Timing> timings;
-    for (const std::string& millions : settings.millions) {
+    for (const std::string& millions : settings.has_insertion ? settings.millions : std::vector<std::string>()) {
       const RunContext context({.threads = settings.threads});
       timings.push_back(insert_points(static_cast<std::size_t>(std::atof(millions.c_str()) * 1e6 / 6.7), context));
       std::printf("| insert | sterna | | %.0f | %.2f | %.0f | | | | | | |\n", timings.back().n, timings.back().seconds,
                   timings.back().n / timings.back().seconds / 1000.0);
       std::fflush(stdout);
     }
-    std::printf("exponent of insertion: %.3f\n", exponent_of(timings));
+    if (settings.has_insertion) std::printf("exponent of insertion: %.3f\n", exponent_of(timings));
     for (const std::string& engine : settings.engines) {
       timings.clear();
       for (const std::string& millions : settings.millions) timings.push_back(fill_domain(engine, 1e6 * std::atof(millions.c_str()), settings));
