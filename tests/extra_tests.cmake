@@ -34,6 +34,10 @@ add_test(NAME accept_mesh COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE
          ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
 set_tests_properties(accept_mesh PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
+# What is installed works where it is.
+add_test(NAME install COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/install_test.py ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
+set_tests_properties(install PROPERTIES TIMEOUT 300)
+
 # OpenFOAM's solvers find the flows that are known on our meshes (docs/verification.md): a flat plate, the potential flow round a sphere.
 add_test(NAME verify_flow COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_flow)
 set_tests_properties(verify_flow PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST 100)

@@ -1,0 +1,38 @@
+#!/usr/bin/python3
+"""What `cmake --install` puts into a folder works there: both names of the program, its helper processes, the scripts. usage: install_test.py BUILD_FOLDER BOX_STL"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD, BOX = "", ""
+
+
+class Install(unittest.TestCase):
+    def test_installed_programs_work(self):
+        with tempfile.TemporaryDirectory() as folder:
+            prefix = pathlib.Path(folder, "prefix")
+            subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], check=True, capture_output=True)
+            work = pathlib.Path(folder, "work")
+            work.mkdir()
+
+            def run(*arguments) -> str:
+                done = subprocess.run(arguments, cwd=work, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, f"{arguments}: {done.stdout}{done.stderr}")
+                return done.stdout
+
+            sterna = prefix / "bin/sterna"
+            self.assertRegex(run(sterna, "--version"), r"^sterna \d")
+            self.assertIn("usage: sterna pentagrow", run(prefix / "bin/pentagrow", "--help").lower())
+            for engine in ("sterna", "hxt", "tetgen"):  # two are processes of their own
+                run(sterna, "mesh", BOX, "--layers", "3", "--first-height", "1e-3", "--set", f"tetrahedra.engine={engine}", "--set",
+                    "tetrahedra.try_other_engine=false", "-o", f"{engine}.su2")
+            run(sterna, "convert", "sterna.su2", "-o", "box.cgns")
+            self.assertIn("VALID", run(sterna, "check", "box.cgns"))  # read by a process of its own
+            run(sterna, "check-script", prefix / "share/sterna/scripts/03_airliner.lua")  # its airfoils lie beside it
+
+
+if __name__ == "__main__":
+    BUILD, BOX = (str(pathlib.Path(argument).resolve()) for argument in sys.argv[1:3])
+    unittest.main(argv=sys.argv[:1])
