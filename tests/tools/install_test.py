@@ -28,7 +28,7 @@ class Install(unittest.TestCase):
             for engine in ("sterna", "hxt", "tetgen"):  # two are processes of their own
                 run(sterna, "mesh", BOX, "--layers", "3", "--first-height", "1e-3", "--set", f"tetrahedra.engine={engine}", "--set",
                     "tetrahedra.try_other_engine=false", "-o", f"{engine}.su2")
-            run(sterna, "convert", "sterna.su2", "-o", "box.cgns")
+            run(sterna, "convert", "sterna.su2", "box.cgns")
             self.assertIn("VALID", run(sterna, "check", "box.cgns"))  # read by a process of its own
             run(sterna, "check-script", prefix / "share/sterna/scripts/03_airliner.lua")  # its airfoils lie beside it
 
