@@ -26,6 +26,7 @@
 #include "scripting/cli/line_editor.h"
 #include "scripting/cli/pentagrow_command.h"
 #include "scripting/cli/prompt.h"
+#include "scripting/cli/shell_help.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/interpreter/script_manual.h"
 #include "scripting/report/report_command.h"
@@ -588,6 +589,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_report_command(app, report, request);
   add_case_commands(app, cases, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_pentagrow_command(app, pentagrow, request);
+  add_shell_commands(app, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.
   constexpr std::array k_prompt = {"sterna", "prompt"};

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What `cmake --install` puts into a folder works there: both names of the program, its helper processes, the scripts. usage: install_test.py BUILD_FOLDER BOX_STL"""
+"""What `cmake --install` puts into a folder works there: both names of the program, its helper processes, the scripts, completion and man page. usage: install_test.py BUILD_FOLDER BOX_STL"""
 import pathlib
 import subprocess
 import sys
@@ -31,6 +31,15 @@ class Install(unittest.TestCase):
             run(sterna, "convert", "sterna.su2", "box.cgns")
             self.assertIn("VALID", run(sterna, "check", "box.cgns"))  # read by a process of its own
             run(sterna, "check-script", prefix / "share/sterna/scripts/03_airliner.lua")  # its airfoils lie beside it
+
+            # The shell that completes is the installed one's own text.
+            completion = prefix / "share/bash-completion/completions/sterna"
+            for words, expected in ((("sterna", "check-sc"), "check-script"), (("sterna", "mesh", "--first-h"), "--first-height"), (("sterna", "check", "bo"), "box.cgns")):
+                script = f'source {completion}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _sterna; echo "${{COMPREPLY[@]}}"'
+                self.assertEqual(run("bash", "-c", script).split(), [expected])
+            page = (prefix / "share/man/man1/sterna.1").read_text()
+            self.assertIn(".SS sterna check\\-script\n", page)
+            self.assertIn(".B \\-\\-first\\-height\n", page)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,26 @@
+// What shells and man make of the commands and their options: from the same tables as --help.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scripting/command/command_context.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sterna::scripting {
+
+/// A script that completes commands, options and file names in a shell.
+/// \p shell: bash, zsh or fish
+/// \throws Error(bad_argument) for another one
+std::string completion_script(const CLI::App& app, const std::string& shell);
+
+/// The page sterna(1) in roff.
+std::string man_page(const CLI::App& app);
+
+/// The commands `completion` and `man`. \p choose: what is to be executed. The app must outlive it.
+void add_shell_commands(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose);
+
+}  // namespace sterna::scripting
