@@ -65,7 +65,7 @@ struct LayerKnowledge {
   LayerReport report;
   EnvelopeCertificate certificate;
   std::optional<LayerCheck> check;
-  FillBoundary boundary;  ///< that the tetrahedra fill, where ridges are opened; else empty, and boundary_of() says it
+  FillBoundary boundary;  ///< that the tetrahedra fill, where ridges are opened or wakes have sheets; else empty, and boundary_of() says it
 };
 
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context);

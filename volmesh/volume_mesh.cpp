@@ -110,8 +110,8 @@ void climb(const MeshingSite& site, const Envelope& envelope, const Makers& make
 Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
-  // Where layers end on other patches, sides are periodic, and ridges are opened, the boundary stays as it is.
-  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty() && site.domain.ridges.is_empty();
+  // Where layers end on other patches, sides are periodic, ridges are opened and wakes have sheets, the boundary stays as it is.
+  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty() && site.domain.ridges.is_empty() && site.domain.sheets.is_empty();
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
@@ -243,7 +243,7 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
   tell_needles(site.domain.needles, site.options.needles, context);
-  const std::vector<WholePart> parts = site.domain.slits.empty() && site.domain.ridges.is_empty()
+  const std::vector<WholePart> parts = site.domain.slits.empty() && site.domain.ridges.is_empty() && site.domain.sheets.is_empty()
                                            ? whole_parts(site.domain, site.options.parts, context)
                                            : std::vector<WholePart>{};  // cut and opened walls are no parts' any more
   const auto of_wall = [&] {

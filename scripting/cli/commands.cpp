@@ -33,6 +33,7 @@
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
+#include "scripting/values/wake_verbs.h"
 #include "scripting/values/wrap_surfaces.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/gate_limits.h"
@@ -182,6 +183,7 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
     throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "mesh the surface anew"});
   };
   if (!command.discs.empty()) refuse_done("--disc");
+  if (!command.sheets.empty()) refuse_done("--wake-sheet");
   if (!command.periodic.empty()) refuse_done("--periodic");
   if (!command.patches.empty()) refuse_done("--patch");
   if (steps.tetrahedra && !command.sources.empty()) refuse_done("--source");
@@ -210,6 +212,12 @@ std::vector<volmesh::ActuatorDisc> discs_of(const MeshCommand& command) {
   std::vector<volmesh::ActuatorDisc> discs;
   for (const std::string& text : command.discs) discs.push_back(disc_of_text(text));
   return discs;
+}
+
+std::vector<volmesh::WakeSheet> sheets_of(const MeshCommand& command) {
+  std::vector<volmesh::WakeSheet> sheets;
+  for (const std::string& text : command.sheets) sheets.push_back(wake_sheet_of_text(text));
+  return sheets;
 }
 
 std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
@@ -323,6 +331,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
     recipe.options.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
+  volume_options.wakes = sheets_of(command);
   volume_options.periodic = periodic_of(command);
   const RunContext surface_part = context.run.part("surface", 0.0, k_surface_end);
   SurfaceValue wall = command.is_auto ? auto_triangles(inputs, asked, reuse, surface_part) : mesh_model_files(inputs, reading, recipe, surface_part, reuse);
@@ -348,6 +357,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   set_options(table, command.options, context);
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
+  volume_options.wakes = sheets_of(command);
   volume_options.periodic = periodic_of(command);
   SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);

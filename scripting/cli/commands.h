@@ -46,6 +46,7 @@ struct MeshCommand {
   std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
   std::vector<std::string> sources;   ///< source_of_text
+  std::vector<std::string> sheets;    ///< wake_sheet_of_text
   std::vector<std::string> wakes;     ///< wake_of_text
   bool is_half = false;               ///< the half of the surface
   bool is_repaired = false;           ///< --repair: the files are repaired first

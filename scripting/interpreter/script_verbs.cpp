@@ -26,6 +26,7 @@
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
+#include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/component_verbs.h"
 #include "scripting/verbs/draw_verbs.h"
 #include "scripting/verbs/envelope_steps.h"
@@ -145,6 +146,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   reader.read_options(schema);
   options.sources = read_sources(reader, call);
   options.discs = read_interfaces(reader, call);
+  options.wakes = read_wakes(reader, call);
   options.periodic = read_periodic(reader);
   std::filesystem::path stages;
   if (const ScriptValue* value = reader.field("stages")) {
@@ -394,6 +396,7 @@ std::span<const ScriptVerb> script_verbs() {
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
     verbs.insert(verbs.end(), disc_verbs().begin(), disc_verbs().end());
+    verbs.insert(verbs.end(), wake_verbs().begin(), wake_verbs().end());
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
     verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
     verbs.insert(verbs.end(), draw_verbs().begin(), draw_verbs().end());

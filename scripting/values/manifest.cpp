@@ -10,6 +10,7 @@
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
+#include "scripting/values/wake_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -126,6 +127,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
       json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
     if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
     if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
+    if (!volume.wakes.empty()) json["wake_sheets"] = Json::parse(wakes_json(volume.wakes));
     if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));
   }
   json["patches"] = Json::array();

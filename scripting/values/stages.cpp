@@ -20,6 +20,7 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/wake_verbs.h"
 #include "volmesh/case/bare_wake.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/layer/assemble.h"
@@ -146,6 +147,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
   if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
   json["sources"] = options.sources.size();
   if (!options.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(options.discs));
+  if (!options.wakes.empty()) json["wake_sheets"] = Json::parse(wakes_json(options.wakes));
   if (!options.periodic.empty()) json["periodic"] = Json::parse(periodic_json(options.periodic));
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
@@ -216,6 +218,11 @@ class StageJson {
   std::vector<volmesh::ActuatorDisc> discs() const {
     const auto found = json_.find("actuator_discs");
     return found == json_.end() ? std::vector<volmesh::ActuatorDisc>() : discs_of_json(found->dump());
+  }
+
+  std::vector<volmesh::WakeSheet> wakes() const {
+    const auto found = json_.find("wake_sheets");
+    return found == json_.end() ? std::vector<volmesh::WakeSheet>() : wakes_of_json(found->dump());
   }
 
   std::vector<volmesh::PeriodicNames> periodic() const {
@@ -450,6 +457,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     if (!json.knows_needles()) options.needles.split_needles = 0.0;
     json.read_options(all_options(wall->options, options));
     options.discs = json.discs();
+    options.wakes = json.wakes();
     options.periodic = json.periodic();
     options.patches = json.patch_rules();
     if (content.farfield) options.farfield_surface = std::make_shared<const TriMesh>(std::move(*content.farfield));

@@ -73,6 +73,8 @@ inline constexpr std::size_t k_members<volmesh::PatchRule> = 8;
 template <>
 inline constexpr std::size_t k_members<volmesh::ActuatorDisc> = 6;
 template <>
+inline constexpr std::size_t k_members<volmesh::WakeSheet> = 4;
+template <>
 inline constexpr std::size_t k_members<volmesh::PeriodicNames> = 2;
 template <>
 inline constexpr std::size_t k_members<volmesh::PlacedPart> = 5;

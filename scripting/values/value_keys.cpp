@@ -11,8 +11,9 @@ namespace {
 /// All that is no option of a schema, but for sources, which come behind the envelope. The members are listed so that a new one does not compile until it is in
 /// a key.
 void add_rest(KeyMaker& maker, const volmesh::MeshCase& options) {
-  const auto& [first_heights, patches, farfield_surface, sources, discs, periodic, smooth_angle, parts] = static_cast<const volmesh::MeshFacts&>(options);
-  maker.add(patches).add(farfield_surface).add(discs).add(periodic).add(smooth_angle).add(parts);
+  const auto& [first_heights, patches, farfield_surface, sources, discs, wakes, periodic, smooth_angle, parts] =
+      static_cast<const volmesh::MeshFacts&>(options);
+  maker.add(patches).add(farfield_surface).add(discs).add(wakes).add(periodic).add(smooth_angle).add(parts);
   maker.add(first_heights != nullptr);
   if (first_heights) maker.add(std::vector<double>(first_heights->values().begin(), first_heights->values().end()));
 }

@@ -12,6 +12,7 @@
 #include "scripting/values/layer_options.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/stages.h"
+#include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/parts/joint_envelope.h"
@@ -82,6 +83,7 @@ ScriptValue classify(const ScriptCall& call) {
   if (reader.items().size() > 1) reader.add_problem("entry 2: there is one too many");
   reader.read_options(schema);
   options.discs = read_interfaces(reader, call);
+  options.wakes = read_wakes(reader, call);
   options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   reader.finish();
@@ -110,6 +112,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   if (table.fields.contains("interfaces")) options.discs = read_interfaces(reader, call);
+  if (table.fields.contains("wakes")) options.wakes = read_wakes(reader, call);
   if (table.fields.contains("patches")) options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   choose_solve_for(options, reader, call);

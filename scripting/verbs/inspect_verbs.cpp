@@ -12,6 +12,7 @@
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
+#include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/source_verbs.h"
 
@@ -140,6 +141,7 @@ ScriptValue inspect(const ScriptCall& call) {
   if (!given.surface && !is_model) reader.read_options(surface);
   options.sources = read_sources(reader, call);
   options.discs = read_interfaces(reader, call);
+  options.wakes = read_wakes(reader, call);
   options.periodic = read_periodic(reader);
   options.patches = read_layer_rules(reader);
   if (const ScriptValue* value = reader.field("flow")) {

@@ -10,6 +10,7 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/stages.h"
+#include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/source_verbs.h"
 #include "volmesh/envelope/envelope.h"
@@ -44,6 +45,7 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   options.discs = read_interfaces(reader, call);
+  options.wakes = read_wakes(reader, call);
   options.periodic = read_periodic(reader);
   options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);

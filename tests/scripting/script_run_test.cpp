@@ -141,6 +141,18 @@ TEST(ScriptRun, MistakesInSourcesAreToldWhereTheyAre) {
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { size_samples 'absent.vtu' } }"), testing::HasSubstr("absent.vtu"));
 }
 
+TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
+  EXPECT_EQ(run_text("local w = wake_sheet{ wing = 'main*', length = 1.5 } print(w.wing, w.length)"), "main*\t1.5\n");
+  const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
+  EXPECT_THAT(message("wake_sheet{ wings = 'main' }"), testing::HasSubstr("did you mean"));
+  EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("has no length"));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = 'always' }"),
+              testing::HasSubstr("wakes: expected \"auto\" or a list"));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = { wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0}, length = 10, "
+                      "height = 0.2, size = 0.05 } } }"),
+              testing::HasSubstr("is a source of short edges"));
+}
+
 TEST(ScriptRun, ActuatorDiscsAreCheckedWhereTheyAreMade) {
   EXPECT_EQ(run_text("local d = actuator_disc{ name = 'prop', center = {-0.4, 0, 0}, radius = 120*cm } print(d.name, d.radius, d.center[1])"),
             "prop\t1.2\t-0.4\n");

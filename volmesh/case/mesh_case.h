@@ -22,6 +22,7 @@
 #include "volmesh/case/size_options.h"
 #include "volmesh/case/size_sources.h"
 #include "volmesh/case/tetra_options.h"
+#include "volmesh/case/wake_sheet.h"
 
 namespace sterna::volmesh {
 
@@ -47,6 +48,7 @@ struct MeshFacts {
   std::shared_ptr<const TriMesh> farfield_surface;  ///< for its shape "surface"
   std::vector<SizeSource> sources;                  ///< of the size field
   std::vector<ActuatorDisc> discs;                  ///< in the fluid
+  std::vector<WakeSheet> wakes;                     ///< behind trailing edges of the walls
   std::vector<PeriodicNames> periodic;              ///< pairs of patches, also of those that are added, that are to match node by node and face by face
   /// rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle.
   double smooth_angle = k_automatic;

@@ -12,6 +12,7 @@
 #include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/constraint.h"
+#include "volmesh/envelope/doubled_sheets.h"
 #include "volmesh/envelope/opened_ridges.h"
 
 namespace sterna::volmesh {
@@ -66,7 +67,8 @@ struct Domain {
   Column<TriangleId, TriangleId> wall2surface;
   Column<TriangleId, CornerWeights> wall_weights;  ///< in wall2surface; empty where needles have not changed the wall, and where discs have cut it
   NeedleReport needles;
-  OpenedRidges ridges;  ///< of the wall
+  OpenedRidges ridges;   ///< of the wall
+  DoubledSheets sheets;  ///< likewise; not both
   std::vector<DiscSlit> slits;
   std::vector<VertexId>
       slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc

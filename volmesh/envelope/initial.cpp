@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/parallel.h"
 #include "volmesh/case/growth_law.h"
@@ -64,6 +65,17 @@ void taper_fans(const LayerBase& base, Envelope& envelope) {
   }
 }
 
+constexpr double k_rim_slope = 1.0;  ///< 45 degrees: between both sides of a sheet tetrahedra have three quarters of the way around its rim
+
+/// limit_gradient(), but steeper beside rims of sheets.
+void limit_heights(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
+  for (const VertexId rim : base.sheet_rims) height[rim] = std::numeric_limits<double>::max();
+  for (const VertexId rim : base.sheet_rims)
+    for (const VertexId v : base.topology.neighbours(rim)) height[v] = std::min(height[v], k_rim_slope * distance(base.wall.points[rim], base.wall.points[v]));
+  limit_gradient(base, gradient, height);
+  for (const VertexId rim : base.sheet_rims) height[rim] = 0.0;
+}
+
 }  // namespace
 
 Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
@@ -83,7 +95,7 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
     if (!is_automatic(options.max_relative_height)) envelope.target[v] = std::min(envelope.target[v], options.max_relative_height * base.mean_edge[v]);
     envelope.direction[v] = pull_towards_visible(base, v, base.vertex_normal[v], k_start_cosine * base.visibility[v]);
   });
-  limit_gradient(base, options.height_gradient, envelope.target);
+  limit_heights(base, options.height_gradient, envelope.target);
   taper_fans(base, envelope);
   envelope.height = envelope.target;
   envelope.cap = envelope.target;

@@ -1,6 +1,7 @@
 // What the layer grows from: the wall with its derived geometry, opened ridges included.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -43,6 +44,12 @@ struct LayerBase {
   /// Normals, directions and edges of these pairs become those of all their triangles together. Pairs may be chained (two directions of periodicity).
   /// \pre constraints of partners are equal but for the sense of their axes
   void let_grow_alike(const std::vector<std::array<VertexId, 2>>& partners);
+
+  std::vector<std::array<VertexId, 2>> level;  ///< pairs whose layers must be as high as each other: both sides of wake sheets
+
+  /// Free rims of wake sheets, ascending: their lines have no height, but the layer need not be thin beside them, because there is fluid all around.
+  std::vector<VertexId> sheet_rims;
+  bool is_sheet_rim(VertexId v) const { return std::binary_search(sheet_rims.begin(), sheet_rims.end(), v); }
 
   LayerDemand demand;  ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
 

@@ -1,6 +1,8 @@
 #include "volmesh/envelope/periodic.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
@@ -38,7 +40,7 @@ Vec3 common_direction(const LayerBase& base, const Envelope& envelope, const std
 
 std::vector<VertexId> equalise_partners(const LayerBase& base, const EnvelopeOptions& options, Collider* collider, Envelope& envelope,
                                         const RunContext& context) {
-  if (base.groups.empty()) return {};
+  if (base.groups.empty() && base.level.empty()) return {};
   const EnvelopeScale scale = scale_of(base, options);
   const EnvelopeShape before = envelope;
   for (const std::vector<VertexId>& group : base.groups) {
@@ -48,15 +50,17 @@ std::vector<VertexId> equalise_partners(const LayerBase& base, const EnvelopeOpt
   for (int round = 0;; ++round) {
     context.check_stop();
     bool is_equal = true;
-    for (const std::vector<VertexId>& group : base.groups) {
+    const auto make_level = [&](std::span<const VertexId> group) {
       const VertexId lowest = *std::ranges::min_element(group, {}, [&](VertexId v) { return envelope.height[v]; });
       const bool is_same = std::ranges::all_of(group, [&](VertexId v) { return envelope.height[v] == envelope.height[lowest]; });
-      if (is_same) continue;
+      if (is_same) return;
       is_equal = false;
       const double height = round < k_rounds ? envelope.height[lowest] : 0.0;
       const HeightLimit reason = envelope.limit[lowest];
       for (const VertexId v : group) lower(envelope, v, height, reason, scale);
-    }
+    };
+    for (const std::vector<VertexId>& group : base.groups) make_level(group);
+    for (const std::array<VertexId, 2>& pair : base.level) make_level(pair);
     if (is_equal && round > 0) break;
     std::vector<VertexId> changed = difference(before, envelope, context).vertices;
     if (changed.empty()) break;

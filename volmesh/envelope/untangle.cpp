@@ -189,11 +189,12 @@ std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<Tr
   return lowered;
 }
 
-/// Surrounds collapsed vertices by a compressed ring (method.md §4), from which the height rises by at most k_step_gradient; returns what was lowered.
+/// Surrounds collapsed vertices, but for rims of sheets, by a compressed ring (method.md §4), from which the height rises by at most k_step_gradient; returns
+/// what was lowered.
 std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
   std::vector<VertexId> all, front;
   for (const VertexId v : vertices) {
-    if (!envelope.is_collapsed(v)) continue;
+    if (!envelope.is_collapsed(v) || base.is_sheet_rim(v)) continue;
     for (const VertexId other : base.topology.neighbours(v)) {
       const double compressed = scale.compressed(other);
       envelope.cap[other] = std::min(envelope.cap[other], compressed);

@@ -7,19 +7,11 @@
 
 #include "geom/base/columns.h"
 #include "geom/base/sort_unique.h"
-#include "geom/math/measures.h"
-#include "geom/mesh/dual_metrics.h"
 #include "volmesh/case/growth_law.h"
+#include "volmesh/layer/explicit_cells.h"
 
 namespace sterna::volmesh {
 namespace {
-
-template <std::size_t N>
-std::array<Vec3, N> points_of(const HybridMesh& mesh, const std::array<NodeId, N>& nodes) {
-  std::array<Vec3, N> points;
-  for (std::size_t k = 0; k < N; ++k) points[k] = mesh.points[nodes[k]];
-  return points;
-}
 
 /// The same curve with one layer less: its first cell as high as before, the others grow a little more. \p nodes: from the wall up; the last stays.
 std::vector<Point> with_layer_less(const std::vector<Point>& nodes) {
@@ -42,7 +34,13 @@ std::vector<Point> with_layer_less(const std::vector<Point>& nodes) {
 class FanCloser {
  public:
   FanCloser(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boundary)
-      : ridges_(ridges), mesh_(mesh), boundary_(boundary), given_(mesh.layers), n_lines_(ridges.n_given_vertices), is_end_(ridges.foot.size(), 0) {
+      : ridges_(ridges),
+        mesh_(mesh),
+        boundary_(boundary),
+        given_(mesh.layers),
+        n_lines_(ridges.n_given_vertices),
+        is_end_(ridges.foot.size(), 0),
+        cells_(mesh) {
     for (const VertexId v : ridges.end_vertices) is_end_[v.index()] = 1;
   }
 
@@ -174,19 +172,11 @@ class FanCloser {
         request);
   }
 
-  /// The cell of a wall triangle in one layer, by how many of its lines are collapsed there (LayerBlock::cell).
+  /// The cell of a wall triangle in one layer.
   void add_cell(const std::array<Line, 3>& base, int j) {
     std::array<NodeId, 3> low, high;
-    std::array<bool, 3> is_down;
-    for (std::size_t k = 0; k < 3; ++k) low[k] = node(base[k], j), high[k] = node(base[k], j + 1), is_down[k] = low[k] == high[k];
-    const int n_down = is_down[0] + is_down[1] + is_down[2];
-    if (n_down == 3) return;
-    if (n_down == 0) return add_prism({low[0], low[1], low[2], high[0], high[1], high[2]}, base);
-    std::size_t a = 0;
-    while (is_down[a] != (n_down == 1)) ++a;
-    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-    if (n_down == 1) add_pyramid({low[b], high[b], high[c], low[c], low[a]}, base);
-    else add_tet({low[a], low[b], low[c], high[a]}, base);
+    for (std::size_t k = 0; k < 3; ++k) low[k] = node(base[k], j), high[k] = node(base[k], j + 1);
+    cells_.add_cell(low, high, base);
   }
 
   /// Over a virtual quadrilateral.
@@ -194,50 +184,28 @@ class FanCloser {
     const int n = n_layers(q[0]);
     const auto level = [&](int j) { return std::array{node(q[0], j), node(q[1], j), node(q[2], j), node(q[3], j)}; };
     const std::array<NodeId, 4> first = level(1), foot = level(0);
-    add_prism({foot[0], first[3], first[0], foot[1], first[2], first[1]}, q);
+    cells_.add_prism({foot[0], first[3], first[0], foot[1], first[2], first[1]}, q);
     for (int j = 1; j + 1 < n; ++j) {
       const auto low = level(j), high = level(j + 1);
-      mesh_.hexahedra.push_back({low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]});
-      hex_lines_.push_back(q);
+      cells_.add_hexahedron({low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}, q);
     }
     const auto low = level(n - 1), high = level(n);
     Point middle;
     for (std::size_t k = 0; k < 4; ++k) middle += (mesh_.points[low[k]] + mesh_.points[high[k]]) / 8.0;
     const NodeId centre = mesh_.points.push_back(middle);
-    add_pyramid({low[0], low[1], low[2], low[3], centre}, q);
+    cells_.add_pyramid({low[0], low[1], low[2], low[3], centre}, q);
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t next = (k + 1) % 4;
-      add_pyramid({low[k], high[k], high[next], low[next], centre}, q);
+      cells_.add_pyramid({low[k], high[k], high[next], low[next], centre}, q);
     }
-    add_tet({high[0], high[2], high[1], centre}, q);
-    add_tet({high[0], high[3], high[2], centre}, q);
+    cells_.add_tet({high[0], high[2], high[1], centre}, q);
+    cells_.add_tet({high[0], high[3], high[2], centre}, q);
   }
 
   /// Over the virtual triangle at the end of a ridge; the first line is the end's.
   void add_end(const std::array<Line, 3>& t) {
-    add_tet({node(t[0], 0), node(t[2], 1), node(t[1], 1), node(t[1], 0)}, t);
+    cells_.add_tet({node(t[0], 0), node(t[2], 1), node(t[1], 1), node(t[1], 0)}, t);
     for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
-  }
-
-  using Lines = std::array<Line, 4>;
-  template <std::size_t N>
-  static Lines lines_of(const std::array<Line, N>& lines) {
-    return {lines[0], lines[1], lines[2], lines[N - 1]};
-  }
-  template <std::size_t N>
-  void add_prism(const std::array<NodeId, 6>& nodes, const std::array<Line, N>& lines) {
-    mesh_.prisms.push_back(nodes);
-    prism_lines_.push_back(lines_of(lines));
-  }
-  template <std::size_t N>
-  void add_pyramid(const std::array<NodeId, 5>& nodes, const std::array<Line, N>& lines) {
-    mesh_.pyramids.push_back(nodes);
-    pyramid_lines_.push_back(lines_of(lines));
-  }
-  template <std::size_t N>
-  void add_tet(const std::array<NodeId, 4>& nodes, const std::array<Line, N>& lines) {
-    mesh_.tetrahedra.push_back(nodes);
-    tet_lines_.push_back(lines_of(lines));
   }
 
   void reorder_boundary() {
@@ -258,22 +226,10 @@ class FanCloser {
   }
 
   void prove() const {
-    ErrorInfo info;
     std::vector<VertexId> feet;
-    const auto look_at = [&](const auto& cells, const std::vector<Lines>& lines_of_cells, CellKind kind, const auto& is_valid) {
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        Cell cell{kind, {}};
-        std::ranges::copy(cells[i], cell.nodes.begin());
-        if (is_valid(points_of(mesh_, cells[i])) && (kind == CellKind::tetrahedron || are_sub_volumes_positive(mesh_, cell))) continue;
-        info.add_place(mesh_.points[cells[i][0]], std::string(to_string(kind)) + " " + std::to_string(i));
-        for (const Line line : lines_of_cells[i])
-          for (const VertexId foot : feet_at(line)) feet.push_back(foot);
-      }
-    };
-    look_at(mesh_.prisms, prism_lines_, CellKind::prism, [](const WedgePoints& p) { return is_wedge_valid(p); });
-    look_at(mesh_.pyramids, pyramid_lines_, CellKind::pyramid, [](const std::array<Vec3, 5>& p) { return is_pyramid_valid(p); });
-    look_at(mesh_.hexahedra, hex_lines_, CellKind::hexahedron, [](const std::array<Vec3, 8>& p) { return is_hexahedron_valid(p); });
-    look_at(mesh_.tetrahedra, tet_lines_, CellKind::tetrahedron, [](const std::array<Vec3, 4>& p) { return is_tet_valid(p); });
+    ErrorInfo info = cells_.find_invalid([&](Line line) {
+      for (const VertexId foot : feet_at(line)) feet.push_back(foot);
+    });
     if (!feet.empty()) fail(std::move(info), "cells of fans are inverted", std::move(feet));
   }
 
@@ -287,7 +243,7 @@ class FanCloser {
   std::size_t n_before_ = 0;          ///< nodes of lines in the given mesh
   std::int64_t outer_shift_ = 0;
   std::vector<std::uint32_t> order_, explicit_columns_;
-  std::vector<Lines> prism_lines_, pyramid_lines_, hex_lines_, tet_lines_;
+  ExplicitCells cells_;
 };
 
 }  // namespace

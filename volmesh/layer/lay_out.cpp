@@ -9,6 +9,7 @@
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/layer/close_fans.h"
+#include "volmesh/layer/close_wakes.h"
 #include "volmesh/layer/extrude.h"
 #include "volmesh/rims/close_ends.h"
 #include "volmesh/rims/slits.h"
@@ -72,6 +73,7 @@ LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& conte
   laid.mesh.request = layer_request(site.base, site.options.envelope, envelope, laid.mesh.layers);
   open_slits(site.domain, laid.mesh.request);
   close_fans(site.domain.ridges, laid.mesh, laid.boundary);
+  close_wakes(site.domain.sheets, laid.mesh, laid.boundary);
   const std::size_t n_wall_patches = site.base.wall.patches.size();
   for (const PeriodicEnds& sides : site.domain.periodic)
     laid.mesh.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});

@@ -14,6 +14,7 @@
 #include "volmesh/domain/disc_sheets.h"
 #include "volmesh/domain/open_ridges.h"
 #include "volmesh/domain/periodic_sides.h"
+#include "volmesh/domain/sheeted_boundary.h"
 #include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/feature_angle.h"
@@ -22,10 +23,23 @@
 #include "volmesh/rims/slits.h"
 
 namespace sterna::volmesh {
+namespace {
+
+/// What wake sheets cannot be made together with.
+void require_no_others(const MeshCase& options) {
+  if (options.wakes.empty()) return;
+  const auto refuse = [](std::string what, std::string hint) { throw_bad_argument("making wake sheets", std::move(what), {}, std::move(hint)); };
+  if (options.ridges.is_on()) refuse("layers cannot have several normals at ridges, too", "leave wakes out, or open_ridges = \"never\"");
+  if (!options.discs.empty()) refuse("there are actuator discs, too", "leave one of them out");
+  if (!options.periodic.empty()) refuse("there are periodic sides, too", "leave one of them out");
+}
+
+}  // namespace
 
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context) {
   require_options(required_options_of(options), "volume_mesh");
   if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
+  require_no_others(options);
   return effective_options(options, context);
 }
 
@@ -60,6 +74,13 @@ double least_first_height(const MeshCase& options) {
   return least;
 }
 
+Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options) {
+  const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
+  Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
+  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
+  return has_layer;
+}
+
 }  // namespace
 
 Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed) {
@@ -72,10 +93,17 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   apply_patch_kinds(given, of_given);
   TriMesh boundary = complete_boundary(given, {options.farfield, options.farfield_surface}, context);
   apply_patch_kinds(boundary, options.patches);
-  const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
-  Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
-  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
-  const NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
+  Column<PatchId, std::uint8_t> has_layer = patches_with_layers(boundary, options);
+  NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
+  SheetedBoundary sheeted;
+  if (!options.wakes.empty()) {
+    sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, options.wakes, least_first_height(options), {options.farfield, options.farfield_surface},
+                               context);
+    apply_patch_kinds(sheeted.boundary, options.patches);
+    boundary = sheeted.boundary;
+    has_layer = patches_with_layers(boundary, options);
+    needles = sheeted.needles;
+  }
   require_own_names(options.discs, boundary.patches, {});
   const DiscCuts cuts = cut_discs(boundary, has_layer, options.discs, context);
   const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
@@ -95,6 +123,7 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   add_slits(boundary, cuts, options.discs, options.size.size_growth, context, domain);
   if (!cuts.sources.empty())
     for (TriangleId& t : domain.wall2surface) t = cuts.sources[t];
+  if (!options.wakes.empty()) hold_sheets(sheeted, domain);
   domain.needles = needles.report;
   if (!needles.sources.empty()) {
     if (cuts.sources.empty())
@@ -109,6 +138,9 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context) {
   LayerBase base(domain.wall, context, domain.constraints, &domain.ridges);
   base.let_grow_alike(domain.partners);
+  base.sheet_rims = domain.sheets.rims;
+  for (const DoubledSheets::Foot& foot : domain.sheets.feet)
+    if (!foot.is_on_base) base.level.push_back(foot.sides);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
   return base;
 }

@@ -71,6 +71,10 @@ TEST(ContentKeys, WhatIsNoNumberOfAVolumeMeshCountsToo) {
   expect(options, true, "radius of a disc");
   options.size.size_growth += 0.01;  // decides a disc's triangles
   expect(options, true, "growth beside a disc");
+  options.wakes = {{.wing = "main"}};
+  expect(options, true, "wake sheet");
+  options.wakes.front().length = 3.0;
+  expect(options, true, "length of a wake sheet");
   options = {};
   options.smooth_angle = 0.2;
   expect(options, true, "smooth angle");

@@ -1,0 +1,158 @@
+#include "scripting/values/wake_verbs.h"
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "geom/base/error.h"
+#include "geom/base/number_with_unit.h"
+#include "geom/base/schema.h"
+#include "scripting/values/geometry_tools.h"
+
+namespace sterna::scripting {
+
+/// What of a wake sheet is no vector.
+struct SheetNumbers {
+  std::string wing = volmesh::WakeSheet{}.wing;
+  double length = volmesh::WakeSheet{}.length;
+  double growth = volmesh::WakeSheet{}.growth;
+};
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::SheetNumbers> {
+  using O = scripting::SheetNumbers;
+  static constexpr std::string_view stage = "wake_sheet";
+  static constexpr std::array fields = {
+      Field<O>{.name = "wing", .member = &O::wing, .help = "patches behind whose trailing edges there is a sheet, a pattern as in patches"},
+      Field<O>{.name = "length",
+               .member = &O::length,
+               .min = 0.1,
+               .max = 20.0,
+               .help = "of the sheet, in chords of the wing before it; a larger value takes more cells"},
+      Field<O>{
+          .name = "growth", .member = &O::growth, .min = 1.0, .max = 2.0, .help = "largest ratio of edges along the sheet; a larger value takes fewer cells"},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+using volmesh::WakeSheet;
+using SheetJson = nlohmann::json;
+
+constexpr std::string_view k_wake_sheet_usage = "wake_sheet{ wing = \"main*\", length = 2, growth = 1.2, direction = {1, 0, 0.05} }";
+
+WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
+  WakeSheet wake;
+  SheetNumbers numbers;
+  const OptionTable options = sterna::options_of(numbers);
+  TableReader reader(table, attempted);
+  reader.field("shape");
+  refuse_items_beyond(reader, 0);
+  if (const auto direction = read_point(reader, "direction")) wake.direction = *direction;
+  if (!(norm2(wake.direction) > 0.0)) reader.add_problem("direction: has no length");
+  reader.read_options(options);
+  reader.finish();
+  wake.wing = numbers.wing;
+  wake.length = numbers.length;
+  wake.growth = numbers.growth;
+  return wake;
+}
+
+ScriptValue make_wake_sheet(const ScriptCall& call) {
+  if (call.arguments.size() != 1 || !std::holds_alternative<TableHandle>(call.arguments.front()))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = "takes one table", .hint = std::string(k_wake_sheet_usage)});
+  ScriptTable table = *std::get<TableHandle>(call.arguments.front());
+  sheet_of(table, call.attempted());
+  table.fields["shape"] = std::string("wake_sheet");
+  return std::make_shared<const ScriptTable>(std::move(table));
+}
+
+std::string wake_sheet_help() {
+  SheetNumbers numbers;
+  return options_help(sterna::options_of(numbers)) + "direction = {x, y, z}: of the free stream, {1, 0, 0} unless given\n";
+}
+
+constexpr std::array<ScriptVerb, 1> k_wake_verbs = {{
+    {"wake_sheet", k_wake_sheet_usage, "A surface behind trailing edges on which the layers of both sides of a wing go on, for the wakes of volume_mesh.",
+     make_wake_sheet, wake_sheet_help, false, "wake sheet"},
+}};
+
+}  // namespace
+
+std::span<const ScriptVerb> wake_verbs() { return k_wake_verbs; }
+
+std::vector<WakeSheet> read_wakes(TableReader& reader, const ScriptCall& call) {
+  if (const ScriptValue* value = reader.field("wakes"))
+    if (const auto* text = std::get_if<std::string>(value)) {
+      if (*text == "auto") return {WakeSheet{}};
+      reader.add_problem("wakes: expected \"auto\" or a list, { " + std::string(k_wake_sheet_usage) + " }, not \"" + *text + "\"");
+      return {};
+    }
+  std::vector<WakeSheet> wakes;
+  for (const ShapeEntry& entry : read_shapes(reader, "wakes", k_wake_sheet_usage)) {
+    if (entry.shape == "wake_sheet") wakes.push_back(sheet_of(*entry.table, call.attempted() + ", " + entry.where));
+    else if (entry.shape == "wake")
+      reader.add_problem(entry.where + ": wake{ ... } is a source of short edges, for sources; a sheet with layers is " + std::string(k_wake_sheet_usage));
+    else reader.add_problem(entry.where + ": expected " + std::string(k_wake_sheet_usage) + ", not " + std::string(type_text(entry.value)));
+  }
+  return wakes;
+}
+
+WakeSheet wake_sheet_of_text(const std::string& text) {
+  const std::string attempted = "wake sheet \"" + text + "\"";
+  if (text == "auto") return {};
+  std::istringstream words(text);
+  ScriptTable table;
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = attempted,
+                   .problem = "\"" + word + "\" is not NAME=VALUE",
+                   .hint = "such as --wake-sheet \"wing=main* length=2\", or --wake-sheet auto"});
+    const std::string key = word.substr(0, equals), value = word.substr(equals + 1);
+    if (key == "wing") {
+      table.fields[key] = value;
+      continue;
+    }
+    std::vector<ScriptValue> values;
+    std::istringstream list(value);
+    for (std::string number; std::getline(list, number, ',');) values.push_back(parse_number_with_unit(number, Unit::none));
+    ScriptValue& field = table.fields[key];
+    if (values.size() == 1) field = values.front();
+    else field = std::make_shared<const ScriptTable>(ScriptTable{.items = std::move(values), .fields = {}, .other_keys = {}});
+  }
+  return sheet_of(table, attempted);
+}
+
+std::string wakes_json(const std::vector<WakeSheet>& wakes) {
+  SheetJson list = SheetJson::array();
+  for (const WakeSheet& wake : wakes)
+    list.push_back(
+        {{"wing", wake.wing}, {"length", wake.length}, {"growth", wake.growth}, {"direction", {wake.direction.x, wake.direction.y, wake.direction.z}}});
+  return list.dump();
+}
+
+std::vector<WakeSheet> wakes_of_json(const std::string& text) {
+  std::vector<WakeSheet> wakes;
+  try {
+    for (const SheetJson& entry : SheetJson::parse(text)) {
+      const SheetJson& way = entry.at("direction");
+      wakes.push_back({.wing = entry.at("wing").get<std::string>(),
+                       .length = entry.at("length").get<double>(),
+                       .growth = entry.at("growth").get<double>(),
+                       .direction = {way.at(0).get<double>(), way.at(1).get<double>(), way.at(2).get<double>()}});
+    }
+  } catch (const SheetJson::exception& error) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading wake sheets from JSON", .problem = error.what()});
+  }
+  return wakes;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,271 @@
+// Layers that go on behind a sharp trailing edge: the sheet is no boundary, both sides share its faces, the wall stays what it was, the whole mesh is proved.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "geom/mesh/topology.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/domain/room.h"
+#include "tests/volmesh/domain/sharp_wing.h"
+#include "volmesh/domain/complete_boundary.h"
+#include "volmesh/domain/trailing_edges.h"
+#include "volmesh/domain/wake_sheets.h"
+#include "volmesh/stages.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::k_context;
+
+MeshCase wake_case(std::vector<WakeSheet> wakes) {
+  MeshCase mesh_case = layers(8, 1e-3);
+  mesh_case.farfield.farfield_radius = 10.0;
+  mesh_case.wakes = std::move(wakes);
+  return mesh_case;
+}
+
+using Place = std::array<double, 3>;
+Place place_of(const Point& p) { return {p.x, p.y, p.z}; }
+
+/// Boundary faces of the wing as sorted triples of places.
+std::vector<std::array<Place, 3>> faces_of_wing(const HybridMesh& mesh) {
+  std::vector<std::array<Place, 3>> faces;
+  for (const sterna::BoundaryTriangle& face : mesh.boundary_triangles) {
+    if (mesh.patches[face.patch].name != "wing") continue;
+    auto& places = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) places[k] = place_of(mesh.points[face.nodes[k]]);
+    std::ranges::sort(places);
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+/// The half y < 0.6 of a wing of 1.2 m span, open there.
+TriMesh half_wing(double wedge_angle) {
+  TriMesh wall = sharp_wing(wedge_angle, 6);
+  TriMesh open;
+  open.points = wall.points;
+  open.patches = wall.patches;
+  for (const TriangleId t : wall.triangles.ids()) {
+    const auto [a, b, c] = corners(wall, t);
+    if (a.y == 0.0 && b.y == 0.0 && c.y == 0.0) continue;  // the cap
+    open.triangles.push_back(wall.triangles[t]);
+    open.triangle_patch.push_back(wall.triangle_patch[t]);
+  }
+  return open;
+}
+
+/// A plate of chord 1 and a thickness, with a base and eight edges of 0.1 m along it.
+TriMesh plate(double thickness) {
+  constexpr int k_along = 10, k_span = 8;
+  std::vector<std::array<double, 2>> section;  // over the upper side to the front, back below
+  for (int i = 0; i <= k_along; ++i) section.push_back({1.0 - 0.1 * i, 0.5 * thickness});
+  for (int i = 0; i <= k_along; ++i) section.push_back({0.1 * i, -0.5 * thickness});
+  const int n = static_cast<int>(section.size());
+  TriMesh mesh;
+  mesh.patches.push_back({"wing", PatchKind::wall});
+  for (int j = 0; j <= k_span; ++j)
+    for (const auto& [x, z] : section) mesh.points.push_back({x, 0.1 * j, z});
+  const auto vertex = [&](int j, int i) { return VertexId(j * n + (i + n) % n); };
+  const auto add = [&](VertexId a, VertexId b, VertexId c) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangle_patch.push_back(PatchId(0));
+  };
+  for (int j = 0; j < k_span; ++j)
+    for (int i = 0; i < n; ++i) {
+      add(vertex(j, i), vertex(j + 1, i + 1), vertex(j, i + 1));
+      add(vertex(j, i), vertex(j + 1, i), vertex(j + 1, i + 1));
+    }
+  for (const int j : {0, k_span})
+    for (int i = 0; i < k_along; ++i) {
+      const std::array quad = {vertex(j, i), vertex(j, i + 1), vertex(j, n - 2 - i), vertex(j, n - 1 - i)};
+      for (const auto& [a, b, c] : {std::array{quad[0], quad[1], quad[2]}, std::array{quad[0], quad[2], quad[3]}}) j == 0 ? add(a, b, c) : add(a, c, b);
+    }
+  return mesh;
+}
+
+/// A second body, of its own patch.
+TriMesh with_obstacle(TriMesh wall, const Vec3& low, const Vec3& high) {
+  TriMesh block = test::cube(6);
+  const Box unit = bounding_box(block);
+  for (Point& p : block.points)
+    for (std::size_t k = 0; k < 3; ++k) p[k] = low[k] + (p[k] - unit.min[k]) / (unit.max[k] - unit.min[k]) * (high[k] - low[k]);
+  block.patches = Column<PatchId, Patch>{{"obstacle", PatchKind::wall}};
+  block.triangle_patch.assign(block.n_triangles(), PatchId(0));
+  append(wall, block);
+  return wall;
+}
+
+double end_of(const TriMesh& wall) {
+  double end = 0.0;
+  for (const Point& p : wall.points) end = std::max(end, p.x);
+  return end;
+}
+
+TEST(TrailingEdges, OfAPlateItIsTheUpperOneOfTheBase) {
+  const TriMesh wall = plate(0.05), thick = plate(0.2);
+  const Topology topology(wall, k_context), of_thick(thick, k_context);
+  const std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, {"*", wall.n_triangles()}, {1, 0, 0});
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_TRUE(chains[0].is_blunt);
+  EXPECT_EQ(chains[0].edges.size(), 8u);
+  for (const HalfedgeId h : chains[0].edges) EXPECT_EQ(wall.points[topology.from(h)], (Point{1.0, wall.points[topology.from(h)].y, 0.025}));
+  EXPECT_TRUE(find_trailing_edges(thick, of_thick, {"*", thick.n_triangles()}, {1, 0, 0}).empty());
+}
+
+TEST(TrailingEdges, OfAWingItIsTheSharpOne) {
+  const TriMesh wall = sharp_wing(20.0, 8);
+  const Topology topology(wall, k_context);
+  const WingTriangles wing{"*", wall.n_triangles()};
+  const std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, wing, {1, 0, 0});
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].edges.size(), 8u);
+  EXPECT_FALSE(chains[0].is_loop);
+  for (const HalfedgeId h : chains[0].edges) EXPECT_EQ(wall.points[topology.from(h)].x, 1.0);
+  for (std::size_t i = 0; i + 1 < chains[0].edges.size(); ++i) EXPECT_EQ(topology.to(chains[0].edges[i]), topology.from(chains[0].edges[i + 1]));
+  for (const double chord : local_chords(wall, topology, wing, {1, 0, 0}, chains[0])) EXPECT_NEAR(chord, 1.176, 0.01);  // and the nose
+  EXPECT_TRUE(find_trailing_edges(wall, topology, wing, {-1, 0, 0}).empty());                                           // it leads there
+  EXPECT_TRUE(find_trailing_edges(wall, topology, {"tail*", wall.n_triangles()}, {1, 0, 0}).empty());
+}
+
+TEST(WakeSheets, TheWallIsAThinBodyThen) {
+  const TriMesh given = sharp_wing(20.0, 8);
+  TriMesh wall = given;
+  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{}}, 1e-3, wall, k_context);
+  const DoubledSheets& sheets = made.sheets;
+  ASSERT_FALSE(sheets.is_empty());
+  EXPECT_EQ(Topology(wall, k_context).n_boundary_halfedges(), 0u);
+  EXPECT_EQ(made.sources.size(), wall.n_triangles() - given.n_triangles());
+  EXPECT_EQ(sheets.n_given_vertices, given.n_vertices());
+  std::size_t n_on_edge = 0;
+  for (const DoubledSheets::Foot& foot : sheets.feet) {
+    EXPECT_NEAR(distance(wall.points[foot.sides[0]], wall.points[foot.sides[1]]), 2e-5, 1e-12);
+    EXPECT_GE(foot.sides[1].index(), given.n_vertices());
+    if (foot.sides[0].index() < given.n_vertices()) {
+      EXPECT_EQ(foot.point, given.points[foot.sides[0]]);
+      ++n_on_edge;
+    }
+  }
+  EXPECT_EQ(n_on_edge, 7u);                          // the two corners of the wing are ends of the opened edge
+  for (const TriangleId t : wall.triangles.ids()) {  // no triangle and no edge is on rims alone
+    const auto is_rim = [&](VertexId v) { return std::ranges::binary_search(sheets.rims, v); };
+    EXPECT_FALSE(t.index() >= given.n_triangles() && std::ranges::all_of(wall.triangles[t], is_rim));
+  }
+  double end = 0.0;
+  for (const Point& p : wall.points) end = std::max(end, p.x);
+  EXPECT_NEAR(end, 1.0 + 2.0 * 1.176, 0.01);  // two chords, the nose included
+}
+
+TEST(WakeSheets, MeshesOfWedgesAreValidAndKeepTheWall) {
+  for (const double angle : {5.0, 30.0}) {
+    const TriMesh wall = sharp_wing(angle, 8);
+    const VolumeMeshResult without = volume_mesh(wall, wake_case({}), k_context), with = volume_mesh(wall, wake_case({{.length = 1.0}}), k_context);
+    EXPECT_TRUE(with.check.is_valid()) << angle;
+    EXPECT_GT(with.mesh.prisms.size(), 500u) << angle;
+    EXPECT_EQ(faces_of_wing(with.mesh), faces_of_wing(without.mesh)) << angle;
+    const CheckReport all_explicit = check(explicit_cells(with.mesh), {}, k_context);
+    EXPECT_TRUE(all_explicit.is_valid()) << angle;
+    EXPECT_NEAR(all_explicit.dual_volume, with.check.dual_volume, 1e-11 * with.check.dual_volume);
+  }
+}
+
+TEST(WakeSheets, EqualForAnyNumberOfThreads) {
+  const TriMesh wall = sharp_wing(20.0, 8);
+  const MeshCase mesh_case = wake_case({{.length = 0.7}});
+  const VolumeMeshResult one = volume_mesh(wall, mesh_case, RunContext({.threads = 1}));
+  for (const int threads : {2, 7}) {
+    const VolumeMeshResult other = volume_mesh(wall, mesh_case, RunContext({.threads = threads}));
+    EXPECT_EQ(other.mesh.points, one.mesh.points);
+    EXPECT_EQ(other.mesh.prisms, one.mesh.prisms);
+    EXPECT_EQ(other.mesh.tetrahedra, one.mesh.tetrahedra);
+  }
+}
+
+TEST(WakeSheets, OfAHalfModelItEndsInThePlane) {
+  const VolumeMeshResult with = volume_mesh(half_wing(20.0), wake_case({{.length = 1.0}}), k_context);
+  EXPECT_TRUE(with.check.is_valid());
+  std::size_t n_behind = 0;  // quadrilaterals of layers on the plane behind the wing
+  for (const BoundaryQuad& quad : with.mesh.boundary_quads) {
+    EXPECT_EQ(with.mesh.patches[quad.patch].name, "symmetry");
+    n_behind += std::ranges::all_of(quad.nodes, [&](NodeId n) { return with.mesh.points[n].x > 1.0; }) ? 1 : 0;
+  }
+  EXPECT_GT(n_behind, 20u);
+}
+
+TEST(WakeSheets, BehindABluntBaseItStartsAtTheUpperEdge) {
+  const TriMesh wall = plate(0.05);
+  const VolumeMeshResult with = volume_mesh(wall, wake_case({{.length = 0.6}}), k_context), without = volume_mesh(wall, wake_case({}), k_context);
+  EXPECT_TRUE(with.check.is_valid());
+  EXPECT_EQ(faces_of_wing(with.mesh), faces_of_wing(without.mesh));
+}
+
+TEST(WakeSheets, EndWhereAWallIsInTheWay) {
+  const TriMesh wing = sharp_wing(20.0, 8), free = [&] {
+    TriMesh wall = wing;
+    add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, 1e-3, wall, k_context);
+    return wall;
+  }();
+  EXPECT_GT(end_of(free), 3.0);
+  const auto sheets_before = [&](const TriMesh& given) {
+    TriMesh wall = given;
+    const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, 1e-3, wall, k_context);
+    Box box;
+    for (std::size_t t = made.sheets.n_given_triangles; t < wall.n_triangles(); ++t)
+      for (const Point& p : corners(wall, TriangleId(t))) box.add(p);
+    return box;
+  };
+  const Box before_all = sheets_before(with_obstacle(wing, {2.0, -1.0, -0.5}, {2.5, 2.0, 0.5}));
+  EXPECT_LT(before_all.max.x, 2.0);
+  EXPECT_GT(before_all.max.x, 1.2);
+  const Box beside = sheets_before(with_obstacle(wing, {1.1, 0.55, -0.5}, {4.0, 2.0, 0.5}));  // behind its right third
+  EXPECT_LT(beside.max.y, 0.55);
+  EXPECT_GT(beside.max.x, 3.0);
+  test::expect_error(ErrorCode::bad_argument, "no room", [&] { sheets_before(with_obstacle(wing, {1.02, -1.0, -0.5}, {2.5, 2.0, 0.5})); });
+  const VolumeMeshResult mesh = volume_mesh(with_obstacle(wing, {2.0, -1.0, -0.5}, {2.5, 2.0, 0.5}), wake_case({{.wing = "wing"}}), k_context);
+  EXPECT_TRUE(mesh.check.is_valid());
+}
+
+TEST(WakeSheets, AGivenPlaneOfSymmetryIsMadeAnew) {
+  const TriMesh half = half_wing(20.0);
+  const TriMesh domain = complete_boundary(half, {wake_case({}).farfield, nullptr}, k_context);
+  MeshCase mesh_case = wake_case({{.length = 1.0}});
+  mesh_case.farfield = {};
+  const VolumeMeshResult with = volume_mesh(domain, mesh_case, k_context);
+  EXPECT_TRUE(with.check.is_valid());
+  EXPECT_GT(with.mesh.prisms.size(), 200u);
+  for (const BoundaryQuad& quad : with.mesh.boundary_quads) EXPECT_EQ(with.mesh.patches[quad.patch].name, "symmetry");
+}
+
+TEST(WakeSheets, WhatCannotBeIsRefused) {
+  const TriMesh wall = sharp_wing(20.0, 8);
+  const auto refuse = [&](const char* text, MeshCase mesh_case) {
+    test::expect_error(ErrorCode::bad_argument, text, [&] { volume_mesh(wall, mesh_case, k_context); });
+  };
+  refuse("no patch is named like \"tail\"", wake_case({{.wing = "tail"}}));
+  refuse("no trailing edge", wake_case({{.direction = {-1, 0, 0}}}));
+  refuse("is zero", wake_case({{.direction = {0, 0, 0}}}));
+  MeshCase with_ridges = wake_case({{}});
+  with_ridges.ridges.open_ridges = "always";
+  refuse("several normals", with_ridges);
+  test::expect_error(ErrorCode::bad_argument, "no trailing edge", [&] { volume_mesh(sharp_wing(70.0, 8), wake_case({{}}), k_context); });
+  MeshCase with_disc = wake_case({{}});
+  with_disc.discs = {{.center = {3, 0, 0}, .radius = 0.5}};
+  refuse("actuator discs", with_disc);
+}
+
+TEST(WakeSheets, StepsBehindTheTetrahedraAreRefused) {
+  const TriMesh wall = sharp_wing(20.0, 8);
+  const MeshCase mesh_case = wake_case({{.length = 0.5}});
+  const EnvelopeStage envelope = make_envelope(wall, mesh_case, {}, k_context);
+  const FilledStage filled = make_tetrahedra(wall, envelope, mesh_case, {}, k_context);
+  test::expect_error(ErrorCode::bad_argument, "wake sheets", [&] { finish_mesh(wall, filled, mesh_case, k_context); });
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

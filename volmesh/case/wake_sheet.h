@@ -1,0 +1,18 @@
+// Wake sheets: surfaces behind trailing edges, without thickness, on which the layers of both sides of a wing go on.
+#pragma once
+
+#include <string>
+
+#include "geom/base/vec3.h"
+
+namespace sterna::volmesh {
+
+/// What is asked for behind the trailing edges of some walls (domain/wake_sheets.h). The sheet is no patch: cells of both sides share its faces.
+struct WakeSheet {
+  std::string wing = "*";         ///< patches with trailing edges, a pattern as in rules of patches
+  double length = 2.0;            ///< local chords
+  double growth = 1.2;            ///< largest ratio of consecutive edges along the stream
+  Vec3 direction{1.0, 0.0, 0.0};  ///< of the free stream; any length
+};
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,424 @@
+// Steps for each chain of trailing edges: shape (directions, chords, stations), keep (cells with room, no free rim from rim to rim), number, open the edge, add
+// triangles. Both sides stand a hair off their common foot, so all that comes after works as on any thin body.
+#include "volmesh/domain/wake_sheets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/base/number_text.h"
+#include "geom/base/sort_unique.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/domain/trailing_edges.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr const char* k_wake_attempt = "making wake sheets";
+constexpr double k_sheet_raise = 0.01;                          ///< of the first height: how far both sides are off their foot
+constexpr double k_least_sheet_raise = 1e-11;                   ///< of the largest coordinate: five digits are left for normals between both sides
+constexpr double k_blend = 1.5;                                 ///< chords, over which the sheet turns into the free stream
+constexpr double k_least_start = 0.25;                          ///< of the edge across the stream: the first edge along it, or triangles would be needles
+constexpr double k_longest = 2.5;                               ///< of the edge across the stream: an edge along it, so that tops of layers are no needles
+constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< likewise where edges across are finer than this part of the chord
+constexpr double k_spread = 0.3;                                ///< chords, over which lines go to equal distances
+constexpr double k_clear_angle = 0.3;   ///< of the way from the trailing edge: nearer than this, walls are in the way, unless farther than an edge
+constexpr double k_start_share = 0.01;  ///< of the first edge: walls are hit at its start
+constexpr std::size_t k_most_stations = 1000;
+constexpr int k_shape_sweeps = 3;  ///< of directions and chords along the edge
+
+/// A sheet of n x m cells behind the chain's n edges.
+class SheetMaker {
+ public:
+  SheetMaker(const WakeSheet& wake, const Vec3& stream, double raise, const TrailingEdge& chain, SheetsOnWall& made, TriMesh& wall, const RunContext& context)
+      : wake_(wake), stream_(stream), raise_(raise), chain_(chain), made_(made), wall_(wall), topology_(wall, context), tree_(wall, context) {}
+
+  void make() {
+    shape();
+    keep_cells();
+    number();
+    open_edge();
+    add_triangles();
+  }
+
+ private:
+  std::size_t n_lines() const { return chain_.is_loop ? n_cells_ : n_cells_ + 1; }
+  std::size_t line(std::size_t i) const { return chain_.is_loop ? i % n_cells_ : i; }
+  VertexId edge_vertex(std::size_t i) const { return i < n_cells_ ? topology_.from(chain_.edges[i]) : topology_.to(chain_.edges.back()); }
+  const Point& point(std::size_t i, std::size_t j) const { return points_[line(i)][j]; }
+
+  [[noreturn]] void fail(std::string problem, std::string hint, const Point& where) const {
+    throw_bad_argument(k_wake_attempt, std::move(problem), {{where, "the trailing edge"}}, std::move(hint));
+  }
+
+  // ---- Where it is -----------------------------------------------------------------------------------------------------------------------
+
+  /// The coordinate that is the same along the border of the wall at the end of the chain; nothing where the chain ends inside the wall.
+  std::optional<std::size_t> border_axis(VertexId v) const {
+    std::vector<Point> ends;
+    for (const HalfedgeId h : topology_.outgoing(v)) {
+      if (topology_.is_boundary(h)) ends.push_back(wall_.points[topology_.to(h)]);
+      if (topology_.is_boundary(previous(h))) ends.push_back(wall_.points[topology_.from(previous(h))]);
+    }
+    if (ends.empty()) return std::nullopt;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::ranges::all_of(ends, [&](const Point& p) { return p[k] == wall_.points[v][k]; })) return k;
+    fail("a trailing edge ends at a border of the wall that is in no plane x, y or z = constant", "close the wall, or leave its patch out of the wake",
+         wall_.points[v]);
+  }
+
+  template <class T, class Mean>
+  void smooth_along(std::vector<T>& values, const Mean& mean) const {
+    for (int sweep = 0; sweep < k_shape_sweeps; ++sweep) {
+      const std::vector<T> before = values;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!chain_.is_loop && (i == 0 || i + 1 == values.size())) continue;
+        values[i] = mean(before[(i + values.size() - 1) % values.size()], before[i], before[(i + 1) % values.size()]);
+      }
+    }
+  }
+
+  void shape() {
+    n_cells_ = chain_.edges.size();
+    chords_ = local_chords(wall_, topology_, {wake_.wing, made_.sheets.n_given_triangles}, stream_, chain_);
+    smooth_along(chords_, [](double a, double b, double c) { return 0.25 * a + 0.5 * b + 0.25 * c; });
+    std::vector<Vec3> starts(n_lines());
+    spacing_.assign(n_lines(), 0.0);
+    std::vector<double> first(n_lines(), 0.0);
+    for (std::size_t i = 0; i < n_lines(); ++i) {
+      int n_edges = 0;
+      for (const std::size_t e : {i, i + n_cells_ - 1}) {
+        if (!chain_.is_loop && (i == n_cells_ ? e == i : e + 1 == n_cells_ && i == 0)) continue;
+        const HalfedgeId h = chain_.edges[e % n_cells_];
+        starts[i] += normal_behind(wall_, topology_, h, chain_.is_blunt, stream_);
+        spacing_[i] += distance(wall_.points[topology_.to(h)], wall_.points[topology_.from(h)]);
+        ++n_edges;
+      }
+      spacing_[i] /= n_edges;
+      first[i] = std::max(upstream_edge(edge_vertex(i)), k_least_start * spacing_[i]);
+    }
+    smooth_along(starts, [](const Vec3& a, const Vec3& b, const Vec3& c) { return normalized(normalized(a) + 2.0 * normalized(b) + normalized(c)); });
+    for (Vec3& normal : starts) normal = normalized(stream_ - dot(stream_, normalized(normal)) * normalized(normal));
+    const std::vector<double> shares = stations(first);
+    points_.resize(n_lines());
+    for (std::size_t i = 0; i < n_lines(); ++i) points_[i] = points_along(i, starts[i], shares);
+    if (!chain_.is_loop) spread_lines();
+  }
+
+  /// What is short across the stream at the trailing edge (beside a tip) need not be behind it: along each row, lines go to equal distances within k_spread
+  /// chords.
+  void spread_lines() {
+    for (std::size_t j = 1; j <= n_rows(); ++j) {
+      std::vector<Point> row;
+      std::vector<double> at = {0.0};
+      double way = 0.0;  // over the chord
+      for (std::size_t i = 0; i < n_lines(); ++i) {
+        row.push_back(points_[i][j]);
+        if (i > 0) at.push_back(at.back() + distance(row[i - 1], row[i]));
+        way += distance(points_[i][j], points_[i][0]) / (chords_[i] * static_cast<double>(n_lines()));
+      }
+      const double weight = std::min(1.0, way / k_spread);
+      for (std::size_t i = 1, k = 0; i + 1 < n_lines(); ++i) {
+        const double wanted = (1.0 - weight) * at[i] + weight * at.back() * static_cast<double>(i) / static_cast<double>(n_cells_);
+        while (at[k + 1] < wanted) ++k;
+        points_[i][j] = row[k] + (wanted - at[k]) / (at[k + 1] - at[k]) * (row[k + 1] - row[k]);
+      }
+    }
+  }
+
+  /// Mean of the edges at a vertex of the trailing edge that go upstream, m.
+  double upstream_edge(VertexId v) const {
+    double sum = 0.0;
+    int n = 0;
+    for (const VertexId w : topology_.neighbours(v)) {
+      const Vec3 way = wall_.points[w] - wall_.points[v];
+      if (dot(way, stream_) > -0.5 * norm(way)) continue;
+      sum += norm(way);
+      ++n;
+    }
+    return n > 0 ? sum / n : 0.0;
+  }
+
+  /// Of the length, ascending from 0 to 1; the same for all lines.
+  std::vector<double> stations(const std::vector<double>& first) const {
+    const auto mean = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); };
+    const double length = wake_.length * mean(chords_), across = mean(spacing_);
+    const double longest = std::max({k_longest * across, std::min(k_longest_fine * across, k_longest_chord * mean(chords_)), mean(first)});
+    if (!(length > 0.0)) fail("the wing has no chord at its trailing edge", "check the direction of the free stream", wall_.points[edge_vertex(0)]);
+    std::vector<double> at = {0.0};
+    for (double step = mean(first); at.back() < length; step = std::min(step * wake_.growth, longest)) {
+      at.push_back(at.back() + step);
+      if (at.size() > k_most_stations)
+        fail("a sheet of " + number_text(length, 3) + " m takes more than " + std::to_string(k_most_stations) + " rows of cells, the first " +
+                 number_text(mean(first), 3) + " m long",
+             "a shorter length, or a larger growth", wall_.points[edge_vertex(0)]);
+    }
+    const double end = at.back();
+    for (double& s : at) s /= end;
+    return at;
+  }
+
+  std::vector<Point> points_along(std::size_t i, Vec3 start, const std::vector<double>& shares) const {
+    const VertexId v = edge_vertex(i);
+    Vec3 stream = stream_;
+    std::optional<std::size_t> axis;
+    if (!chain_.is_loop && (i == 0 || i == n_cells_)) axis = border_axis(v);
+    if (axis) {
+      start[*axis] = stream[*axis] = 0.0;
+      start = normalized(start);
+      stream = normalized(stream);
+    }
+    const double length = wake_.length * chords_[i], blend = k_blend * chords_[i];
+    std::vector<Point> points = {wall_.points[v]};
+    for (std::size_t j = 1; j < shares.size(); ++j) {
+      const double way = std::min(1.0, 0.5 * (shares[j - 1] + shares[j]) * length / blend), weight = way * way * (3.0 - 2.0 * way);
+      points.push_back(points.back() + (shares[j] - shares[j - 1]) * length * normalized((1.0 - weight) * start + weight * stream));
+      if (axis) points.back()[*axis] = points.front()[*axis];
+    }
+    return points;
+  }
+
+  // ---- Which of its cells there are ------------------------------------------------------------------------------------------------------
+
+  std::size_t n_rows() const { return points_.front().size() - 1; }
+  bool is_kept(std::size_t i, std::size_t j) const { return j < kept_[i]; }
+
+  /// No wall near a place on a line, but for the trailing edge that it comes from.
+  bool has_room(std::size_t i, const Point& p, double way) const {
+    const double reach = std::min(k_clear_angle * way, spacing_[line(i)]);
+    return !tree_.nearest(p, reach).triangle.is_valid();
+  }
+
+  /// No wall between two neighbours on a line.
+  bool is_free(std::size_t i, std::size_t j) const {
+    for (const TriangleTree::RayHit& hit : tree_.ray(point(i, j), point(i, j + 1) - point(i, j)))
+      if (hit.t < 1.0 && (j > 0 || hit.t > k_start_share)) return false;
+    return true;
+  }
+
+  /// Each column of cells ends where there is no room; then what is not wide enough goes.
+  void keep_cells() {
+    kept_.assign(n_cells_, 0);
+    for (std::size_t i = 0; i < n_cells_; ++i)
+      for (std::size_t j = 0; j < n_rows(); ++j) {
+        const Point &a = point(i, j + 1), &b = point(i + 1, j + 1), middle = 0.25 * (a + b + point(i, j) + point(i + 1, j));
+        const double way = std::min(distance(a, point(i, 0)), distance(b, point(i + 1, 0)));
+        const double way_of_middle = 0.5 * std::min(distance(a, point(i, 0)) + distance(point(i, j), point(i, 0)),
+                                                    distance(b, point(i + 1, 0)) + distance(point(i + 1, j), point(i + 1, 0)));
+        if (!is_free(i, j) || !is_free(i + 1, j) || !has_room(i, a, way) || !has_room(i + 1, b, way) || !has_room(i, middle, way_of_middle)) break;
+        kept_[i] = j + 1;
+      }
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (std::size_t i = 0; i < n_cells_; ++i)
+        while (kept_[i] > 0 && !is_sound(i, kept_[i])) {
+          --kept_[i];
+          has_changed = true;
+        }
+    }
+    if (std::ranges::all_of(kept_, [](std::size_t n) { return n == 0; }))
+      fail("there is no room for a sheet of two cells by two", "a wall is in the way: leave its patch out of the wake, or make the edges of the wing shorter",
+           point(n_cells_ / 2, 0));
+  }
+
+  /// Whether a vertex of the grid has a foot with two lines: inside the sheet, or on the wall's border.
+  bool is_inside(std::size_t i, std::size_t j) const {
+    const bool has_left = chain_.is_loop || i > 0, has_right = chain_.is_loop || i < n_cells_;
+    if ((!has_left || !has_right) && !is_at_border(i)) return false;
+    for (const std::size_t column : {i + n_cells_ - 1, i}) {
+      if (column + 1 == i + n_cells_ ? !has_left : !has_right) continue;
+      if (!is_kept(column % n_cells_, j) || (j > 0 && !is_kept(column % n_cells_, j - 1))) return false;
+    }
+    return true;
+  }
+  bool is_at_border(std::size_t i) const {
+    const VertexId v = edge_vertex(i);
+    return std::ranges::any_of(topology_.outgoing(v), [&](HalfedgeId h) { return topology_.is_boundary(h) || topology_.is_boundary(previous(h)); });
+  }
+
+  /// The last of `n` cells of a column, and all before it: each triangle has a vertex inside, no edge between two cells goes from rim to rim.
+  bool is_sound(std::size_t i, std::size_t n) const {
+    for (std::size_t j = 0; j < n; ++j) {
+      const bool a = is_inside(i, j), b = is_inside(i + 1, j), c = is_inside(i + 1, j + 1), d = is_inside(i, j + 1);
+      if (!(a || c) && !(b || d)) return false;
+      const auto has_both = [&](std::size_t other, std::size_t row) { return is_kept(other % n_cells_, row); };
+      if (!a && !b && (j == 0 || has_both(i, j - 1))) return false;
+      const bool has_right = chain_.is_loop || i + 1 < n_cells_, has_left = chain_.is_loop || i > 0;
+      if (!b && !c && has_right && has_both(i + 1, j)) return false;
+      if (!a && !d && has_left && has_both(i + n_cells_ - 1, j)) return false;
+      const std::array inside = {a, b, c, d};
+      if (!has_diagonal(inside, true) && !has_diagonal(inside, false)) return false;
+    }
+    return true;
+  }
+  /// Whether a cell (a, b, c, d) may be cut along a-c, or b-d.
+  static bool has_diagonal(const std::array<bool, 4>& inside, bool is_first) {
+    const auto [a, b, c, d] = inside;
+    return is_first ? a || c : b || d;
+  }
+
+  // ---- What it adds to the wall ----------------------------------------------------------------------------------------------------------
+
+  /// Unit: of the left side at a vertex of the grid.
+  Vec3 normal_at(std::size_t i, std::size_t j) const {
+    Vec3 sum;
+    for (std::size_t column = 0; column < n_cells_; ++column) {
+      if (line(column) != line(i) && line(column + 1) != line(i)) continue;
+      for (std::size_t row = j == 0 ? 0 : j - 1; row <= j && row < n_rows(); ++row)
+        if (is_kept(column, row)) sum += cross(point(column, row + 1) - point(column + 1, row), point(column + 1, row + 1) - point(column, row));
+    }
+    return normalized(sum);
+  }
+
+  /// Vertices of both sides, that of the left one first.
+  void number() {
+    sides_.assign(n_lines(), std::vector<std::array<VertexId, 2>>(n_rows() + 1));
+    for (std::size_t i = 0; i < n_lines(); ++i)
+      for (std::size_t j = 0; j <= n_rows(); ++j) {
+        if (!is_used(i, j)) continue;
+        std::array<VertexId, 2>& sides = sides_[i][j];
+        const bool is_foot = is_inside(i, j);
+        sides[0] = j == 0 ? edge_vertex(i) : wall_.points.push_back(point(i, j));
+        sides[1] = is_foot ? wall_.points.push_back(point(i, j)) : sides[0];
+        if (is_foot) made_.sheets.feet.push_back({sides, point(i, j), chain_.is_blunt && j == 0});
+        else made_.sheets.rims.push_back(sides[0]);
+      }
+  }
+  bool is_used(std::size_t i, std::size_t j) const {
+    for (std::size_t column = 0; column < n_cells_; ++column)
+      if ((line(column) == i || line(column + 1) == i) && (is_kept(column, j) || (j > 0 && is_kept(column, j - 1)))) return true;
+    return false;
+  }
+
+  /// Triangles on the right of the chain at a vertex of it.
+  std::vector<TriangleId> on_the_right(std::size_t i) const {
+    const bool has_back = chain_.is_loop || i > 0, has_ahead = chain_.is_loop || i < n_cells_;
+    std::vector<TriangleId> triangles;
+    if (!has_back) {  // clockwise from the edge ahead to the border
+      for (HalfedgeId h = topology_.twin(chain_.edges[i]); h.is_valid(); h = topology_.twin(next(h))) triangles.push_back(triangle_of(h));
+      return triangles;
+    }
+    const HalfedgeId ahead = has_ahead ? chain_.edges[i % n_cells_] : HalfedgeId();
+    for (HalfedgeId h = topology_.twin(chain_.edges[(i + n_cells_ - 1) % n_cells_]); h.is_valid() && h != ahead; h = topology_.twin(previous(h)))
+      triangles.push_back(triangle_of(h));
+    return triangles;
+  }
+
+  /// Both sides apart by a hair; triangles of the wing on the right get their own vertices.
+  void open_edge() {
+    std::vector<std::pair<VertexId, Vec3>> moved;
+    for (std::size_t i = 0; i < n_lines(); ++i)
+      for (std::size_t j = 0; j <= n_rows(); ++j) {
+        const auto [left, right] = sides_[i][j];
+        if (!left.is_valid() || left == right) continue;
+        Vec3 normal = normal_at(i, j);
+        if (!chain_.is_loop && (i == 0 || i == n_cells_))
+          if (const auto axis = border_axis(edge_vertex(i))) normal[*axis] = 0.0;
+        moved.push_back({left, raise_ * normalized(normal)});
+        moved.push_back({right, -raise_ * normalized(normal)});
+        if (j > 0) continue;
+        for (const TriangleId t : on_the_right(i))
+          for (VertexId& corner : wall_.triangles[t])
+            if (corner == left) corner = right;
+      }
+    for (const auto& [v, way] : moved) wall_.points[v] += way;
+  }
+
+  void add_triangles() {
+    for (std::size_t i = 0; i < n_cells_; ++i)
+      for (std::size_t j = 0; j < kept_[i]; ++j) {
+        const std::array inside = {is_inside(i, j), is_inside(i + 1, j), is_inside(i + 1, j + 1), is_inside(i, j + 1)};
+        const bool is_shorter = distance(point(i, j), point(i + 1, j + 1)) <= distance(point(i + 1, j), point(i, j + 1));
+        const bool is_first = is_shorter ? has_diagonal(inside, true) : !has_diagonal(inside, false);
+        for (std::size_t side = 0; side < 2; ++side) {
+          const auto at = [&](std::size_t column, std::size_t row) { return sides_[line(column)][row][side]; };
+          const VertexId a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+          const TriangleId source = triangle_of(side == 0 ? chain_.edges[i] : topology_.twin(chain_.edges[i]));
+          if (is_first) {
+            add_triangle({a, b, c}, side, source);
+            add_triangle({a, c, d}, side, source);
+          } else {
+            add_triangle({a, b, d}, side, source);
+            add_triangle({b, c, d}, side, source);
+          }
+        }
+      }
+  }
+  /// \p t: as the right side has it
+  void add_triangle(TriangleVertices t, std::size_t side, TriangleId source) {
+    if (side == 0) std::swap(t[1], t[2]);
+    wall_.triangles.push_back(t);
+    wall_.triangle_patch.push_back(wall_.triangle_patch[source]);
+    made_.sources.push_back(source);
+  }
+
+  const WakeSheet& wake_;
+  const Vec3 stream_;
+  double raise_;  ///< m
+  const TrailingEdge& chain_;
+  SheetsOnWall& made_;
+  TriMesh& wall_;
+  Topology topology_;  ///< of the wall without this sheet
+  TriangleTree tree_;  ///< likewise
+  std::size_t n_cells_ = 0;
+  std::vector<double> chords_, spacing_;    ///< m, of each line: local chord, edge across the stream
+  std::vector<std::vector<Point>> points_;  ///< of each line, from the trailing edge on
+  std::vector<std::size_t> kept_;           ///< of each column of cells: how many there are
+  std::vector<std::vector<std::array<VertexId, 2>>> sides_;
+};
+
+void require_patches(const TriMesh& wall, const WakeSheet& wake) {
+  std::vector<std::string> names;
+  for (const Patch& patch : wall.patches) names.push_back(patch.name);
+  if (std::ranges::any_of(names, [&](const std::string& name) { return matches_glob(name, wake.wing); })) return;
+  throw_bad_argument(k_wake_attempt, "no patch is named like \"" + wake.wing + "\"", {}, names_hint(names, wake.wing));
+}
+
+double raise_for(double first_height, const TriMesh& wall) {
+  double largest = 0.0;
+  for (const Point& p : wall.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (k_sheet_raise * first_height < k_least_sheet_raise * largest)
+    throw_bad_argument(k_wake_attempt,
+                       "the first height of " + number_text(first_height, 3) + " m is too small for coordinates of " + number_text(largest, 3) + " m", {},
+                       "move the body to the origin, or leave wakes out");
+  return k_sheet_raise * first_height;
+}
+
+}  // namespace
+
+SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, double first_height, TriMesh& wall, const RunContext& context) {
+  SheetsOnWall made;
+  made.sheets.n_given_vertices = wall.n_vertices();
+  made.sheets.n_given_triangles = wall.n_triangles();
+  if (wakes.empty()) return made;
+  const double raise = raise_for(first_height, wall);
+  std::size_t n_chains = 0;
+  for (const WakeSheet& wake : wakes) {
+    require_patches(wall, wake);
+    const Vec3 stream = normalized(wake.direction);
+    if (!(norm2(stream) > 0.0)) throw_bad_argument(k_wake_attempt, "the direction of the free stream is zero", {}, "direction = {1, 0, 0}");
+    const Topology topology(wall, context);
+    const std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, {wake.wing, made.sheets.n_given_triangles}, stream);
+    if (chains.empty())
+      throw_bad_argument(k_wake_attempt,
+                         "the patches named like \"" + wake.wing +
+                             "\" have no trailing edge: no three edges in a row at which the wall turns by more than 120 degrees and looks downstream, or "
+                             "above a base narrower than a tenth of the chord",
+                         {}, "check the direction of the free stream");
+    for (const TrailingEdge& chain : chains) SheetMaker(wake, stream, raise, chain, made, wall, context).make();
+    n_chains += chains.size();
+  }
+  std::ranges::sort(made.sheets.feet, {}, [](const DoubledSheets::Foot& foot) { return foot.sides[0]; });
+  sort_unique(made.sheets.rims);
+  context.info("wake sheets behind " + std::to_string(n_chains) + " trailing edges: " + std::to_string(made.sources.size() / 2) + " triangles");
+  return made;
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,29 @@
+// Wake sheets: the wall goes on behind sharp trailing edges as a body without thickness, so that layers of both sides of a wing go on, too.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/wake_sheet.h"
+#include "volmesh/envelope/doubled_sheets.h"
+
+namespace sterna::volmesh {
+
+struct SheetsOnWall {
+  DoubledSheets sheets;             ///< in numbers of the wall
+  std::vector<TriangleId> sources;  ///< of each triangle that was added: one of the wall at the trailing edge
+};
+
+/// Adds a sheet behind each trailing edge (find_trailing_edges) of the patches that are asked for; several may match one pattern. Its lines start at the
+/// edge's vertices, halfway between both sides of the wing (of a blunt one: along its upper side), and turn into the free stream over k_blend chords; edges
+/// along the stream start as long as the wing's there and grow, all lines have as many. Where a line comes near to another wall or sheet, the sheet ends, and
+/// it gets narrower rather than thinner than two cells. At the border of an open wall (a half model) the sheet has a border, too, in the same plane x, y or z =
+/// constant. Vertices on an opened trailing edge are doubled; the one of the left side keeps its number. Triangles have the patch of the wall at the edge.
+/// \pre wall manifold; borders exactly in planes; first_height in m, the smallest of all
+/// \throws Error(bad_argument) where a pattern matches no patch, or no trailing edge, where the stream is none, where a sheet has no room for two rows of
+/// cells, and for first heights that are too small for the coordinates
+SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, double first_height, TriMesh& wall, const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,27 @@
+// What domain/wake_sheets.h has added to a wall: sheets behind trailing edges, one side for each side of the wing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "geom/base/ids.h"
+#include "geom/base/vec3.h"
+
+namespace sterna::volmesh {
+
+/// Both sides of a sheet have vertices of their own, raised off their common foot by a hundredth of the first height, so that the wall is a thin body; the
+/// finished mesh has them on the foot again (layer/close_wakes.h). On its free rims both sides share vertices, whose lines have no height.
+struct DoubledSheets {
+  struct Foot {
+    std::array<VertexId, 2> sides;  ///< that on the left of the trailing edge, which is a given vertex on the edge itself; that on the right, always added
+    Point point;                    ///< m
+    bool is_on_base = false;        ///< on the edge of a blunt base: one side is a corner there, and may have a lower layer
+  };
+  std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< of the wall; what sheets have added follows
+  std::vector<Foot> feet;                                   ///< ascending by their first
+  std::vector<VertexId> rims;                               ///< free rims of the sheets, ends of the opened edges on the wall included; ascending
+  bool is_empty() const { return feet.empty(); }
+};
+
+}  // namespace sterna::volmesh
