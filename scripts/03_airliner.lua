@@ -1,11 +1,16 @@
 -- An airliner from a table of numbers: fuselage, kinked wing with deflected ailerons, tails, engines on pylons; united to one closed surface.
 --   ./run scripts/03_airliner.lua
+--   sterna view scripts/03_airliner.lua         in the browser, with sliders for the arguments; follows the file as it is changed (docs/view.md)
 -- Axes: x aft, y to starboard, z up; metres and radians (5*deg is an angle). Positive angles: nose up, trailing edge down.
+
+local choice = args{
+  span = number{ 34, min = 26, max = 42, unit = m }, sweep = number{ 25, min = 0, max = 35, unit = deg },
+  dihedral = number{ 5, min = -2, max = 10, unit = deg }, aileron = number{ 8, min = -20, max = 20, unit = deg } }
 
 local design = {
   length = 37.5, diameter = 4.0,                      -- fuselage
-  wing_x = 12.6, span = 34, root_chord = 6.6, kink = 0.36, kink_chord = 3.9, tip_chord = 1.5, sweep = 25*deg, dihedral = 5*deg,
-  aileron = 8*deg,
+  wing_x = 12.6, span = choice.span, root_chord = 6.6, kink = 0.36, kink_chord = 3.9, tip_chord = 1.5, sweep = choice.sweep, dihedral = choice.dihedral,
+  aileron = choice.aileron,
   engine = { 12.2, 5.75, -2.25 },
 }
 

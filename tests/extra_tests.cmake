@@ -50,12 +50,17 @@ add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/re
 add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data --all USES_TERMINAL)  # all five, by hand
 set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_01_first_mesh;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
 
+# The same browser uses every control of the workbench.
+add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
+set_tests_properties(view_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 250 DEPENDS report_page_browser)
+
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)
 add_dependencies(test_scripting_manual sterna)
 add_dependencies(test_scripting_remesh sterna)
 add_dependencies(test_io_volume sterna)
 add_dependencies(test_scripting_series sterna)
+add_dependencies(test_scripting_view sterna)
 file(GLOB scripts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scripts/*.lua)
 foreach(script ${scripts})
   get_filename_component(name ${script} NAME_WE)

@@ -37,6 +37,7 @@
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/draw_command.h"
 #include "scripting/verbs/farfield_verbs.h"
+#include "scripting/view/view_command.h"
 #include "surfmesh/remesh/remesh_surface.h"
 
 namespace sterna::scripting {
@@ -595,6 +596,8 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_draw_command(app, draw, request);
   add_report_command(app, report, request);
   add_case_commands(app, cases, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
+  ViewCommand view;
+  add_view_arguments(app, view)->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(view, context); }; });
   add_pentagrow_command(app, pentagrow, request);
   add_shell_commands(app, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });

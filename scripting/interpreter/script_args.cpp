@@ -3,17 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 #include "scripting/interpreter/script_verbs.h"
+#include "scripting/lua/script_watch.h"
 #include "scripting/lua/verb_tools.h"
+#include "scripting/values/geometry_tools.h"
 
 namespace sterna::scripting {
 namespace {
 
 constexpr std::string_view k_script_args_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
+constexpr std::string_view k_number_usage =
+    "args{ span = number{ 10, min = 6, max = 20, unit = m }, alpha = number{ 4, min = -5, max = 15, step = 0.5, unit = deg } }";
+/// Field of the table that number{} gives: what tells it from tables of the script's own.
+constexpr const char* k_number_mark = "argument";
 
 bool is_name(std::string_view text) {
   return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
@@ -56,10 +64,79 @@ bool is_value(const ScriptValue& value) {
          std::holds_alternative<std::string>(value);
 }
 
+/// "deg" of a unit's value.
+std::string unit_name(double value) {
+  for (const ScriptUnit& unit : script_units())
+    if (unit.value == value) return unit.name;
+  return {};
+}
+
 const std::string* given(const ScriptCall& call, std::string_view name) {
   for (const auto& [given_name, text] : call.session.arguments)
     if (given_name == name) return &text;
   return nullptr;
+}
+
+/// What number{} gave, read back; nothing for other values.
+std::optional<ScriptParameter> number_parameter(const std::string& name, const ScriptValue& value) {
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table || !*table || !(*table)->fields.contains(k_number_mark)) return std::nullopt;
+  const auto field = [&](const char* key) -> std::optional<double> {
+    const auto found = (*table)->fields.find(key);
+    return found == (*table)->fields.end() ? std::nullopt : number_of(found->second);
+  };
+  ScriptParameter parameter{.name = name, .initial = {}, .value = {}, .min = field("min"), .max = field("max"), .step = field("step")};
+  parameter.unit_value = field("unit").value_or(1.0);
+  if (field("unit")) parameter.unit = unit_name(parameter.unit_value);
+  parameter.initial = *field(k_number_mark) * parameter.unit_value;
+  parameter.value = parameter.initial;
+  return parameter;
+}
+
+/// The text as a value within the limits: a bare number counts in the parameter's unit. Notes a problem otherwise.
+void set_number_parameter(ScriptParameter& parameter, const std::string& text, TableReader& reader) {
+  const ScriptValue value = value_like(parameter.name, text, parameter.initial, reader);
+  const auto number = number_of(value);
+  if (!number) return;
+  const bool is_bare = text.find_first_not_of("+-0123456789.eE") == std::string::npos;
+  const double in_unit = is_bare ? *number : *number / parameter.unit_value;
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg is 20 only to rounding
+  if (parameter.min && in_unit < *parameter.min - slack)
+    reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is below the least value, " +
+                       number_text(*parameter.min, 6) + unit);
+  if (parameter.max && in_unit > *parameter.max + slack)
+    reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is above the greatest value, " +
+                       number_text(*parameter.max, 6) + unit);
+  parameter.value = in_unit * parameter.unit_value;
+}
+
+/// number{ 10, min = 6, max = 20, unit = m }: a default with limits, for args{}.
+ScriptValue declare_number(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_number_usage);
+  TableReader reader(table, call.attempted());
+  auto result = std::make_shared<ScriptTable>();
+  const std::vector<ScriptValue>& items = reader.items();
+  const auto initial = items.size() == 1 ? number_of(items.front()) : std::nullopt;
+  if (!initial) reader.add_problem("entry 1: expected the default, a number");
+  else result->fields[k_number_mark] = *initial;
+  for (const char* name : {"min", "max", "step", "unit"}) {
+    const ScriptValue* value = reader.field(name);
+    if (!value) continue;
+    const auto number = number_of(*value);
+    const bool is_positive = name[0] == 's' || name[0] == 'u';
+    if (!number || !std::isfinite(*number) || (is_positive && *number <= 0.0))
+      reader.add_problem(std::string(name) + ": expected a number" + (is_positive ? " above 0" : ""));
+    else result->fields[name] = *number;
+  }
+  if (!reader.has_problems()) {
+    const ScriptParameter made = *number_parameter("", TableHandle(result));
+    if (made.min && made.max && *made.min >= *made.max) reader.add_problem("min: is not below max");
+    if (made.min && *initial < *made.min) reader.add_problem("the default " + number_text(*initial, 6) + " is below min");
+    if (made.max && *initial > *made.max) reader.add_problem("the default " + number_text(*initial, 6) + " is above max");
+  }
+  reader.finish();
+  return TableHandle(std::move(result));
 }
 
 /// args{ alpha = 0, "name" }: defaults by name; texts without names must be given.
@@ -70,13 +147,20 @@ ScriptValue declare(const ScriptCall& of_table) {
   TableReader reader(table, call.attempted());
   ScriptTable result;
   std::vector<std::string> known;
-  std::string missing;
+  std::vector<ScriptParameter> declared;
   for (const auto& [name, value] : table.fields) {
     reader.field(name);
     known.push_back(name);
+    if (std::optional<ScriptParameter> number = number_parameter(name, value)) {
+      if (const std::string* text = given(call, name)) set_number_parameter(*number, *text, reader);
+      result.fields[name] = number->value;
+      declared.push_back(std::move(*number));
+      continue;
+    }
     if (!is_value(value)) reader.add_problem(name + ": a default is a number, a text, true or false, not " + std::string(type_text(value)));
     const std::string* text = given(call, name);
     result.fields[name] = text && is_value(value) ? value_like(name, *text, value, reader) : value;
+    declared.push_back({.name = name, .initial = value, .value = result.fields[name], .min = {}, .max = {}, .step = {}});
   }
   for (const ScriptValue& item : reader.items()) {
     const auto* name = std::get_if<std::string>(&item);
@@ -88,7 +172,9 @@ ScriptValue declare(const ScriptCall& of_table) {
     if (const std::string* text = given(call, *name)) result.fields[*name] = value_of(*text);
     else if (call.session.check) result.fields[*name] = std::int64_t{1};  // any value will do
     else reader.add_problem("argument " + *name + " is missing: sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE");
+    declared.push_back({.name = *name, .initial = {}, .value = result.fields[*name], .min = {}, .max = {}, .step = {}});
   }
+  if (call.session.watch) call.session.watch->declared(declared);
   for (const auto& [name, text] : call.session.arguments) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string nearest = nearest_name(name, known);
@@ -111,11 +197,15 @@ ScriptValue read_argument(const ScriptCall& call) {
          "sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE, or a default in the script: args{ " + *name + " = 0 }." + *name);
 }
 
-constexpr std::array<ScriptVerb, 1> k_script_args_verbs = {{
+constexpr std::array<ScriptVerb, 2> k_script_args_verbs = {{
     {"args", k_script_args_usage,
      "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; "
      "args.alpha reads one alone.",
      declare},
+    {"number", k_number_usage,
+     "Of args{}: a default with limits and a unit, in which all of them and bare numbers of the command line count; the script gets the value in SI. "
+     "`sterna view` shows a slider.",
+     declare_number},
 }};
 
 }  // namespace

@@ -21,9 +21,10 @@ struct ScriptSettings {
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
   const StageCache* cache = nullptr;              ///< stage_cache.h; null: every stage is made anew
   std::size_t memory_limit = k_script_memory_limit;
-  SeriesSettings series = {};      ///< empty: series{} is refused
-  OptionOverrides arguments = {};  ///< NAME=VALUE of the command line: what the script sees as args
-  ScriptCheck* check = nullptr;    ///< see check_script
+  SeriesSettings series = {};          ///< empty: series{} is refused
+  OptionOverrides arguments = {};      ///< NAME=VALUE of the command line: what the script sees as args
+  ScriptCheck* check = nullptr;        ///< see check_script
+  const ScriptWatch* watch = nullptr;  ///< who looks on (script_watch.h)
   std::filesystem::path input_folder =
       {};  ///< where input files are looked for that are not in the current folder, before that of the script; empty: nowhere else
 };

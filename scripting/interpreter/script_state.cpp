@@ -15,6 +15,7 @@
 #include "scripting/lua/script_hooks.h"
 #include "scripting/lua/script_sandbox.h"
 #include "scripting/lua/script_unknowns.h"
+#include "scripting/lua/script_watch.h"
 #include "scripting/values/cached_model.h"
 #include "scripting/values/script_key.h"
 #include "scripting/values/verbs.h"
@@ -188,7 +189,10 @@ Error with_traceback(const Error& error, const std::string& traceback) {
 
 namespace {
 
-ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) { return with_provenance(cached_model(verb, call), call); }
+ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
+  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call)) return verb.run(call);  // no union: neither kept nor the origin of what is
+  return with_provenance(cached_model(verb, call), call);
+}
 
 const ScriptHooks k_hooks = {
     .kinds = object_kinds, .describe = &k_describe_object, .run = run_with_cache, .stand_in = make_stand_in, .set_option = set_option_as_typed};
@@ -206,6 +210,7 @@ namespace {
 
 /// Notes where an error came from; the error itself stays as it is. Upvalue 1: the text to fill.
 int note_traceback(lua_State* state) {
+  if (session_of(state).watch) note_all_locals(state);
   take_traceback(state, *static_cast<std::string*>(lua_touserdata(state, lua_upvalueindex(1))));
   return 1;
 }
@@ -229,6 +234,7 @@ ScriptState::ScriptState(const ScriptSettings& settings, const RunContext& conte
            .input_folder = settings.input_folder,
            .series = {.settings = settings.series, .script_text = {}},
            .hooks = &k_hooks,
+           .watch = settings.watch,
            .value = {}},
       .memory = {.used = 0, .limit = settings.memory_limit},
       .traceback = {},

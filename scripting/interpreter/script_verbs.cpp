@@ -377,7 +377,7 @@ constexpr std::array<ScriptVerb, 4> k_mesh_methods = {{
      "Writes a case of OpenFOAM that can be run: mesh, fields by the kinds of patches, models, schemes for such meshes, forces, Allrun.", write_foam_case,
      foam_case_help, true, "self"},
 }};
-constexpr std::array<ScriptUnit, 5> k_units = {{{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
+constexpr std::array<ScriptUnit, 6> k_units = {{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
 
 }  // namespace
 

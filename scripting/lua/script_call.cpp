@@ -11,6 +11,7 @@
 #include "scripting/lua/script_hooks.h"
 #include "scripting/lua/script_sandbox.h"
 #include "scripting/lua/script_unknowns.h"
+#include "scripting/lua/script_watch.h"
 
 namespace sterna::scripting {
 namespace {
@@ -173,8 +174,11 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
   ScriptCall call{.session = session, .where = where_of(state), .verb = verb.name, .arguments = {}, .is_heavy = verb.is_heavy};
   try {
     for (int i = 1; i <= lua_gettop(state); ++i) call.arguments.push_back(read_value(state, i, 0));
+    call.is_geometry = verb.is_heavy && is_geometry_made(call, verb);
+    call.is_heavy = verb.is_heavy && !call.is_geometry;
     if (session.check && is_about_unknown(call)) session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : stand_in(call, verb.gives);
     else session.value = session.hooks->run(verb, call);
+    if (session.watch && !object_name(session.value).empty()) session.watch->made(call, session.value);
     return true;
   } catch (const ChecksDone&) {
     session.value = stand_in(call, verb.gives);

@@ -24,6 +24,7 @@ using OptionOverrides = std::vector<std::pair<std::string, std::string>>;  ///< 
 
 struct ScriptCheck;  // script_check.h
 struct ScriptHooks;  // script_hooks.h
+struct ScriptWatch;  // script_watch.h
 
 /// Everything a running script shares with its verbs.
 struct ScriptSession {
@@ -43,6 +44,7 @@ struct ScriptSession {
   SeriesSession series = {};
 
   const ScriptHooks* hooks = nullptr;  ///< never null where a script runs
+  const ScriptWatch* watch = nullptr;  ///< who looks on; null: nobody
 
   ScriptValue value;  ///< what a verb leaves for call_verb: its result or its error
 
@@ -62,7 +64,8 @@ struct ScriptCall {
   std::string where;                   ///< "case.lua:5: ", or empty
   std::string_view verb;               ///< "volume_mesh"
   std::vector<ScriptValue> arguments;  ///< of a method: the object first
-  bool is_heavy = false;               ///< ScriptVerb::is_heavy
+  bool is_heavy = false;               ///< ScriptVerb::is_heavy, unless the run only checks and makes its geometry all the same (ScriptCheck::makes_geometry)
+  bool is_geometry = false;            ///< the other way round: heavy, but done
 
   Attempt attempted() const { return {where + std::string(verb), session.check, session.check != nullptr && is_heavy}; }
 };

@@ -1,31 +1,28 @@
 #include "scripting/lua/script_check.h"
 
+#include <algorithm>
+#include <array>
+
 #include "geom/base/error.h"
 #include "scripting/lua/input_path.h"
 #include "scripting/lua/script_hooks.h"
 
 namespace sterna::scripting {
-namespace {
-
-/// Whether both are the same object, not only equal ones.
-bool is_same(const ScriptValue& a, const ScriptValue& b) {
-  return std::visit(
-      [&](const auto& of_a) {
-        using V = std::decay_t<decltype(of_a)>;
-        if constexpr (requires { of_a.use_count(); }) {
-          const auto* of_b = std::get_if<V>(&b);
-          return of_b && *of_b == of_a;
-        } else {
-          return false;
-        }
-      },
-      a);
-}
-
-}  // namespace
 
 void finish_checks(const ScriptCall& call) {
-  if (call.session.check) throw ChecksDone{};
+  if (call.session.check && !call.is_geometry) throw ChecksDone{};
+}
+
+bool is_geometry_made(const ScriptCall& call, const ScriptVerb& verb) {
+  constexpr std::array<std::string_view, 5> k_others = {"read_surface", "surface:move", "surface:rotate", "model:measures", "model:info"};
+  if (!call.session.check || !call.session.check->makes_geometry) return false;
+  const bool is_geometry = verb.gives == "model" || verb.gives == "model or surface" || std::ranges::find(k_others, verb.name) != k_others.end();
+  if (!is_geometry) return false;
+  const auto stands_for_another = [&](const ScriptValue& value) { return is_unknown(value) || is_stand_in(call, value); };
+  return std::ranges::none_of(call.arguments, [&](const ScriptValue& argument) {
+    const auto* table = std::get_if<TableHandle>(&argument);
+    return stands_for_another(argument) || (table && *table && std::ranges::any_of((*table)->items, stands_for_another));
+  });
 }
 
 ScriptValue stand_in(const ScriptCall& call, std::string_view gives) { return call.session.hooks->stand_in(call, gives); }
@@ -33,7 +30,7 @@ ScriptValue stand_in(const ScriptCall& call, std::string_view gives) { return ca
 bool is_stand_in(const ScriptCall& call, const ScriptValue& value) {
   if (!call.session.check) return false;
   const auto made = call.session.check->stand_ins.find(object_name(value));
-  return made != call.session.check->stand_ins.end() && is_same(made->second, value);
+  return made != call.session.check->stand_ins.end() && is_same_object(made->second, value);
 }
 
 void note_output(const ScriptCall& call, const std::filesystem::path& path) {

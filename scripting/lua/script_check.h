@@ -27,7 +27,11 @@ struct ScriptCheck {
   std::vector<OptionSet> options;
   std::set<std::filesystem::path> outputs;                    ///< that the script would have written: later verbs may read them
   std::map<std::string, ScriptValue, std::less<>> stand_ins;  ///< by kind of object; made when first asked for
+  bool makes_geometry = false;                                ///< models and surfaces of files are made, as in a run; meshes are not, nothing is written
 };
+
+/// Whether a heavy verb is done although the run only checks: it makes geometry, and of nothing that only stands for something.
+bool is_geometry_made(const ScriptCall& call, const ScriptVerb& verb);
 
 /// Thrown where a verb has checked everything and the run only checks. No error.
 struct ChecksDone {};

@@ -11,6 +11,7 @@
 
 #include "geom/base/error.h"
 #include "scripting/lua/script_call.h"
+#include "scripting/lua/script_watch.h"
 
 namespace sterna::scripting {
 namespace {
@@ -26,7 +27,8 @@ bool take_stop(ScriptSession& session) noexcept {
   return true;
 }
 
-void check_stop_hook(lua_State* state, lua_Debug*) {
+void check_stop_hook(lua_State* state, lua_Debug* record) {
+  if (record->event == LUA_HOOKRET) return note_locals(state, record);
   if (!take_stop(session_of(state))) return;
   // From now on every instruction stops, so that a script's own pcall cannot go on.
   lua_sethook(state, check_stop_hook, LUA_MASKCOUNT, 1);
@@ -254,6 +256,9 @@ void refuse_unknown_globals(lua_State* state) {
   lua_pop(state, 1);
 }
 
-void watch_for_stop(lua_State* state) { lua_sethook(state, check_stop_hook, LUA_MASKCOUNT, k_instructions_per_check); }
+void watch_for_stop(lua_State* state) {
+  const int returns = session_of(state).watch ? LUA_MASKRET : 0;
+  lua_sethook(state, check_stop_hook, LUA_MASKCOUNT | returns, k_instructions_per_check);
+}
 
 }  // namespace sterna::scripting

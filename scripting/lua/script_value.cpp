@@ -42,6 +42,20 @@ std::string_view object_name(const ScriptValue& value) {
                                                            : "";
 }
 
+bool is_same_object(const ScriptValue& a, const ScriptValue& b) {
+  return std::visit(
+      [&](const auto& of_a) {
+        using V = std::decay_t<decltype(of_a)>;
+        if constexpr (requires { of_a.use_count(); }) {
+          const auto* of_b = std::get_if<V>(&b);
+          return of_b && *of_b == of_a;
+        } else {
+          return false;
+        }
+      },
+      a);
+}
+
 bool is_unknown(const ScriptValue& value) {
   const auto* opaque = std::get_if<OpaqueValue>(&value);
   return opaque && opaque->type_name == k_unknown_value;

@@ -38,6 +38,9 @@ struct ScriptTable {
 /// Whether it is k_unknown_value.
 bool is_unknown(const ScriptValue& value);
 
+/// Whether both are the same object, not only equal ones.
+bool is_same_object(const ScriptValue& a, const ScriptValue& b);
+
 /// "a number", "a surface", "a table": the type for messages.
 std::string_view type_text(const ScriptValue& value);
 /// "surface" and so on of an object (script_objects.h); empty where it is a number, a text, a table or a function.

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "geom/model/reference_data.h"
+#include "scripting/lua/script_watch.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/geometry_tools.h"
 
@@ -73,7 +74,7 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
   parts.name = o.name;
   const RunContext context = call.session.context.part("aircraft", 0.0, 1.0);
   ModelValue side_by_side = make_aircraft(parts, context);
-  if (!o.unite) return std::make_shared<const ModelValue>(std::move(side_by_side));
+  if (!o.unite || is_sketch(call)) return std::make_shared<const ModelValue>(std::move(side_by_side));
   // The union changes the faces, not what they describe.
   const std::optional<Aircraft> description = side_by_side.description;
   ModelValue united = unite_solids({std::make_shared<const ModelValue>(std::move(side_by_side))}, unite, context);

@@ -11,6 +11,7 @@
 #include "geom/model/sampled.h"
 #include "geom/model/shapes.h"
 #include "scripting/lua/script_function.h"
+#include "scripting/lua/script_watch.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/geometry_tools.h"
 
@@ -357,6 +358,7 @@ ScriptValue unite_models(const ScriptCall& call) {
   reader.read_options(schema);
   apply_overrides(call, schema);
   reader.finish();
+  if (is_sketch(call)) return std::make_shared<const ModelValue>(assemble(models, call.session.context));
   return std::make_shared<const ModelValue>(unite_solids(models, options, call.session.context.part("union", 0.2, 1.0)));
 }
 

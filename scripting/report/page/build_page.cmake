@@ -1,4 +1,4 @@
-# Makes report_page.html in the build folder: cmake -DSOURCE=scripting/report/page -DWORK=FOLDER -DOUTPUT=FILE -DNPM=... -DNODE=... -P build_page.cmake
+# Makes report_page.html and view_page.html (the workbench) in the build folder: cmake -DSOURCE=scripting/report/page -DWORK=FOLDER -DOUTPUT=FILE -DVIEW_OUTPUT=FILE -DNPM=... -DNODE=... -P build_page.cmake
 # Where that cannot be done (no network and no cache of npm, a node that is too old) the file is empty and the reason is printed; everything else builds.
 # The source tree is not written to: sources are copied, libraries are installed beside the copies.
 
@@ -7,6 +7,7 @@ function(give_up why details)
   message("${details}")
   message("  sterna has no report{} then. Run cmake again to try anew.")
   file(WRITE ${OUTPUT} "")
+  file(WRITE ${VIEW_OUTPUT} "")
 endfunction()
 
 file(REMOVE_RECURSE ${WORK}/src)
@@ -29,7 +30,7 @@ if(NOT installed STREQUAL lock)
   file(WRITE ${stamp} ${lock})
 endif()
 
-execute_process(COMMAND ${NODE} ${WORK}/build.mjs ${OUTPUT} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+execute_process(COMMAND ${NODE} ${WORK}/build.mjs ${OUTPUT} ${VIEW_OUTPUT} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
 if(NOT status EQUAL 0)
   execute_process(COMMAND ${NODE} --version OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(version VERSION_LESS "v18")

@@ -19,7 +19,7 @@ const k_other_sides = [0.45, 1, 2]; // tangents of the angles to the wall's norm
 const k_before_wall = 0.9; // of the length to the next wall, where that is nearer than one would look from
 const k_least_place = 4e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
 
-class Layer {
+export class Layer {
   constructor(scene) {
     this.uniforms = set_uniforms();
     this.draw = draw_material(this.uniforms);

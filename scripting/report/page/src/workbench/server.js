@@ -1,0 +1,55 @@
+// What the page asks of the program that serves it. Addresses are relative: the secret in front of them stays where it is.
+import { Arrays, read_cut, read_surface } from "../data.js";
+import { ReportError } from "../errors.js";
+
+/** The text of a refusal, for people. */
+async function refusal(response) {
+  try {
+    return (await response.json()).text ?? `refused (${response.status})`;
+  } catch {
+    return `refused (${response.status})`;
+  }
+}
+
+async function get(name, query, signal) {
+  const response = await fetch(`${name}?${new URLSearchParams(query)}`, { signal, cache: "no-store" });
+  if (!response.ok) throw new ReportError(await refusal(response));
+  return response;
+}
+
+export async function post(name, body) {
+  const response = await fetch(name, { method: "POST", headers: { "X-Sterna": "1", "Content-Type": "application/json" }, body: JSON.stringify(body), cache: "no-store" });
+  if (!response.ok) throw new ReportError(await refusal(response));
+  return response;
+}
+
+/** All that is new; waits until there is something. */
+export async function get_state(since, lines, signal) {
+  return (await get("state", { since, lines }, signal)).json();
+}
+
+export async function get_script() {
+  return (await (await get("script", {})).json()).text;
+}
+
+/** JSON and arrays of a block: {json, arrays}. \throws ReportError */
+function read_block(buffer) {
+  if (buffer.byteLength < 8) throw new ReportError("The picture is cut off.");
+  const length = new DataView(buffer).getUint32(0, true);
+  if (8 + length > buffer.byteLength || length % 4 !== 0) throw new ReportError("The picture is damaged: its JSON is longer than all of it.");
+  const json = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 8, length)));
+  return { json, arrays: new Arrays(buffer.slice(8 + length)) };
+}
+
+/** The scene of an object, its surface with arrays. */
+export async function get_scene(scene) {
+  const { json, arrays } = read_block(await (await get("scene", { scene })).arrayBuffer());
+  if (json.schema !== "sterna-scene-1") throw new ReportError(`The picture has the schema ${json.schema}.`);
+  return { ...json, surface: read_surface(json, arrays) };
+}
+
+/** A cut through the volume mesh of that key. */
+export async function get_cut(key, plane) {
+  const { json, arrays } = read_block(await (await post("cut", { key, plane })).arrayBuffer());
+  return read_cut(json, arrays);
+}

@@ -1,0 +1,68 @@
+// What the script made, by the names of its variables: shown or hidden, its components and patches.
+import { button, h, fill, number_text } from "../dom.js";
+import { patch_css } from "../painting.js";
+
+const k_kinds = { model: "model", component: "part", surface: "surface", envelope: "envelope", tetrahedra: "layer", mesh: "mesh" };
+
+/** Patches by component, in the order of the scene. */
+function groups_of(scene) {
+  const groups = new Map();
+  scene.patches.forEach((patch, k) => {
+    const name = patch.component ?? "";
+    if (!groups.has(name)) groups.set(name, []);
+    groups.get(name).push({ ...patch, k });
+  });
+  return groups;
+}
+
+function patch_row(bench, key, patch, shown) {
+  const box = h("input", { type: "checkbox", onchange: () => bench.show_patches(key, [patch.name], box.checked), "aria-label": `show ${patch.name}` });
+  box.checked = !shown.hidden.has(patch.name);
+  const only = button("only", () => {
+    bench.show_patches(key, shown.scene.patches.map((p) => p.name), false);
+    bench.show_patches(key, [patch.name], true);
+  }, { title: `Show only ${patch.name}`, kind: ".small" });
+  return h("div.tree_row.patch_row", { "data-patch": patch.name }, h("label.check", null, box, h("i.swatch", { style: { background: patch_css(patch.k) } }), h("span", null, patch.name)), h("small", { title: "area" }, `${number_text(patch.area, 3)} m\u00b2`), only);
+}
+
+function group_rows(bench, key, name, patches, shown) {
+  if (name === "") return patches.map((patch) => patch_row(bench, key, patch, shown));
+  const names = patches.map((patch) => patch.name);
+  const box = h("input", { type: "checkbox", onchange: () => bench.show_patches(key, names, box.checked), "aria-label": `show ${name}` });
+  box.checked = names.some((n) => !shown.hidden.has(n));
+  box.indeterminate = box.checked && names.some((n) => shown.hidden.has(n));
+  if (patches.length === 1 && patches[0].name === name) return [patch_row(bench, key, patches[0], shown)];
+  const only = button("only", () => {
+    bench.show_patches(key, shown.scene.patches.map((p) => p.name), false);
+    bench.show_patches(key, names, true);
+  }, { title: `Show only ${name}`, kind: ".small" });
+  return [h("details.component", { "data-component": name }, h("summary", null, h("label.check", null, box, h("b", null, name)), only), patches.map((patch) => patch_row(bench, key, patch, shown)))];
+}
+
+export function tree_panel(bench) {
+  const list = h("div.tree_list", { id: "tree" });
+  const open = new Set(); // components that are folded out
+  const refresh = () => {
+    for (const details of list.querySelectorAll("details.component")) details.open ? open.add(details.dataset.component) : open.delete(details.dataset.component);
+    const rows = bench.objects().map((object) => {
+      const shown = bench.view?.objects.get(object.key);
+      const box = h("input", { type: "checkbox", onchange: () => bench.show(object.key, box.checked), "aria-label": `show ${object.key}` });
+      box.checked = bench.is_shown(object);
+      const line = object.line ? h("small", null, ` line ${object.line}`) : null;
+      const name = h("button.link", { type: "button", title: object.text, onclick: () => (bench.is_shown(object) ? bench.state.set({ chosen: object.key, tab: "object" }) : bench.show(object.key, true)) }, object.key);
+      const only = button("only", () => bench.isolate(object.key), { title: `Show only ${object.key}`, kind: ".small" });
+      const patches = shown?.scene && object.key === bench.state.get("chosen") ? [...groups_of(shown.scene)].flatMap(([group, entries]) => group_rows(bench, object.key, group, entries, shown)) : [];
+      return h(
+        `div.tree_object${object.is_old && box.checked ? ".old" : ""}${object.key === bench.state.get("chosen") ? ".chosen" : ""}`,
+        { "data-key": object.key },
+        h("div.tree_row", null, box, name, h("span.kind", null, k_kinds[object.kind] ?? object.kind), object.is_old && object.scene && box.checked ? h("span.chip.warn", null, "old") : null, line, only),
+        object.failure ? h("p.note.wrong", null, object.failure) : null,
+        h("div.tree_patches", null, patches),
+      );
+    });
+    fill(list, rows.length ? rows : h("p.note", null, "Nothing yet."));
+    for (const details of list.querySelectorAll("details.component")) details.open = open.has(details.dataset.component);
+  };
+  bench.state.on(["news", "shown", "chosen"], refresh);
+  return h("section.tree_panel", null, h("h2", null, "Made by the script"), list);
+}

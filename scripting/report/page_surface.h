@@ -1,0 +1,59 @@
+// The surface part of a page, of reports and of the workbench: triangles with patches, edges and figures as arrays and their JSON (docs/report.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/mesh/cut.h"
+#include "geom/mesh/cut_places.h"
+#include "geom/mesh/gates.h"
+#include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/surface_fields.h"
+#include "geom/mesh/tri_mesh.h"
+#include "scripting/report/page_arrays.h"
+
+namespace sterna::scripting {
+
+/// Boundary faces as triangles, with the face and the edges that each has of it.
+struct PageTriangles {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> face;  ///< triangles, then quads
+  std::vector<std::uint8_t> edges;  ///< bit k: corner k to k + 1
+  std::vector<std::uint16_t> patch;
+};
+PageTriangles page_triangles(const HybridMesh& mesh);
+PageTriangles page_triangles(const TriMesh& mesh);
+
+/// Values and what they are as the text of a JSON object.
+std::string page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
+                            const std::vector<float>& values, PageArrays& arrays);
+
+/// What pages are made of, whatever they are about. The arguments must outlive it; all texts are of JSON.
+class PageMaker {
+ public:
+  /// \throws Error(overflow) for more than 65 536 patches
+  PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches, const std::vector<SurfaceField>& fields);
+  const Point& origin() const { return origin_; }
+  double length() const { return length_; }
+  std::string frame_json() const;    ///< object with length and origin
+  std::string patches_json() const;  ///< list with name, kind, area, number of triangles of each
+  /// Object with the arrays, positions relative to the origin, thinned to at most `most` triangles.
+  std::string surface_json(std::size_t most, PageArrays& arrays) const;
+
+ private:
+  std::span<const Point> points_;
+  const PageTriangles& triangles_;
+  const Column<PatchId, Patch>& patches_;
+  const std::vector<SurfaceField>& fields_;
+  Point origin_{};
+  double length_ = 1.0;
+};
+
+/// Object with the polygons next to the place's focus, at most `most` of them, relative to it.
+std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageArrays& arrays);
+
+}  // namespace sterna::scripting

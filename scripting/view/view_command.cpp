@@ -1,0 +1,149 @@
+#include "scripting/view/view_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <optional>
+
+#include "geom/base/child_process.h"
+#include "geom/base/error.h"
+#include "io/file/format_table.h"
+#include "io/output/atomic_file.h"
+#include "scripting/command/cli_options.h"
+#include "scripting/interpreter/script_args.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/values/models.h"
+#include "scripting/view/page_server.h"
+#include "scripting/view/view_page.h"
+#include "scripting/view/view_worker.h"
+#include "scripting/view/workbench.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr int k_last_port = 65535;
+
+/// A folder for this session, removed with all that is in it.
+class SessionFolder {
+ public:
+  SessionFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "sterna-view-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw Error({.code = ErrorCode::write_failed, .attempted = "making the folder " + name, .problem = std::strerror(errno)});
+    path_ = name;
+  }
+  ~SessionFolder() {
+    std::error_code ignored;  // what cannot be removed stays in the folder for temporary files
+    std::filesystem::remove_all(path_, ignored);
+  }
+  SessionFolder(const SessionFolder&) = delete;
+  SessionFolder& operator=(const SessionFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string lua_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? 'n' : c;
+  }
+  return quoted + '"';
+}
+
+/// A script that reads the file: what is shown of a script's results is shown of the file.
+std::string reading_script(const std::filesystem::path& input) {
+  const std::string name = lua_text(std::filesystem::absolute(input).string());
+  if (is_model_file(input)) {
+    const std::string extension = input.extension().string();
+    return "local model = " + std::string(extension == ".smx" ? "read_smx" : extension == ".xml" ? "read_cpacs" : "read_cad") + "{ " + name + " }\n";
+  }
+  const std::string as_surface = "read_surface{ " + name + ", allow_open = true }\n";
+  if (!io::format_of(input).read_volume) return "local surface = " + as_surface;
+  return "local surface\nlocal mesh = read_mesh{ " + name + " }\nif mesh.cells == 0 then\n  mesh = nil\n  surface = " + as_surface + "end\n";
+}
+
+void require_input(const std::filesystem::path& input) {
+  if (std::filesystem::is_directory(input))
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "showing " + input.string(),
+                 .problem = "it is a folder",
+                 .hint = "name a file in it; a series has its own page, series.html"});
+  if (!std::filesystem::exists(input))
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "showing " + input.string(), .problem = "there is no such file"});
+}
+
+/// Where there is a screen; elsewhere the address is all that is needed.
+std::optional<ChildProcess> open_browser(const std::string& address, const CommandContext& context) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return std::nullopt;
+  try {
+    return ChildProcess({.words = {"xdg-open", address}, .descriptors = {}, .output = "/dev/null", .folder = {}});
+  } catch (const Error&) {
+    context.run.info("no browser could be started (xdg-open): open the address by hand");
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
+  CLI::App* command = app.add_subcommand("view", "the workbench: a page in the browser that shows what a script makes, and follows it as it is changed");
+  command->add_option("file", view.input, "case.lua; or the file of a model, a surface or a volume mesh")->required();
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "arguments",
+          [&view](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) view.arguments.push_back(split_argument(text));
+          },
+          "what the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
+      ->type_name("NAME=VALUE ...");
+  command->add_option("--port", view.port, "port on 127.0.0.1; any that is free unless given")->check(CLI::Range(1, k_last_port))->type_name("N");
+  command->add_flag("--no-browser", view.is_without_browser, "only print the address");
+  add_set_option(*command, view.overrides);
+  command->add_option("--cache", view.cache, "keep results of stages in this folder; otherwise they are kept until the workbench ends")->type_name("FOLDER");
+  command->add_option("--cache-limit", view.cache_limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")
+      ->check(CLI::PositiveNumber)
+      ->type_name("BYTES");
+  command->add_flag("--worker", view.is_worker, "")->group("");  // hidden: see view_worker.h
+  command->footer("sterna view case.lua span=11 --port 8123. Ctrl-C ends it. From another machine: ssh -L 8123:127.0.0.1:8123 HOST. See docs/view.md.");
+  return command;
+}
+
+int execute(const ViewCommand& command, const CommandContext& context) {
+  if (command.is_worker) {
+    const StageCache cache(CacheSettings{.folder = command.cache, .limit = command.cache_limit});
+    return run_view_worker({.script = command.input, .overrides = command.overrides, .cache = &cache}, context);
+  }
+  if (view_page().empty())
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "sterna view",
+                 .problem = "this build has no page: there was no npm, or it could not get the page's libraries",
+                 .hint = "install npm and run cmake again"});
+  require_input(command.input);
+  const SessionFolder session;
+  const bool is_script = command.input.extension() == ".lua";
+  const std::filesystem::path script = is_script ? command.input : session.path() / "view.lua";
+  if (!is_script) io::write_whole(script, reading_script(command.input));
+  const std::filesystem::path cache = command.cache.empty() ? session.path() / "cache" : command.cache;
+  std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                                    "view",
+                                    script.string(),
+                                    "--worker",
+                                    "--quiet",
+                                    "--threads=" + std::to_string(context.run.threads()),
+                                    "--seed=" + std::to_string(context.run.seed()),
+                                    "--cache=" + cache.string(),
+                                    "--cache-limit=" + std::to_string(command.cache_limit)};
+  for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
+  Workbench bench(
+      {.input = command.input, .script = script, .is_made_script = !is_script, .arguments = command.arguments, .words = std::move(words), .page = view_page()});
+  const PageServer server(command.port, [&](const PageRequest& request) { return bench.answer(request); });
+  context.console.print(server.address());
+  context.run.info("shows " + command.input.string() + "; Ctrl-C ends it");
+  const std::optional<ChildProcess> browser = command.is_without_browser ? std::nullopt : open_browser(server.address(), context);
+  if (context.stops_itself) context.stops_itself(true);
+  bench.follow(context.run.stop_token());
+  return k_exit_success;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,32 @@
+// The process of the workbench in which scripts run: a crash or a stop there leaves the page as it is.
+//
+// Jobs come as lines of JSON on stdin, answers go as lines of JSON to a descriptor; "bytes": n says that n bytes follow the line.
+//   {"do": "run", "run": 3, "mode": "sketch" | "geometry" | "mesh", "arguments": {"span": "11"}, "wanted": ["model"]}
+//     -> parameters, log, print, progress, objects, scene ..., ended
+//   {"do": "scene", "run": 3, "id": 2}                  an object of that run   -> scene, or failed
+//   {"do": "cut", "run": 3, "id": 2, "plane": "x=1.2", "ask": 7}                -> cut, or failed
+// A sketch leaves solids side by side that the script unites, and shows shapes only; "geometry" makes models and reads surfaces, without meshing or writing
+// anything; "mesh" runs the script as `sterna run` does.
+#pragma once
+
+#include <filesystem>
+
+#include "scripting/cache/stage_cache.h"
+#include "scripting/command/command_context.h"
+#include "scripting/lua/script_call.h"
+
+namespace sterna::scripting {
+
+/// Descriptor that answers are written to.
+inline constexpr int k_view_answers = 4;
+
+struct ViewWorker {
+  std::filesystem::path script;
+  OptionOverrides overrides;
+  const StageCache* cache = nullptr;
+};
+
+/// Answers jobs until stdin ends; a job that is stopped (SIGTERM) ends the process with it. Exit status.
+int run_view_worker(const ViewWorker& worker, const CommandContext& context);
+
+}  // namespace sterna::scripting

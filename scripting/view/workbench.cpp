@@ -1,0 +1,578 @@
+// Threads: follow() starts, feeds and ends the workers; a reader for each worker takes its answers; those of the server answer the page. All share State under
+// one mutex; whoever changes something raises its version and wakes those who wait.
+#include "scripting/view/workbench.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <deque>
+#include <list>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "geom/base/child_process.h"
+#include "geom/base/error.h"
+#include "io/output/atomic_file.h"
+#include "scripting/interpreter/script_args.h"
+#include "scripting/lua/script_sandbox.h"
+#include "scripting/view/script_defaults.h"
+#include "scripting/view/view_worker.h"
+#include "scripting/view/watched_files.h"
+
+namespace sterna::scripting {
+namespace {
+
+using BenchJson = nlohmann::ordered_json;
+using BenchClock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto k_look_interval = 60ms;      ///< between looks at the files
+constexpr auto k_page_patience = 20s;       ///< an answer that has nothing new to tell is given after this time
+constexpr auto k_cut_patience = 60s;        ///< a page that asked for a cut waits so long for it
+constexpr auto k_sketch_patience = 1500ms;  ///< a sketch is left to its end so long before a newer one takes its place
+constexpr auto k_end_patience = 3s;         ///< a worker that was told to stop is killed after this time
+constexpr std::size_t k_most_lines = 400;   ///< of the log
+
+/// One object of the picture. It stays, marked old, until a run that came to its end has made it anew or not at all.
+struct ShownObject {
+  BenchJson about;  ///< as the worker told: key, kind, verb, file, line, is_shown, text
+  int run = 0;
+  std::size_t id = 0;  ///< within that run
+  std::uint64_t scene = 0;
+  int scene_run = 0;
+  bool is_quick = false;
+  std::shared_ptr<const std::string> bytes;
+  std::string failure;
+  std::string key() const { return about.value("key", ""); }
+  /// Whether geometry alone makes it; meshes stay until the next mesh.
+  bool is_geometry() const { return about.value("kind", "") == "model" || about.value("kind", "") == "component"; }
+};
+
+struct State {
+  std::uint64_t version = 1, scenes = 0;
+  int run = 0;
+  std::string mode, status = "starting";  ///< running, done, failed, stopped
+  std::string stage;
+  double share = 0.0;
+  BenchJson left = nullptr, problems = BenchJson::array(), parameters = BenchJson::array();
+  double seconds = 0.0;
+  BenchClock::time_point started{};
+  std::vector<ShownObject> objects;
+  std::map<std::string, std::string> values;  ///< arguments that are not as the script has them
+  std::vector<std::string> wanted, unwanted;  ///< keys
+  std::deque<BenchJson> lines;                ///< of the log
+  std::uint64_t n_lines = 0;
+  std::map<int, std::shared_ptr<const std::string>> cuts;  ///< by number of the question
+  std::map<int, std::string> refused_cuts;
+  int n_asked = 0;
+};
+
+/// A worker process with the thread that reads what it says.
+struct WorkerProcess {
+  int number = 0;
+  ChildProcess child;
+  std::unique_ptr<Pipe> jobs, answers;
+  std::thread reader;
+  bool is_busy = false, is_gone = false;
+  std::string mode;
+  BenchClock::time_point since;
+};
+
+PageAnswer json_answer(const BenchJson& json, int status = 200) {
+  return {.status = status,
+          .type = "application/json",
+          .body = std::make_shared<const std::string>(json.dump(-1, ' ', false, BenchJson::error_handler_t::replace))};
+}
+PageAnswer refusal(const std::string& text, int status = 409) { return json_answer({{"text", text}}, status); }
+
+}  // namespace
+
+class Workbench::Parts {
+ public:
+  explicit Parts(const WorkbenchSettings& settings) : settings_(settings), page_(std::make_shared<const std::string>(settings.page)) {
+    for (const auto& [name, text] : settings.arguments) state_.values[name] = text;
+  }
+
+  ~Parts() { end_workers(); }
+
+  void follow(const std::stop_token& stop) {
+    const std::stop_callback wake(stop, [this] { changed_.notify_all(); });
+    WatchedFiles files(settings_.script, settings_.input);
+    ask_for(settings_.is_made_script ? "mesh" : "geometry");
+    while (!stop.stop_requested()) {
+      if (is_mesh_written_.exchange(false)) files.accept_others();
+      if (files.have_changed()) ask_for(settings_.is_made_script ? "mesh" : "geometry");
+      {
+        std::unique_lock lock(mutex_);
+        take_step();
+        changed_.wait_for(lock, k_look_interval, [&] { return stop.stop_requested() || is_step_due_; });
+        is_step_due_ = false;
+      }
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      is_over_ = true;
+    }
+    changed_.notify_all();
+    end_workers();
+  }
+
+  PageAnswer answer(const PageRequest& request) {
+    try {
+      if (!request.is_post) {
+        if (request.name.empty()) return {.type = "text/html; charset=utf-8", .body = page_};
+        if (request.name == "state") return state_answer(request);
+        if (request.name == "scene") return scene_answer(request);
+        if (request.name == "script") return json_answer({{"text", read_script(settings_.script)}});
+        return refusal("there is no such page", 404);
+      }
+      const BenchJson body = BenchJson::parse(request.body.empty() ? "{}" : request.body);
+      if (!body.is_object()) return refusal("expected an object", 400);
+      if (request.name == "values") return set_values(body);
+      if (request.name == "run") return run_asked(body);
+      if (request.name == "stop") return stop_asked();
+      if (request.name == "show") return show_asked(body);
+      if (request.name == "cut") return cut_asked(body);
+      if (request.name == "save") return save_values();
+      return refusal("there is no such page", 404);
+    } catch (const BenchJson::exception& error) {
+      return refusal(std::string("the request cannot be read: ") + error.what(), 400);
+    } catch (const Error& error) {
+      return refusal(error.what());
+    }
+  }
+
+ private:
+  // ---- What the page asks for
+
+  PageAnswer state_answer(const PageRequest& request) {
+    const std::uint64_t since = number_in(request.value("since")), lines_since = number_in(request.value("lines"));
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, k_page_patience, [&] { return is_over_ || state_.version > since; });
+    BenchJson objects = BenchJson::array();
+    for (const ShownObject& object : state_.objects) {
+      BenchJson entry = object.about;
+      entry["scene"] = object.scene;
+      entry["is_quick"] = object.is_quick;
+      entry["is_old"] = object.scene_run < state_.run || object.run < state_.run;
+      if (object.bytes) entry["bytes"] = object.bytes->size();
+      if (!object.failure.empty()) entry["failure"] = object.failure;
+      objects.push_back(std::move(entry));
+    }
+    BenchJson lines = BenchJson::array();
+    const std::uint64_t first = state_.n_lines - state_.lines.size();
+    for (std::size_t i = 0; i < state_.lines.size(); ++i)
+      if (first + i >= lines_since) lines.push_back(state_.lines[i]);
+    const bool is_running = state_.status == "running";
+    const double seconds = is_running ? std::chrono::duration<double>(BenchClock::now() - state_.started).count() : state_.seconds;
+    return json_answer({{"version", state_.version},
+                        {"file", settings_.input.filename().string()},
+                        {"has_script", !settings_.is_made_script},
+                        {"is_over", is_over_},
+                        {"run",
+                         {{"number", state_.run},
+                          {"mode", state_.mode},
+                          {"status", state_.status},
+                          {"stage", state_.stage},
+                          {"share", state_.share},
+                          {"left", state_.left},
+                          {"seconds", seconds}}},
+                        {"parameters", state_.parameters},
+                        {"values", state_.values},
+                        {"problems", state_.problems},
+                        {"objects", std::move(objects)},
+                        {"n_lines", state_.n_lines},
+                        {"lines", std::move(lines)}});
+  }
+
+  PageAnswer scene_answer(const PageRequest& request) {
+    const std::uint64_t scene = number_in(request.value("scene"));
+    const std::lock_guard lock(mutex_);
+    for (const ShownObject& object : state_.objects)
+      if (object.scene == scene && object.bytes) return {.type = "application/octet-stream", .body = object.bytes};
+    return refusal("this picture is gone", 410);
+  }
+
+  PageAnswer set_values(const BenchJson& body) {
+    const bool is_dragging = body.value("is_dragging", false);
+    {
+      const std::lock_guard lock(mutex_);
+      const BenchJson values = body.value("values", BenchJson::object());
+      for (const auto& [name, text] : values.items()) {
+        split_argument(name + "=");  // a name that no argument can have is refused here
+        if (text.is_null()) state_.values.erase(name);
+        else state_.values[name] = text.get<std::string>();
+      }
+    }
+    ask_for(is_dragging ? "sketch" : "geometry");
+    return json_answer({{"ok", true}});
+  }
+
+  PageAnswer run_asked(const BenchJson& body) {
+    const std::string mode = body.value("mode", "geometry");
+    if (mode != "geometry" && mode != "mesh") return refusal("there is no mode " + mode, 400);
+    ask_for(mode);
+    return json_answer({{"ok", true}});
+  }
+
+  PageAnswer stop_asked() {
+    const std::lock_guard lock(mutex_);
+    asked_mode_.clear();
+    if (worker_ && worker_->is_busy) {
+      retire();
+      state_.status = "stopped";
+      state_.left = nullptr;
+      tell_change();
+    }
+    return json_answer({{"ok", true}});
+  }
+
+  PageAnswer show_asked(const BenchJson& body) {
+    const std::string key = body.value("key", "");
+    const bool is_shown = body.value("is_shown", true);
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
+    if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
+    std::erase(state_.wanted, key);
+    std::erase(state_.unwanted, key);
+    (is_shown ? state_.wanted : state_.unwanted).push_back(key);
+    const bool is_missing = !found->bytes || found->scene_run < found->run;
+    if (is_shown && is_missing) asked_scenes_.push_back(key);
+    is_step_due_ = true;
+    changed_.notify_all();
+    return json_answer({{"ok", true}});
+  }
+
+  PageAnswer cut_asked(const BenchJson& body) {
+    const std::string key = body.value("key", "");
+    std::unique_lock lock(mutex_);
+    const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
+    if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
+    if (!worker_ || worker_->is_busy || worker_->is_gone || found->run != held_run_) return refusal("the mesh is not at hand: mesh again");
+    const int ask = ++state_.n_asked;
+    send_job({{"do", "cut"}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", ask}});
+    const auto is_there = [&] { return is_over_ || state_.cuts.contains(ask) || state_.refused_cuts.contains(ask); };
+    changed_.wait_for(lock, k_cut_patience, is_there);
+    if (const auto cut = state_.cuts.find(ask); cut != state_.cuts.end()) {
+      const PageAnswer result{.type = "application/octet-stream", .body = cut->second};
+      state_.cuts.erase(cut);
+      return result;
+    }
+    const auto refused = state_.refused_cuts.find(ask);
+    return refusal(refused == state_.refused_cuts.end() ? "the cut takes too long" : refused->second);
+  }
+
+  PageAnswer save_values() {
+    if (settings_.is_made_script) return refusal("there is no script to write to");
+    std::vector<std::pair<std::string, std::string>> values;
+    {
+      const std::lock_guard lock(mutex_);
+      values.assign(state_.values.begin(), state_.values.end());
+    }
+    if (values.empty()) return refusal("all values are as the script has them");
+    io::write_whole(settings_.script, with_defaults(read_script(settings_.script), values));
+    const std::lock_guard lock(mutex_);
+    state_.values.clear();  // the script has them now; it is seen as changed
+    return json_answer({{"ok", true}});
+  }
+
+  // ---- Runs
+
+  void ask_for(const std::string& mode) {
+    const std::lock_guard lock(mutex_);
+    // What was asked for before and not begun is covered, but for a mesh, which a sketch does not make.
+    asked_mode_ = mode;
+    is_step_due_ = true;
+    changed_.notify_all();
+  }
+
+  /// \pre the lock is held
+  void tell_change() {
+    ++state_.version;
+    changed_.notify_all();
+  }
+
+  /// Starts what is asked for, where that can be done now. \pre the lock is held
+  void take_step() {
+    look_at_retired();
+    if (worker_ && worker_->is_gone) take_lost_worker();
+    if (!asked_mode_.empty()) {
+      const bool is_sketching = worker_ && worker_->is_busy && worker_->mode == "sketch" && BenchClock::now() - worker_->since < k_sketch_patience;
+      if (is_sketching) return;  // it will be there in a moment, and the next one follows
+      if (worker_ && worker_->is_busy) retire();
+      if (!worker_) start_worker();
+      if (worker_) begin_run();
+    }
+    if (worker_ && !worker_->is_busy)
+      for (const std::string& key : std::exchange(asked_scenes_, {}))
+        for (const ShownObject& object : state_.objects)
+          if (object.key() == key && object.run == held_run_) send_job({{"do", "scene"}, {"run", object.run}, {"id", object.id}});
+  }
+
+  void begin_run() {
+    state_.run += 1;
+    state_.mode = std::exchange(asked_mode_, {});
+    state_.status = "running";
+    state_.stage.clear();
+    state_.share = 0.0;
+    state_.left = nullptr;
+    state_.started = BenchClock::now();
+    worker_->is_busy = true;
+    worker_->mode = state_.mode;
+    worker_->since = state_.started;
+    held_run_ = state_.run;
+    send_job(
+        {{"do", "run"}, {"run", state_.run}, {"mode", state_.mode}, {"arguments", state_.values}, {"wanted", state_.wanted}, {"unwanted", state_.unwanted}});
+    tell_change();
+  }
+
+  void start_worker() {
+    try {
+      auto fresh = std::make_shared<WorkerProcess>(WorkerProcess{.number = ++n_workers_,
+                                                                 .child = ChildProcess(start_of_worker()),
+                                                                 .jobs = std::move(new_jobs_),
+                                                                 .answers = std::move(new_answers_),
+                                                                 .reader = {},
+                                                                 .mode = {},
+                                                                 .since = BenchClock::now()});
+      fresh->jobs->read_end.reset();
+      fresh->answers->write_end.reset();
+      fresh->reader = std::thread([this, fresh = fresh.get()] { read_answers(*fresh); });
+      worker_ = std::move(fresh);
+    } catch (const Error& error) {
+      fail(error.what());
+      asked_mode_.clear();
+    }
+  }
+
+  ChildStart start_of_worker() {
+    new_jobs_ = std::make_unique<Pipe>(ErrorCode::internal, "starting a worker");
+    new_answers_ = std::make_unique<Pipe>(ErrorCode::internal, "starting a worker");
+    return {.words = settings_.words,
+            .descriptors = {{new_jobs_->read_end.value, STDIN_FILENO}, {new_answers_->write_end.value, k_view_answers}},
+            .output = {},
+            .folder = {}};
+  }
+
+  /// The worker is told to stop and replaced. \pre the lock is held
+  void retire() {
+    worker_->child.stop();
+    worker_->since = BenchClock::now();
+    worker_->jobs.reset();
+    retired_.push_back(std::move(worker_));
+    worker_.reset();
+  }
+
+  void look_at_retired() {
+    for (auto it = retired_.begin(); it != retired_.end();) {
+      WorkerProcess& old = **it;
+      if (BenchClock::now() - old.since > k_end_patience) old.child.kill();
+      if (old.is_gone && old.child.ended()) {
+        old.reader.join();
+        it = retired_.erase(it);
+      } else ++it;
+    }
+  }
+
+  /// A worker that ended by itself. \pre the lock is held
+  void take_lost_worker() {
+    const int status = worker_->child.wait();
+    worker_->reader.join();
+    const bool was_busy = worker_->is_busy;
+    worker_.reset();
+    if (was_busy)
+      fail("the process that ran the script ended " + (!WIFSIGNALED(status) ? "with status " + std::to_string(WEXITSTATUS(status))
+                                                       : WTERMSIG(status) == SIGKILL
+                                                           ? std::string("because it was killed: was there too little memory?")
+                                                           : "by signal " + std::to_string(WTERMSIG(status)) + " (please report this)"));
+  }
+
+  void fail(const std::string& text) {
+    state_.status = "failed";
+    state_.problems = BenchJson::array({{{"text", text}, {"code", "internal"}, {"file", ""}, {"line", 0}, {"places", BenchJson::array()}}});
+    tell_change();
+  }
+
+  void send_job(const BenchJson& job) {
+    std::string text = job.dump(-1, ' ', false, BenchJson::error_handler_t::replace) + "\n";
+    for (std::string_view rest = text; !rest.empty();) {
+      const ssize_t n = write(worker_->jobs->write_end.value, rest.data(), rest.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return;  // it is gone, as its reader will see
+      rest.remove_prefix(static_cast<std::size_t>(n));
+    }
+  }
+
+  void end_workers() {
+    std::list<std::shared_ptr<WorkerProcess>> all;
+    {
+      const std::lock_guard lock(mutex_);
+      if (worker_) retire();
+      all.swap(retired_);
+    }
+    const auto end = BenchClock::now() + k_end_patience;
+    for (const auto& worker : all) {
+      while (!worker->child.ended() && BenchClock::now() < end) std::this_thread::sleep_for(10ms);
+      worker->child.kill();
+      worker->reader.join();
+    }
+  }
+
+  // ---- What workers say
+
+  void read_answers(WorkerProcess& worker) {
+    std::string text;
+    std::size_t n_bytes = 0;  // that belong to `line`
+    BenchJson line;
+    const auto take = [&] {
+      for (;;) {
+        if (n_bytes > 0) {
+          if (text.size() < n_bytes) return;
+          auto bytes = std::make_shared<const std::string>(text.substr(0, n_bytes));
+          text.erase(0, n_bytes);
+          n_bytes = 0;
+          note(worker, line, std::move(bytes));
+          continue;
+        }
+        const std::size_t end = text.find('\n');
+        if (end == std::string::npos) return;
+        line = BenchJson::parse(text.substr(0, end), nullptr, false);
+        text.erase(0, end + 1);
+        if (!line.is_object()) continue;
+        n_bytes = line.value("bytes", std::size_t{0});
+        if (n_bytes == 0) note(worker, line, nullptr);
+      }
+    };
+    std::vector<char> buffer(1 << 18);
+    for (;;) {
+      const ssize_t n = read(worker.answers->read_end.value, buffer.data(), buffer.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      text.append(buffer.data(), static_cast<std::size_t>(n));
+      take();
+    }
+    const std::lock_guard lock(mutex_);
+    worker.is_gone = true;
+    is_step_due_ = true;
+    changed_.notify_all();
+  }
+
+  void note(WorkerProcess& worker, const BenchJson& line, std::shared_ptr<const std::string> bytes) {
+    const std::lock_guard lock(mutex_);
+    if (worker_.get() != &worker || line.value("run", -1) != state_.run) return;  // of a run that was overtaken
+    const std::string is = line.value("is", "");
+    if (is == "log") note_line(line);
+    else if (is == "progress") {
+      state_.stage = line.value("stage", "");
+      state_.share = line.value("share", 0.0);
+      state_.left = line.value("left", BenchJson(nullptr));
+    } else if (is == "parameters") note_parameters(line["list"]);
+    else if (is == "objects") note_objects(line);
+    else if (is == "scene") note_scene(line, std::move(bytes));
+    else if (is == "cut") state_.cuts[line.value("ask", 0)] = std::move(bytes);
+    else if (is == "failed") note_failure(line);
+    else if (is == "ended") note_end(worker, line);
+    tell_change();
+  }
+
+  void note_line(const BenchJson& line) {
+    state_.lines.push_back({{"run", state_.run}, {"warns", line.value("warns", false)}, {"text", line.value("text", "")}});
+    ++state_.n_lines;
+    if (state_.lines.size() > k_most_lines) state_.lines.pop_front();
+  }
+
+  /// Values of arguments that the script no longer has are dropped, and the script runs without them.
+  void note_parameters(const BenchJson& list) {
+    state_.parameters = list;
+    const auto n_dropped = std::erase_if(
+        state_.values, [&](const auto& entry) { return std::ranges::none_of(list, [&](const BenchJson& p) { return p.value("name", "") == entry.first; }); });
+    if (n_dropped > 0 && asked_mode_.empty()) asked_mode_ = state_.mode;
+  }
+
+  void note_objects(const BenchJson& line) {
+    for (const BenchJson& about : line["list"]) {
+      const std::string key = about.value("key", "");
+      auto found = std::ranges::find_if(state_.objects,
+                                        [&](const ShownObject& object) { return object.run == state_.run && object.id == about.value("id", std::size_t{0}); });
+      if (found == state_.objects.end() || found->about.value("kind", "") != about.value("kind", ""))
+        found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
+      if (found == state_.objects.end()) found = state_.objects.insert(found, ShownObject{});
+      found->about = about;
+      found->run = state_.run;
+      found->id = about.value("id", std::size_t{0});
+      found->failure.clear();
+    }
+  }
+
+  void note_scene(const BenchJson& line, std::shared_ptr<const std::string> bytes) {
+    for (ShownObject& object : state_.objects) {
+      if (object.run != state_.run || object.id != line.value("id", std::size_t{0})) continue;
+      object.bytes = std::move(bytes);
+      object.scene = ++state_.scenes;
+      object.scene_run = state_.run;
+      object.is_quick = line.value("is_quick", false);
+      return;
+    }
+  }
+
+  void note_failure(const BenchJson& line) {
+    if (const int ask = line.value("ask", 0); ask > 0) {
+      state_.refused_cuts[ask] = line.value("text", "");
+      return;
+    }
+    for (ShownObject& object : state_.objects)
+      if (object.run == state_.run && object.id == line.value("id", std::size_t{0})) object.failure = line.value("text", "");
+  }
+
+  void note_end(WorkerProcess& worker, const BenchJson& line) {
+    const bool is_over = line.value("is_over", true);
+    const std::string mode = line.value("mode", "");
+    if (mode != "sketch") state_.problems = line["problems"];
+    if (mode != "sketch" && state_.problems.empty())
+      std::erase_if(state_.objects, [&](const ShownObject& object) { return object.run < state_.run && (mode == "mesh" || object.is_geometry()); });
+    std::ranges::stable_sort(state_.objects, {},
+                             [&](const ShownObject& object) { return object.run == state_.run ? object.id : std::size_t{1'000'000} + object.id; });
+    if (!is_over) return;
+    worker.is_busy = false;
+    if (mode == "mesh") is_mesh_written_ = true;
+    state_.status = state_.problems.empty() || mode == "sketch" ? "done" : "failed";
+    state_.share = 1.0;
+    state_.left = nullptr;
+    state_.seconds = line.value("seconds", 0.0);
+    is_step_due_ = true;
+  }
+
+  static std::uint64_t number_in(const std::string& text) {
+    std::uint64_t number = 0;
+    for (const char c : text) {
+      if (c < '0' || c > '9' || number > 1'000'000'000'000) return 0;
+      number = 10 * number + static_cast<std::uint64_t>(c - '0');
+    }
+    return number;
+  }
+
+  const WorkbenchSettings settings_;
+  const std::shared_ptr<const std::string> page_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_;
+  std::string asked_mode_;                 ///< run that is wanted next; empty: none
+  std::vector<std::string> asked_scenes_;  ///< keys
+  bool is_step_due_ = false, is_over_ = false;
+  std::atomic<bool> is_mesh_written_ = false;
+  int held_run_ = 0;  ///< whose objects the worker holds
+  int n_workers_ = 0;
+  std::unique_ptr<Pipe> new_jobs_, new_answers_;
+  std::shared_ptr<WorkerProcess> worker_;
+  std::list<std::shared_ptr<WorkerProcess>> retired_;
+};
+
+Workbench::Workbench(const WorkbenchSettings& settings) : parts_(std::make_unique<Parts>(settings)) {}
+Workbench::~Workbench() = default;
+void Workbench::follow(const std::stop_token& stop) { parts_->follow(stop); }
+PageAnswer Workbench::answer(const PageRequest& request) { return parts_->answer(request); }
+
+}  // namespace sterna::scripting
