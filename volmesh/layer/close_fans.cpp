@@ -9,6 +9,7 @@
 #include "geom/base/sort_unique.h"
 #include "volmesh/case/growth_law.h"
 #include "volmesh/layer/explicit_cells.h"
+#include "volmesh/layer/renumbered_lines.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -61,10 +62,10 @@ class FanCloser {
 
   /// Node j of a line: lines of one foot meet in node 0, lines at ends of ridges start one layer late.
   NodeId node(Line line, int j) const {
-    if (j == 0 || is_collapsed(line)) return NodeId(first_[foot(line)]);
-    if (is_added(line)) return NodeId(first_[line] + static_cast<std::uint32_t>(j) - 1);
-    if (is_end_[line]) return NodeId(first_[line] + static_cast<std::uint32_t>(j - 1));
-    return NodeId(first_[line] + static_cast<std::uint32_t>(j));
+    if (j == 0 || is_collapsed(line)) return NodeId(lines_.first(foot(line)));
+    if (is_added(line)) return NodeId(lines_.first(line) + static_cast<std::uint32_t>(j) - 1);
+    if (is_end_[line]) return NodeId(lines_.first(line) + static_cast<std::uint32_t>(j - 1));
+    return NodeId(lines_.first(line) + static_cast<std::uint32_t>(j));
   }
   NodeId top(Line line) const { return node(line, n_layers(line)); }
 
@@ -100,33 +101,18 @@ class FanCloser {
     throw FanError(std::move(info), std::move(feet));
   }
 
+  auto node_of() const {
+    return [this](Line line, int j) { return node(line, j); };
+  }
+
   void number_nodes() {
-    const std::size_t n_all = ridges_.foot.size(), n_before = given_.first_node.empty() ? 0 : given_.top(static_cast<Line>(n_all - 1)).index() + 1;
-    const std::vector<Point>& old = mesh_.points.raw();
-    std::vector<Point> points;
-    points.reserve(old.size());
-    first_.resize(n_all);
-    for (Line line = 0; line < n_all; ++line) {
-      first_[line] = NodeId(points.size()).value();
-      const auto begin = old.begin() + given_.first_node[line];
+    lines_.renumber(mesh_, [&](Line line, auto begin, std::vector<Point>& points) {
       std::vector<Point> nodes(begin, begin + given_.n_steps(line) + 1);
       if (is_added(line)) nodes.erase(nodes.begin());
       else if (is_end_[line]) nodes = with_layer_less(nodes);
       points.insert(points.end(), nodes.begin(), nodes.end());
-    }
-    for (const OpenedRidges::Foot& f : ridges_.feet) points[first_[f.vertex.index()]] = f.point;
-    outer_shift_ = static_cast<std::int64_t>(points.size()) - static_cast<std::int64_t>(n_before);
-    n_before_ = n_before;
-    points.insert(points.end(), old.begin() + static_cast<std::ptrdiff_t>(n_before), old.end());
-    mesh_.points = Column<NodeId, Point>(std::move(points));
-  }
-
-  /// Where a node of the given mesh is now. Nodes of lines are asked for as ends of lines, or on the wall.
-  NodeId moved(NodeId before) const {
-    if (before.index() >= n_before_) return NodeId(static_cast<std::uint64_t>(static_cast<std::int64_t>(before.index()) + outer_shift_));
-    const auto after = std::ranges::upper_bound(given_.first_node, before.value());
-    const auto line = static_cast<Line>(after - given_.first_node.begin() - 1);
-    return node(line, static_cast<int>(before.value() - given_.first_node[line]));
+    });
+    for (const OpenedRidges::Foot& f : ridges_.feet) mesh_.points[NodeId(lines_.first(f.vertex.value()))] = f.point;
   }
 
   void fill() {
@@ -136,20 +122,10 @@ class FanCloser {
     if (block.line_layers.empty() && !ridges_.end_vertices.empty()) block.line_layers.assign(n_lines_, static_cast<std::uint16_t>(given_.n_layers));
     if (!block.line_layers.empty()) block.line_layers.resize(n_lines_);
     for (const VertexId v : ridges_.end_vertices) --block.line_layers[v.index()];
-    block.first_node.assign(first_.begin(), first_.begin() + static_cast<std::ptrdiff_t>(n_lines_));
+    block.first_node.assign(lines_.first().begin(), lines_.first().begin() + static_cast<std::ptrdiff_t>(n_lines_));
     block.is_collapsed.assign(given_.is_collapsed.begin(), given_.is_collapsed.begin() + static_cast<std::ptrdiff_t>(n_lines_));
 
-    std::vector<sterna::BoundaryTriangle> faces;
-    for (std::size_t t = 0; t < mesh_.boundary_triangles.size(); ++t) {
-      if (t >= ridges_.n_given_triangles && t < given_.n_columns()) continue;  // virtual
-      sterna::BoundaryTriangle face = mesh_.boundary_triangles[t];
-      for (NodeId& n : face.nodes) n = moved(n);
-      faces.push_back(face);
-    }
-    mesh_.boundary_triangles = std::move(faces);
-    for (BoundaryQuad& quad : mesh_.boundary_quads)
-      for (NodeId& n : quad.nodes) n = moved(n);
-
+    lines_.move_faces(mesh_, ridges_.n_given_triangles, node_of());
     for (std::size_t column = 0; column < ridges_.n_given_triangles; ++column) {
       const auto& base = given_.base[column];
       if (std::ranges::none_of(base, [&](Line line) { return is_added(line) || is_end_[line]; })) {
@@ -211,18 +187,9 @@ class FanCloser {
   void reorder_boundary() {
     order_.insert(order_.end(), explicit_columns_.begin(), explicit_columns_.end());
     for (std::size_t t = ridges_.n_given_triangles; t < boundary_.triangles.size(); ++t) order_.push_back(static_cast<std::uint32_t>(t));
-    const auto reorder = [&](auto& column) {
-      auto before = std::move(column);
-      column.clear();
-      for (const std::uint32_t t : order_) column.push_back(before[t]);
-    };
-    reorder(boundary_.triangles);
-    reorder(boundary_.triangle_patch);
-    reorder(boundary_.layer_volumes);
+    lines_.reorder(boundary_, order_, node_of());
     for (std::size_t t = order_.size(); t-- > 0;)
       if (order_[t] >= ridges_.n_given_triangles && order_[t] < given_.n_columns()) boundary_.layer_volumes[t] = 0.0;  // no prism is under it
-    for (std::size_t p = 0; p < boundary_.point2node.size(); ++p)
-      boundary_.point2node[p] = p < ridges_.foot.size() ? top(static_cast<Line>(p)) : moved(boundary_.point2node[p]);
   }
 
   void prove() const {
@@ -239,9 +206,7 @@ class FanCloser {
   const LayerBlock given_;  ///< on the opened wall
   std::size_t n_lines_;     ///< of the given wall
   std::vector<std::uint8_t> is_end_;
-  std::vector<std::uint32_t> first_;  ///< of each line: its first own node
-  std::size_t n_before_ = 0;          ///< nodes of lines in the given mesh
-  std::int64_t outer_shift_ = 0;
+  RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;
   ExplicitCells cells_;
 };

@@ -1,4 +1,4 @@
-// Steps: number_nodes, fill (columns that stay, explicit cells, boundary faces), reorder the boundary of the tetrahedra, prove the explicit cells.
+// Steps: number_nodes, keep_columns (and cells of the others), keep_faces, reorder_boundary of the tetrahedra, prove the explicit cells.
 #include "volmesh/layer/close_wakes.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "geom/base/columns.h"
 #include "geom/base/error.h"
 #include "volmesh/layer/explicit_cells.h"
+#include "volmesh/layer/renumbered_lines.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -35,33 +36,19 @@ class WakeCloser {
 
   NodeId node(Line line, int j) const {
     const int at = std::min(j, given_.n_steps(line));
-    if (at == 0) return NodeId(first_[foot_[line]]);
-    return NodeId(first_[line] + static_cast<std::uint32_t>(has_own_foot(line) ? at : at - 1));
+    if (at == 0) return NodeId(lines_.first(foot_[line]));
+    return NodeId(lines_.first(line) + static_cast<std::uint32_t>(has_own_foot(line) ? at : at - 1));
+  }
+
+  auto node_of() const {
+    return [this](Line line, int j) { return node(line, j); };
   }
 
   void number_nodes() {
-    const std::size_t n_lines = given_.n_lines();
-    for (Line line = 0; line < n_lines; ++line) n_before_ = std::max(n_before_, given_.top(line).index() + 1);
-    const std::vector<Point>& old = mesh_.points.raw();
-    std::vector<Point> points;
-    points.reserve(old.size());
-    first_.resize(n_lines);
-    for (Line line = 0; line < n_lines; ++line) {
-      first_[line] = NodeId(points.size()).value();
-      const auto begin = old.begin() + given_.first_node[line];
+    lines_.renumber(mesh_, [&](Line line, auto begin, std::vector<Point>& points) {
       points.insert(points.end(), begin + (has_own_foot(line) ? 0 : 1), begin + given_.n_steps(line) + 1);
-    }
-    for (const DoubledSheets::Foot& foot : sheets_.feet) points[first_[foot.sides[0].index()]] = foot.point;
-    outer_shift_ = static_cast<std::int64_t>(points.size()) - static_cast<std::int64_t>(n_before_);
-    points.insert(points.end(), old.begin() + static_cast<std::ptrdiff_t>(n_before_), old.end());
-    mesh_.points = Column<NodeId, Point>(std::move(points));
-  }
-
-  NodeId moved(NodeId before) const {
-    if (before.index() >= n_before_) return NodeId(static_cast<std::uint64_t>(static_cast<std::int64_t>(before.index()) + outer_shift_));
-    const auto after = std::ranges::upper_bound(given_.first_node, before.value());
-    const auto line = static_cast<Line>(after - given_.first_node.begin() - 1);
-    return node(line, static_cast<int>(before.value() - given_.first_node[line]));
+    });
+    for (const DoubledSheets::Foot& foot : sheets_.feet) mesh_.points[NodeId(lines_.first(foot.sides[0].value()))] = foot.point;
   }
 
   void keep_columns() {
@@ -69,7 +56,7 @@ class WakeCloser {
     LayerBlock block;
     block.n_layers = given_.n_layers;
     if (!given_.line_layers.empty()) block.line_layers.assign(given_.line_layers.begin(), given_.line_layers.begin() + n_lines);
-    block.first_node.assign(first_.begin(), first_.begin() + n_lines);
+    block.first_node.assign(lines_.first().begin(), lines_.first().begin() + n_lines);
     block.is_collapsed.assign(given_.is_collapsed.begin(), given_.is_collapsed.begin() + n_lines);
     for (std::size_t column = 0; column < given_.n_columns(); ++column) {
       const auto& base = given_.base[column];
@@ -90,32 +77,12 @@ class WakeCloser {
         mesh_.request);
   }
 
-  void keep_faces() {
-    std::vector<sterna::BoundaryTriangle> faces;
-    for (std::size_t t = 0; t < mesh_.boundary_triangles.size(); ++t) {
-      if (t >= sheets_.n_given_triangles && t < given_.n_columns()) continue;  // of a sheet
-      sterna::BoundaryTriangle face = mesh_.boundary_triangles[t];
-      for (NodeId& n : face.nodes) n = moved(n);
-      faces.push_back(face);
-    }
-    mesh_.boundary_triangles = std::move(faces);
-    for (BoundaryQuad& quad : mesh_.boundary_quads)
-      for (NodeId& n : quad.nodes) n = moved(n);
-  }
+  void keep_faces() { lines_.move_faces(mesh_, sheets_.n_given_triangles, node_of()); }
 
   void reorder_boundary() {
     order_.insert(order_.end(), explicit_columns_.begin(), explicit_columns_.end());
     for (std::size_t t = sheets_.n_given_triangles; t < boundary_.triangles.size(); ++t) order_.push_back(static_cast<std::uint32_t>(t));
-    const auto reorder = [&](auto& column) {
-      auto before = std::move(column);
-      column.clear();
-      for (const std::uint32_t t : order_) column.push_back(before[t]);
-    };
-    reorder(boundary_.triangles);
-    reorder(boundary_.triangle_patch);
-    reorder(boundary_.layer_volumes);
-    for (std::size_t p = 0; p < boundary_.point2node.size(); ++p)
-      boundary_.point2node[p] = p < foot_.size() ? node(static_cast<Line>(p), given_.n_layers) : moved(boundary_.point2node[p]);
+    lines_.reorder(boundary_, order_, node_of());
   }
 
   void prove() const {
@@ -131,11 +98,9 @@ class WakeCloser {
   const DoubledSheets& sheets_;
   HybridMesh& mesh_;
   FillBoundary& boundary_;
-  const LayerBlock given_;            ///< on the wall with sheets
-  std::vector<Line> foot_;            ///< of each line: the one whose first node it starts at
-  std::vector<std::uint32_t> first_;  ///< of each line: its first own node
-  std::size_t n_before_ = 0;          ///< nodes of lines in the given mesh
-  std::int64_t outer_shift_ = 0;
+  const LayerBlock given_;  ///< on the wall with sheets
+  std::vector<Line> foot_;  ///< of each line: the one whose first node it starts at
+  RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;
   ExplicitCells cells_;
 };

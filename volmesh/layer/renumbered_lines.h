@@ -1,0 +1,92 @@
+// Lines of a layer get other nodes, because some of them start at a node of another one or have cells of their own: what close_fans and close_wakes share.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geom/base/columns.h"
+#include "geom/mesh/hybrid_mesh.h"
+#include "volmesh/layer/assemble.h"
+
+namespace sterna::volmesh {
+
+/// Where nodes are after lines got others. \p node of its functions: node(line, j) -> NodeId, where node j of a line of the given block is now.
+class RenumberedLines {
+ public:
+  using Line = std::uint32_t;
+  /// \p given: outlives it; nodes of its lines are the first of the mesh
+  explicit RenumberedLines(const LayerBlock& given) : given_(given) {
+    for (Line line = 0; line < given.n_lines(); ++line) n_before_ = std::max(n_before_, given.top(line).index() + 1);
+  }
+
+  /// append(line, begin, points) adds a line's own nodes; begin is where its given ones are. Points behind the lines come behind the new ones.
+  template <class Append>
+  void renumber(HybridMesh& mesh, const Append& append) {
+    const std::vector<Point>& old = mesh.points.raw();
+    std::vector<Point> points;
+    points.reserve(old.size());
+    first_.resize(given_.n_lines());
+    for (Line line = 0; line < first_.size(); ++line) {
+      first_[line] = NodeId(points.size()).value();
+      append(line, old.begin() + given_.first_node[line], points);
+    }
+    outer_shift_ = static_cast<std::int64_t>(points.size()) - static_cast<std::int64_t>(n_before_);
+    points.insert(points.end(), old.begin() + static_cast<std::ptrdiff_t>(n_before_), old.end());
+    mesh.points = Column<NodeId, Point>(std::move(points));
+  }
+
+  /// The first own node of a line, and of all.
+  std::uint32_t first(Line line) const { return first_[line]; }
+  std::span<const std::uint32_t> first() const { return first_; }
+
+  /// Where a node of the given mesh is now. \pre of lines: their ends, or on the wall
+  template <class NodeOf>
+  NodeId moved(NodeId before, const NodeOf& node) const {
+    if (before.index() >= n_before_) return NodeId(static_cast<std::uint64_t>(static_cast<std::int64_t>(before.index()) + outer_shift_));
+    const auto after = std::ranges::upper_bound(given_.first_node, before.value());
+    const auto line = static_cast<Line>(after - given_.first_node.begin() - 1);
+    return node(line, static_cast<int>(before.value() - given_.first_node[line]));
+  }
+
+  /// Faces of the boundary without those under columns from `n_columns` on, which stand on no wall.
+  template <class NodeOf>
+  void move_faces(HybridMesh& mesh, std::size_t n_columns, const NodeOf& node) const {
+    std::vector<sterna::BoundaryTriangle> faces;
+    for (std::size_t t = 0; t < mesh.boundary_triangles.size(); ++t) {
+      if (t >= n_columns && t < given_.n_columns()) continue;
+      sterna::BoundaryTriangle face = mesh.boundary_triangles[t];
+      for (NodeId& n : face.nodes) n = moved(n, node);
+      faces.push_back(face);
+    }
+    mesh.boundary_triangles = std::move(faces);
+    for (BoundaryQuad& quad : mesh.boundary_quads)
+      for (NodeId& n : quad.nodes) n = moved(n, node);
+  }
+
+  /// Triangles of the tetrahedra's boundary in this order of the given ones, its points where they are now.
+  template <class NodeOf>
+  void reorder(FillBoundary& boundary, std::span<const std::uint32_t> order, const NodeOf& node) const {
+    const auto take = [&](auto& column) {
+      auto before = std::move(column);
+      column.clear();
+      for (const std::uint32_t t : order) column.push_back(before[t]);
+    };
+    take(boundary.triangles);
+    take(boundary.triangle_patch);
+    take(boundary.layer_volumes);
+    for (std::size_t p = 0; p < boundary.point2node.size(); ++p)
+      boundary.point2node[p] =
+          p < given_.n_lines() ? node(static_cast<Line>(p), given_.layers_of_line(static_cast<Line>(p))) : moved(boundary.point2node[p], node);
+  }
+
+ private:
+  const LayerBlock& given_;
+  std::vector<std::uint32_t> first_;
+  std::size_t n_before_ = 0;  ///< nodes of lines in the given mesh
+  std::int64_t outer_shift_ = 0;
+};
+
+}  // namespace sterna::volmesh
