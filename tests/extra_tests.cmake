@@ -38,6 +38,18 @@ set_tests_properties(accept_mesh PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 add_test(NAME install COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/install_test.py ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
 set_tests_properties(install PROPERTIES TIMEOUT 300)
 
+# From Python.
+add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SOURCE_DIR}/scripting/python/sterna_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
+set_tests_properties(python PROPERTIES TIMEOUT 300)
+
+# What documents tell their readers to do, done: their files written, their commands run, their output found.
+foreach(document python)
+  get_filename_component(name ${document} NAME)
+  add_test(NAME document_${name}
+           COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/run_document.py ${CMAKE_SOURCE_DIR}/docs/${document}.md ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna> ${CMAKE_BINARY_DIR}/scratch/document_${name})
+  set_tests_properties(document_${name} PROPERTIES TIMEOUT 300)
+endforeach()
+
 # OpenFOAM's solvers find the flows that are known on our meshes (docs/verification.md): a flat plate, the potential flow round a sphere.
 add_test(NAME verify_flow COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_flow)
 set_tests_properties(verify_flow PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST 100)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What `cmake --install` puts into a folder works there: both names of the program, its helper processes, the scripts, completion and man page. usage: install_test.py BUILD_FOLDER BOX_STL"""
+"""What `cmake --install` puts into a folder works there: both names of the program, its helper processes, the scripts, sterna.py, completion and man page. usage: install_test.py BUILD_FOLDER BOX_STL"""
 import pathlib
 import subprocess
 import sys
@@ -31,6 +31,14 @@ class Install(unittest.TestCase):
             run(sterna, "convert", "sterna.su2", "box.cgns")
             self.assertIn("VALID", run(sterna, "check", "box.cgns"))  # read by a process of its own
             run(sterna, "check-script", prefix / "share/sterna/scripts/03_airliner.lua")  # its airfoils lie beside it
+
+            # The installed sterna.py finds the program that came with it.
+            script = "import sterna; print(sterna.find_program(), sterna.mesh('box.stl', 'python.su2', layers=2, first_height=1e-3)['verdict'])"
+            (work / "box.stl").write_bytes(pathlib.Path(BOX).read_bytes())
+            bare = {"PATH": "/nowhere", "PYTHONPATH": str(prefix / "share/sterna/python")}
+            done = subprocess.run([sys.executable, "-B", "-c", script], cwd=work, env=bare, capture_output=True, text=True, check=False)
+            self.assertEqual(done.stdout.split(), [str(sterna), "VALID"], done.stderr)
+            (work / "box.stl").unlink()
 
             # The shell that completes is the installed one's own text.
             completion = prefix / "share/bash-completion/completions/sterna"
