@@ -2,7 +2,7 @@
 """Does what a document tells its reader to do: writes its files, runs its commands, and looks for what it says they print.
 
 usage: run_document.py DOCUMENT SOURCE_FOLDER STERNA SCRATCH_FOLDER
-- A block ```lua or ```python whose first line is a comment with a file name (-- NAME.lua, # NAME.py) is written to that file.
+- A block ```lua or ```python whose first line is a comment with a file name (-- NAME.lua, # NAME.py) is written to that file; `-- NAME.lua, continued` goes on with it.
 - A block ```sh is run line by line in the scratch folder, which is made anew; `sterna` is the program, the environment's STERNA_SHARE the folder of scripts. A line that is to fail
   ends with `  # fails`.
 - A block ```text behind a ```sh block is looked for in what that printed, line by line, in its order; `...` stands for anything, a number for any number.
@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-NUMBER = r"[-+]?\d[\d\u202f ]*(?:\.\d+)?(?:e[-+]?\d+)?"
+NUMBER = r"[-+]?\d+(?:[\u202f ]\d{3})*(?:\.\d+)?(?:e[-+]?\d+)?"
 
 
 def blocks_of(text: str):
@@ -41,9 +41,10 @@ def main() -> int:
     for language, body, is_run in blocks_of(document.read_text(encoding="utf-8")):
         if not is_run:
             continue
-        name = re.match(r"(?:--|#) (\w+\.(?:lua|py))\b", body)
+        name = re.match(r"(?:--|#) (\w+\.(?:lua|py))\b(, continued)?", body)
         if language in ("lua", "python") and name:
-            (scratch / name[1]).write_text(body, encoding="utf-8")
+            with open(scratch / name[1], "a" if name[2] else "w", encoding="utf-8") as file:
+                file.write(body)
         elif language == "sh":
             printed = ""
             for command in re.sub(r"\\\n", " ", body).splitlines():
