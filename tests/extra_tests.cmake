@@ -50,7 +50,7 @@ foreach(document python tutorials/tunnel_series tutorials/aircraft_from_numbers 
   get_filename_component(name ${document} NAME)
   add_test(NAME document_${name}
            COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/run_document.py ${CMAKE_SOURCE_DIR}/docs/${document}.md ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna> ${CMAKE_BINARY_DIR}/scratch/document_${name})
-  set_tests_properties(document_${name} PROPERTIES TIMEOUT 300)
+  set_tests_properties(document_${name} PROPERTIES TIMEOUT 600 COST 100)
 endforeach()
 
 # OpenFOAM's solvers find the flows that are known on our meshes (docs/verification.md): a flat plate, the potential flow round a sphere.
