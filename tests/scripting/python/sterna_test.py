@@ -3,6 +3,7 @@
 import contextlib
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -222,6 +223,21 @@ class Series(Case):
             timer.cancel()
         self.assertIn(b"KeyboardInterrupt", messages)
         self.assertNotEqual(process.returncode, 0)
+
+
+class Pipeline(Case):
+    def test_the_step_of_the_document_meshes_a_cpacs_file(self):
+        cpacs = SOURCE.parent / "shared/data/cpacs/simpletest.cpacs.xml"
+        if not cpacs.is_file() and not os.environ.get("STERNA_REQUIRE_DATA"):
+            self.skipTest("no ../shared/data")
+        step = re.search(r"^```python\n(# step\.py\n.*?)^```$", (SOURCE / "docs/python.md").read_text(), re.MULTILINE | re.DOTALL)
+        names = {}
+        exec(compile(step[1], "step.py", "exec"), names)
+        with environment(STERNA=str(PROGRAM)):
+            made = names["mesh_of_cpacs"](cpacs, self.folder / "case", first_height=1e-3, layers=5)
+        self.assertEqual(made["markers"], ["SimpleFuselage", "Wing", "farfield"])
+        self.assertTrue(pathlib.Path(made["mesh"]).is_file())
+        self.assertGreater(made["wall_triangles"], 1000)
 
 
 if __name__ == "__main__":
