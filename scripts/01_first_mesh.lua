@@ -1,21 +1,26 @@
--- The first mesh: an aircraft surface in, a mesh for a RANS solver out.
+-- The first mesh: an aircraft from numbers, a mesh for a RANS solver out.
 --   ./run scripts/01_first_mesh.lua
 
--- The wall. File names are looked for in the current folder, then beside this script. This file's lengths are feet; inside, everything is metres.
--- Edges that bend by more than 60 degrees part the surface into patches, which become the solver's boundary markers.
-local wall = read_surface{ "data/cessna.msh.gz", unit = ft, split_angle = 60*deg }
-print(wall)
+-- The shape. Axes: x aft, y to starboard, z up; metres and radians (3*deg is an angle).
+local body = fuselage{ name = "body", frames = {
+  { x = 0.3, diameter = 0.5, z = -0.08 }, { x = 1.2, diameter = 1.1 }, { x = 2.4, diameter = 1.3 }, { x = 4.6, diameter = 1.25 },
+  { x = 6.6, diameter = 0.8, z = 0.12 },  { x = 8.2, diameter = 0.35, z = 0.25 } } }
+local main_wing = wing{ name = "wing", symmetric = true, position = { 2.6, 0, -0.15 }, trailing_edge = 0.015, sections = {
+  { y = 0, chord = 1.7, airfoil = "naca2412", twist = 2*deg },
+  { y = 5, chord = 0.9, sweep = 3*deg, dihedral = 5*deg } } }
+local model = aircraft{ body, main_wing }
+
+-- The wall: triangles no longer than max_edge, and finer where the model is curved.
+local wall = surface_mesh{ model, max_edge = 0.2, curvature_angle = 15*deg, min_edge = 10*mm }
 
 -- The mesh. Height of the first cell and number of layers are all it needs; the rest has defaults, which help(volume_mesh) lists.
-local mesh = volume_mesh{ wall,
-  layers = 30,
-  first_height = 1e-6 * wall.length,           -- a millionth of the body length: y+ about 1 at flight Reynolds numbers
-  farfield = sphere{ radius = 50 * wall.length } }
-print(mesh)
+local mesh = volume_mesh{ wall, layers = 26, first_height = 2e-5, farfield = sphere{ radius = 100 }, sources = { wake{ wall, length = 2 } } }
 
 -- The verdict: every face matched, every cell valid, nothing intersects. An invalid mesh is an error that names the places.
 mesh:check()
 
--- Outputs go to the current folder, each with a manifest <file>.json that says how it was made.
+-- Outputs go to the current folder: the mesh for SU2 and for ParaView, each with a manifest <file>.json that says how it was made, a picture, and a page to
+-- look at it in a browser.
 mesh:write("first_mesh.su2", "first_mesh.vtu")
-print("wrote first_mesh.su2 (for SU2) and first_mesh.vtu (for ParaView) into the current folder")
+draw{ mesh, "first_mesh.png", cut = "y=-2.5", focus = "3.3,-2.2,0 radius=2.2", view = "215 25" }
+report{ mesh, "first_mesh.html" }

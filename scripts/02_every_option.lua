@@ -191,6 +191,7 @@ local mesh = volume_mesh{ wall,
 }
 
 mesh:check{ intersections = true, quality = true, cell_centred = true, findings_per_kind = 10, strict = false,
+  details = false,                                                                                                    -- true: all gates with their places
   gates = { orthogonality = { hard = 3*deg, target = 15*deg, usual = 30*deg, share = 0.99 }, face_weight = false },  -- other limits of quality; false: none
   cells = "every_option.cells.vtu" }                                                                                  -- quality of each cell, as VTK has it
 -- A page that shows it all; a build that could not get the page's libraries from npm says so.
@@ -398,6 +399,12 @@ block:write{ "every_option.step",
   tolerance = "automatic",            -- of splines in place of deformed surfaces: 1e-6 of the longest side
 }
 local again = read_cad{ "every_option.step", unit = "automatic", heal = true, cap = false, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
+-- Control surfaces that files describe (sumo, CPACS) turn as they are read, or later: by an angle, or a table as of wing:deflect{}.
+local fin = wing{ name = "fin", trailing_edge = 0, sections = { { chord = 2, airfoil = "naca0012" }, { z = 2, chord = 1 } } }
+fin:control{ "rudder", from = {0.2, 0.7}, to = {0.9, 0.7} }
+aircraft{ fin, unite = false }:write "every_option.smx"
+local rudder = read_smx{ "every_option.smx", deflections = { rudder = { angle = 10*deg, gap = "sealed", fairing = "automatic", other_side = "none" } } }
+print(rudder, rudder:deflect{ ["rud*"] = -5*deg })
 print(parts, bent, sheet, again, union{ block, rod_model, tolerance = "automatic", time_limit = 600 }, assembly{ block, tunnel, unite = true }, half_block)
 
 -- The faces of a model as triangles: what volume_mesh takes. Several models stand side by side.

@@ -38,6 +38,10 @@ set_tests_properties(accept_mesh PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 add_test(NAME install COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/install_test.py ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
 set_tests_properties(install PROPERTIES TIMEOUT 300)
 
+# A program of another project uses the installed libraries (docs/library.md).
+add_test(NAME library COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/library_test.py ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
+set_tests_properties(library PROPERTIES TIMEOUT 300)
+
 # From Python.
 add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SOURCE_DIR}/scripting/python/sterna_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
 set_tests_properties(python PROPERTIES TIMEOUT 300)
@@ -63,7 +67,7 @@ set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 
 
 add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
 add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data --all USES_TERMINAL)  # all five, by hand
-set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_01_first_mesh;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
+set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_11_surface_file;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
 
 # The same browser uses every control of the workbench.
 add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
@@ -86,7 +90,7 @@ foreach(script ${scripts})
 endforeach()
 
 # The longest begin first (ctest -j2 would end with one of them alone): scripts whose meshes report_real_pages waits for, then executables that make whole meshes.
-foreach(name 01_first_mesh 07_aircraft_to_mesh 08_wind_tunnel 09_half_model)
+foreach(name 11_surface_file 07_aircraft_to_mesh 08_wind_tunnel 09_half_model)
   set_tests_properties(script_${name} PROPERTIES COST 300)
 endforeach()
 set_tests_properties(report_page_browser PROPERTIES COST 250)

@@ -30,17 +30,19 @@ constexpr int k_max_boundary_repairs = 3;
 
 /// Shares of the time at which steps end.
 struct StepEnds {
-  double envelope, prisms, tetrahedra, improve;
+  double envelope, prisms, engine, tetrahedra, improve;
 };
 
-/// From processor seconds of the steps of DLR-F6, 184 k triangles, 30 layers (one thread; wing_body, 79 k, and DLR-F6 with 45 layers have the same shares
-/// within 0.08). Engines run on one thread; where there is another one, layers are proved beside them.
+/// From seconds of the steps of DLR-F6, 184 k triangles, 30 layers, with our own engine on one and on two threads: a + b / threads. On one thread sizes and the
+/// layer's proof are not beside anything.
 StepEnds step_ends(int threads) {
-  constexpr double k_envelope = 4.5, k_lay_out = 1.3, k_prove = 3.0, k_engine = 7.3, k_improve = 4.8, k_check = 9.3;
+  constexpr double k_envelope = 6.0, k_lay_out = 1.4, k_prove = 1.5, k_sizes = 3.0;
+  constexpr double k_engine_alone = 1.0, k_engine = 2.7, k_improve_alone = 1.2, k_improve = 4.3, k_check_alone = 1.1, k_check = 2.4;
   const double n = std::min(threads, 8);  // what is left on one thread tells beyond
-  const double envelope = k_envelope / n, prisms = envelope + (n == 1.0 ? k_lay_out + k_prove : k_lay_out / n), tetrahedra = prisms + k_engine,
-               improve = tetrahedra + k_improve / n, all = improve + k_check / n;
-  return {envelope / all, prisms / all, tetrahedra / all, improve / all};
+  const double envelope = k_envelope / n, prisms = envelope + k_lay_out / n + (n == 1.0 ? k_prove : 0.0),
+               engine = prisms + (n == 1.0 ? k_sizes : 0.5 * k_sizes / n), tetrahedra = engine + k_engine_alone + k_engine / n,
+               improve = tetrahedra + k_improve_alone + k_improve / n, all = improve + k_check_alone + k_check / n;
+  return {envelope / all, prisms / all, engine / all, tetrahedra / all, improve / all};
 }
 
 /// The user's own true surface, asked with triangles of the wall.
@@ -57,7 +59,7 @@ TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain)
 }
 
 void tell_needles(const NeedleReport& needles, const NeedleOptions& options, const RunContext& context) {
-  if (needles.has_changed()) context.info(describe(needles));
+  if (needles.has_changed()) context.debug(describe(needles));
   if (needles.n_left == 0) return;
   std::string hint;
   if (options.needle_budget == 0.0) hint = "; needle_budget = 1 splits those that can become better";
@@ -117,7 +119,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   domain.has_sheets = !site.options.discs.empty();
   SizeSupply sizes(domain, site.options.sources, site.options.size, context);
   const StepEnds ends = step_ends(context.threads());
-  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.engine, ends.tetrahedra));
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the engine needs them sooner
     return prove_layer(layer.mesh, side);
@@ -152,7 +154,8 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 }
 
 constexpr int k_slide_rounds = 4;
-constexpr int k_fan_rounds = 5;  ///< then all ridges stay closed
+constexpr double k_slides_begin = 0.75;  ///< share of the time
+constexpr int k_fan_rounds = 5;          ///< then all ridges stay closed
 
 /// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them. \p slid gets these
 /// lines, ascending.
@@ -161,14 +164,16 @@ ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, Te
   const auto domain = [&] {
     return TetraBoundary{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
   };
-  ImproveReport report = improve_tetrahedra(domain(), tets, options, context);
+  ImproveReport report = improve_tetrahedra(domain(), tets, options, context.part("tetrahedra", 0.0, k_slides_begin));
   if (options.improve_rounds == 0 || options.slide_share == 0.0) return report;
   LineSlider slider(layers, boundary, options, context);
   for (int round = 0; round < k_slide_rounds; ++round) {
     const std::vector<std::uint32_t> moved = slider.slide(tets);
     if (moved.empty()) break;
     slid.insert(slid.end(), moved.begin(), moved.end());
-    if (round + 1 < k_slide_rounds) improve_around(domain(), moved, tets, options, report, context);  // slides have the last word
+    if (round + 1 < k_slide_rounds)
+      improve_around(domain(), moved, tets, options, report,
+                     context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides have the last word
   }
   if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
   sort_unique(slid);

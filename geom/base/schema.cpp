@@ -21,15 +21,16 @@ struct NamedScale {
   Unit dimension;
 };
 /// SI value of each unit that a number may carry; exact by definition (inch = 25.4 mm, ft = 12 inch).
-constexpr std::array<NamedScale, 9> k_units = {{{"m", 1.0, Unit::metre},
-                                                {"mm", 1e-3, Unit::metre},
-                                                {"cm", 1e-2, Unit::metre},
-                                                {"inch", 0.0254, Unit::metre},
-                                                {"in", 0.0254, Unit::metre},
-                                                {"ft", 0.3048, Unit::metre},
-                                                {"deg", std::numbers::pi / 180.0, Unit::radian},
-                                                {"rad", 1.0, Unit::radian},
-                                                {"s", 1.0, Unit::second}}};
+constexpr std::array<NamedScale, 10> k_units = {{{"m", 1.0, Unit::metre},
+                                                 {"mm", 1e-3, Unit::metre},
+                                                 {"um", 1e-6, Unit::metre},
+                                                 {"cm", 1e-2, Unit::metre},
+                                                 {"inch", 0.0254, Unit::metre},
+                                                 {"in", 0.0254, Unit::metre},
+                                                 {"ft", 0.3048, Unit::metre},
+                                                 {"deg", std::numbers::pi / 180.0, Unit::radian},
+                                                 {"rad", 1.0, Unit::radian},
+                                                 {"s", 1.0, Unit::second}}};
 
 std::string_view dimension_text(Unit dimension) {
   switch (dimension) {

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sterna::cad {
 namespace {
@@ -116,6 +117,8 @@ double gap_of_pairs(const std::vector<TopoDS_Shape>& shapes, double small) {
 }
 
 void cap_openings(LabelledShape& labelled, CadReport& report) {
+  std::size_t n_caps = 0, n_rims = 0;
+  std::optional<Point> bent;  // a rim that no flat face closes
   for (ShapePart& part : labelled.parts) {
     if (part.shape.ShapeType() == TopAbs_SOLID) continue;
     TopoDS_Compound faces;
@@ -124,8 +127,11 @@ void cap_openings(LabelledShape& labelled, CadReport& report) {
     std::vector<TopoDS_Face> caps;
     for (TopExp_Explorer wire(ShapeAnalysis_FreeBounds(faces).GetClosedWires(), TopAbs_WIRE); wire.More(); wire.Next()) {
       BRepBuilderAPI_MakeFace maker(TopoDS::Wire(wire.Current()), true);
+      ++n_rims;
       if (maker.IsDone() && has_area(maker.Face())) caps.push_back(maker.Face());
+      else if (!bent) bent = place_of(wire.Current());
     }
+    n_caps += caps.size();
     if (caps.empty()) continue;
     const FaceLabel* of_shell = labelled.labels.Seek(TopExp_Explorer(part.shape, TopAbs_FACE).Current());
     FaceLabel label = of_shell ? *of_shell : FaceLabel{};
@@ -136,6 +142,11 @@ void cap_openings(LabelledShape& labelled, CadReport& report) {
     }
     part.shape = shell_with(part.shape, caps);
   }
+  if (n_rims == 0) report.warnings.emplace_back("cap = true changes nothing: there is no opening");
+  else if (n_caps < n_rims)
+    report.warnings.push_back(std::to_string(n_rims - n_caps) + " of " + std::to_string(n_rims) +
+                              " openings are not flat, so cap = true leaves them, the first about " + format_point(*bent) +
+                              "; `sterna repair` and --auto close them on the triangles");
 }
 
 }  // namespace sterna::cad

@@ -11,6 +11,7 @@
 #include "geom/base/number_text.h"
 #include "geom/draw/figures.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/body_patches.h"
 #include "geom/mesh/wall_sections.h"
 
 namespace sterna::draw {
@@ -56,9 +57,13 @@ class SceneBuilder {
     is_shown_.assign(mesh_.patches.size(), 0);
     if (options_.patches == "none") return;
     if (options_.patches == "automatic") {
-      bool has_walls = false;
-      for (const PatchId id : mesh_.patches.ids()) has_walls = has_walls || mesh_.patches[id].kind == PatchKind::wall;
-      for (const PatchId id : mesh_.patches.ids()) is_shown_[id.index()] = !has_walls || mesh_.patches[id].kind == PatchKind::wall;
+      std::vector<Box> boxes(mesh_.patches.size());
+      const auto add = [&](const auto& face) {
+        for (const auto v : face.nodes) boxes[face.patch.index()].add(mesh_.points[v]);
+      };
+      std::ranges::for_each(mesh_.boundary_triangles, add);
+      std::ranges::for_each(mesh_.boundary_quads, add);
+      is_shown_ = patches_of_bodies(mesh_.patches, boxes);
       return;
     }
     std::vector<std::string> names;

@@ -112,6 +112,76 @@ std::vector<double> HistogramClasses::edges() const {
 
 const MeasureInfo& info_of(Measure measure) { return k_measures[static_cast<std::size_t>(measure)]; }
 
+std::string_view trouble_of(Measure measure) {
+  switch (measure) {
+    case M::scaled_jacobian: return "prisms are nearly folded";
+    case M::dual_closure: return "control volumes do not close";
+    case M::orthogonality: return "faces of control volumes lie nearly along their edges";
+    case M::sub_volume_ratio: return "parts of one control volume differ too much in size";
+    case M::face_area_ratio: return "faces of one control volume differ too much in area";
+    case M::relative_face_area_ratio: return "faces of one control volume differ more in area than cells of a layer must";
+    case M::stack_growth: return "heights of layers jump";
+    case M::interface_height: return "the last cells of the layer do not fit the tetrahedra on them in height";
+    case M::interface_volume: return "the last cells of the layer do not fit the tetrahedra on them in volume";
+    case M::stack_angle: return "lines of the layer lean away from the wall's normal";
+    case M::first_height: return "first cells are not as high as asked for";
+    case M::coverage: return "the layer is lower than the geometry permits";
+    case M::collapsed: return "parts of the wall have no layer";
+    case M::layer_step: return "numbers of layers differ too much across an edge";
+    case M::min_dihedral: return "tetrahedra are flat: sharp angles";
+    case M::max_dihedral: return "tetrahedra are flat: obtuse angles";
+    case M::tet_growth: return "tetrahedra beside each other differ too much in size";
+    case M::edge_ratio: return "edges at one node differ too much in length";
+    case M::non_orthogonality: return "faces are oblique to the line between the centres of their cells";
+    case M::skewness: return "lines between centres of cells miss the face between them";
+    case M::face_weight: return "faces are far nearer to one of their cells than to the other";
+    case M::volume_ratio: return "cells beside each other differ too much in volume";
+    case M::face_flatness: return "quadrilaterals are warped";
+    case M::cell_aspect_ratio: return "cells are long and thin";
+    case M::cell_openness: return "faces of cells do not close";
+    case M::face_tets: return "faces cannot be cut into triangles that OpenFOAM's particles and mappings accept";
+    case M::cell_determinant: return "cells are nearly flat";
+    case M::cad_distance: return "nodes of the wall are off the model";
+    case M::cad_normal: return "triangles of the wall are turned against the model";
+  }
+  return "";
+}
+
+std::string_view remedy_of(Measure measure) {
+  switch (measure) {
+    case M::scaled_jacobian:
+    case M::dual_closure:
+    case M::sub_volume_ratio:
+    case M::face_area_ratio:
+    case M::relative_face_area_ratio:
+    case M::min_dihedral:
+    case M::max_dihedral:
+    case M::tet_growth:
+    case M::edge_ratio:
+    case M::face_weight:
+    case M::volume_ratio:
+    case M::face_flatness:
+    case M::cell_aspect_ratio:
+    case M::cell_openness:
+    case M::face_tets:
+    case M::cell_determinant: return "remesh the wall there: triangles without needles that change slowly in size";
+    case M::orthogonality:
+    case M::stack_angle:
+    case M::non_orthogonality:
+    case M::skewness: return "finer triangles at the sharp edge, or round it";
+    case M::stack_growth:
+    case M::interface_height:
+    case M::interface_volume: return "more layers, a larger max_growth, or finer triangles on the wall there";
+    case M::first_height:
+    case M::coverage:
+    case M::collapsed:
+    case M::layer_step: return "fewer layers, or a smaller first_height or max_thickness, where walls are near";
+    case M::cad_distance:
+    case M::cad_normal: return "smaller chord_error of surface_mesh";
+  }
+  return "";
+}
+
 GateTable::GateTable() {
   for (std::size_t i = 0; i < k_n_measures; ++i) limits_[i] = k_measures[i].limits;
 }

@@ -83,6 +83,10 @@ struct MeasureInfo {
 /// The table of quality.md §6, in the order of Measure.
 const std::array<MeasureInfo, k_n_measures>& measures();
 const MeasureInfo& info_of(Measure measure);
+/// What is wrong where the measure misses a limit, in plain words: "heights of layers jump".
+std::string_view trouble_of(Measure measure);
+/// What a user can do about it.
+std::string_view remedy_of(Measure measure);
 /// A value of the measure in the unit of reports: degrees for angles.
 double in_report_unit(const MeasureInfo& info, double value);
 

@@ -300,7 +300,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
   for (const Node segment : node.child("componentSegments").children("componentSegment")) {
     file_.warn_unknown(segment, "uID xsi:type", {"name description fromElementUID toElementUID controlSurfaces", k_no_shape});
     const Node surfaces = segment.child("controlSurfaces");
-    file_.warn_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices");
+    file_.warn_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices spoilers");  // closed spoilers lie in the wing's skin
     for (const char* list : {"trailingEdgeDevices", "leadingEdgeDevices"}) {
       const bool is_trailing = list[0] == 't';
       for (const Node device : surfaces.child(list).children(is_trailing ? "trailingEdgeDevice" : "leadingEdgeDevice")) {

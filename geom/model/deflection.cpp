@@ -120,11 +120,15 @@ void check(const Wing& wing, const std::vector<Deflection>& deflections) {
   }
 }
 
+bool share_an_edge(const Deflection& a, const Deflection& b) {
+  return a.surface.kind == b.surface.kind || a.surface.kind == ControlKind::all_moving || b.surface.kind == ControlKind::all_moving;
+}
+
 void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& span) {
   for (std::size_t i = 0; i < deflections.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const Deflection &a = deflections[i], &b = deflections[k];
-      if (a.surface.kind != b.surface.kind && a.surface.kind != ControlKind::all_moving && b.surface.kind != ControlKind::all_moving) continue;
+      if (!share_an_edge(a, b)) continue;
       Reach p = reach_of(a, span), q = reach_of(b, span);
       for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
         if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // something must be left between
@@ -135,6 +139,16 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
                               std::to_string(p.to + p.fade) + " and " + std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it",
                           "give a smaller fairing or end gap");
     }
+}
+
+/// Another end of the hinge, on its line. False where nothing would be left.
+bool draw_in(Deflection& d, bool is_first, double span) {
+  std::vector<HingePoint>& hinge = d.surface.hinge;
+  if (is_first ? span >= hinge.back().span - k_same_span : span <= hinge.front().span + k_same_span) return false;
+  const HingePoint end{span, hinge_chord(d, span)};
+  std::erase_if(hinge, [&](const HingePoint& h) { return is_first ? h.span <= span : h.span >= span; });
+  hinge.insert(is_first ? hinge.begin() : hinge.end(), end);
+  return true;
 }
 
 Point hinge_point(const HingePoint& h, const WingSpan& span) { return hinge_place(span.row(span.place_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; }
@@ -354,6 +368,23 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
 }
 
 }  // namespace
+
+std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections) {
+  const WingSpan span(wing);
+  constexpr double k_margin = 1.02;  // a fairing is a share of the chord at its surface's ends, which move
+  for (Deflection& a : deflections)
+    for (Deflection& b : deflections) {
+      if (&a == &b || is_open(a) || is_open(b) || !share_an_edge(a, b) || !(is_bending(a) || is_bending(b))) continue;
+      const Reach p = reach_of(a, span), q = reach_of(b, span);
+      const double fade_a = is_bending(a) ? k_margin * p.fade : 0.0, fade_b = is_bending(b) ? k_margin * q.fade : 0.0;
+      const double missing = (p.to + fade_a) - (q.from - fade_b) + k_same_span;
+      if (!(p.from < q.from && p.to < q.to) || missing <= 0.0) continue;
+      const double share = is_bending(a) && is_bending(b) ? 0.5 : 1.0;
+      if (is_bending(a)) draw_in(a, false, p.to - share * missing);
+      if (is_bending(b)) draw_in(b, true, q.from + share * missing);
+    }
+  return deflections;
+}
 
 Deflection image_of(const Deflection& deflection) {
   Deflection image = deflection;

@@ -34,6 +34,7 @@ constexpr double k_merge = 1.2;
 /// Proposals along the curve of which none is kept that is too near to another one; where two parts meet that shows at insertion.
 constexpr std::size_t k_thinned_together = 1 << 15;
 constexpr int k_most_rounds = 1000;
+constexpr double k_share_expected = 0.75;  ///< of the tetrahedra for which there is room to begin with, there are so many in the end
 
 // States of tetrahedra; from k_waiting on the number of points that it has proposed in vain.
 constexpr std::uint8_t k_unseen = 0, k_right = 1, k_given_up = 2, k_waiting = 3;
@@ -75,7 +76,13 @@ Base base_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 class Refiner {
  public:
   Refiner(TetMesh& mesh, std::uint32_t n_corners, const SizeFunction& sizes, double most_bytes, std::size_t expected, const RunContext& context)
-      : mesh_(mesh), sizes_(sizes), most_bytes_(most_bytes), context_(context), inserter_(mesh, context, n_corners), n_corners_(n_corners) {
+      : mesh_(mesh),
+        sizes_(sizes),
+        most_bytes_(most_bytes),
+        context_(context),
+        inserter_(mesh, context, n_corners),
+        n_corners_(n_corners),
+        expected_(expected) {
     inserter_.reserve(expected);
   }
 
@@ -84,6 +91,7 @@ class Refiner {
     for (; report_.rounds < k_most_rounds; ++report_.rounds) {
       context_.check_stop();
       if (report_.is_over_limit = bytes() > most_bytes_; report_.is_over_limit) break;
+      tell_progress();
       judge();
       const std::int64_t n_inserted = round(needs_front);
       if (n_inserted < 0) {  // nobody had a point to propose
@@ -106,6 +114,11 @@ class Refiner {
     return {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]};
   }
   double length_at(const Vec3& p) const { return k_length_factor * sizes_(p); }
+  /// By tetrahedra, of about as many as will be.
+  void tell_progress() const {
+    const double n = static_cast<double>(mesh_.nodes.size()), all = k_share_expected * static_cast<double>(expected_);
+    context_.progress(n < all ? n / all : n / (n + 0.1 * all));
+  }
   void judge();
   void drop_hopeless(std::vector<Seed>& proposed);
   void count_proposal(std::uint32_t t) {
@@ -126,6 +139,7 @@ class Refiner {
   const RunContext& context_;
   BulkInserter inserter_;
   std::uint32_t n_corners_;
+  std::size_t expected_;                   ///< tetrahedra for which there is room
   std::vector<std::uint8_t> has_waiting_;  ///< of each chunk: some of its tetrahedra may have points to propose
   RefineReport report_;
 };

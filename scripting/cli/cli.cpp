@@ -22,6 +22,7 @@
 #include "scripting/cli/cli_gates.h"
 #include "scripting/cli/cli_scripts.h"
 #include "scripting/cli/commands.h"
+#include "scripting/cli/doctor.h"
 #include "scripting/cli/inspect_command.h"
 #include "scripting/cli/line_editor.h"
 #include "scripting/cli/pentagrow_command.h"
@@ -418,6 +419,7 @@ void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
       app.add_subcommand("info", "say what a surface, mesh or model file holds: counts, patches, box, units; of models areas, volumes, mean chords");
   command->add_option("file", info.input, "surface, mesh or model file")->required();
   command->add_option("--unit", info.unit, "length of one unit of the file: mm, inch, 0.5mm ...");
+  command->add_flag("--json", info.is_json, "as JSON (schema sterna-info-1)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(info, context); };
     request.tells_itself = true;
@@ -599,6 +601,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   ViewCommand view;
   add_view_arguments(app, view)->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(view, context); }; });
   add_pentagrow_command(app, pentagrow, request);
+  add_doctor_command(app, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_shell_commands(app, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.

@@ -1,4 +1,5 @@
 #include "scripting/cli/commands.h"
+#include "scripting/cli/info_json.h"
 
 #include <fmt/format.h>
 
@@ -437,9 +438,10 @@ int execute(const MeshCommand& command, const CommandContext& context) {
       .wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
 
   context.console.end_progress();
-  for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
+  if (!command.outputs.empty()) context.run.info(wrote_text(command.outputs));
   context.run.info(summary_text(mesh));
   context.run.info(measure_text(mesh, measure));
+  context.run.debug(stages_text(measure));
   if (!command.stats.empty()) io::write_whole(command.stats, stats_json(mesh, measure));
   return k_exit_success;
 }
@@ -656,6 +658,12 @@ int execute(const InfoCommand& command, const CommandContext& context) {
   surfmesh::StitchOptions unit;
   const OptionTable schema = sterna::options_of(unit);
   set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
+  if (command.is_json) {
+    const std::string json = info_json(command.input, unit.unit, context);
+    context.console.end_progress();
+    context.console.print(json);
+    return k_exit_success;
+  }
   if (is_model_file(command.input)) return print_model_info(command, context);
   const InputPath input{command.input, command.input};
   const io::Format& format = io::format_of(input.path);

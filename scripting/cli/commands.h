@@ -126,6 +126,7 @@ struct CheckCommand {
 struct InfoCommand {
   std::string input;
   std::string unit = "1";
+  bool is_json = false;
 };
 
 struct ConvertCommand {

@@ -123,7 +123,7 @@ int execute(const PentagrowCommand& command, const CommandContext& context) {
   io::write_whole("sumcos.txt", skew_text(mesh.mesh));
   io::write_whole("diagnose.txt", "0 elements are tangled\n0 elements will fail the preprocessing test\n");
   context.console.end_progress();
-  for (const auto& output : given.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
+  context.run.info(wrote_text(given.outputs));
   context.run.info("wrote outermost.vtu, boundaries.smesh, sumcos.txt and diagnose.txt");
   context.run.info(summary_text(mesh));
   return k_exit_success;

@@ -11,6 +11,9 @@
 #include "scripting/interpreter/script_help.h"
 #include "scripting/interpreter/script_objects.h"
 #include "scripting/interpreter/script_verbs.h"
+#include "scripting/lua/script_call.h"
+#include "scripting/values/models.h"
+#include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -128,6 +131,40 @@ std::vector<std::string> members(lua_State* state, const std::string& path, char
   return names;
 }
 
+/// Entries whose texts are names of patches.
+constexpr std::array k_patch_entries = {"patches", "boundaries", "kinds", "monitor", "wing", "farfield_sides"};
+
+/// Whether a text begins there that names patches: `patches = { ["` or `monitor = "`.
+bool wants_patches(const Place& place, std::string_view text) {
+  const auto is_one = [](std::string_view name) {
+    return std::ranges::any_of(k_patch_entries, [&](const char* entry) { return name == entry || name.ends_with(std::string(":") + entry); });
+  };
+  const std::size_t quote = text.find_last_of("\"'");
+  const std::string before = quote == std::string_view::npos ? std::string() : name_before(text, quote);
+  return is_one(before) || (!place.open.empty() && is_one(place.open.back().name));
+}
+
+/// Names of patches of what the script's globals hold.
+std::vector<std::string> patch_names(lua_State* state) {
+  std::vector<std::string> names;
+  const auto add = [&](const auto& patches) {
+    for (const auto& patch : patches) names.push_back(patch.name);
+  };
+  lua_pushglobaltable(state);
+  lua_pushnil(state);
+  while (lua_next(state, -2) != 0) {
+    if (kind_on_top(state)) {
+      const ScriptValue value = script_value_at(state, -1);
+      if (const auto* surface = std::get_if<SurfaceHandle>(&value)) add((*surface)->mesh.patches);
+      if (const auto* mesh = std::get_if<MeshHandle>(&value)) add((*mesh)->mesh.patches);
+      if (const auto* model = std::get_if<ModelHandle>(&value)) add((*model)->model.faces);
+    }
+    lua_pop(state, 1);
+  }
+  lua_settop(state, 0);
+  return names;
+}
+
 // ---- Options -------------------------------------------------------------------------------------------------------------------------------
 
 /// The verb that is called "mesh:check" or "volume_mesh" at the prompt.
@@ -158,6 +195,13 @@ std::vector<std::string> options_at(const Place& place) {
   return {};
 }
 
+/// Those that begin with the word, sorted, each once.
+void keep_those_of(const std::string& word, std::vector<std::string>& candidates) {
+  std::erase_if(candidates, [&](const std::string& candidate) { return !candidate.starts_with(word); });
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+}
+
 }  // namespace
 
 Completion complete(std::string_view text, ScriptState& state) {
@@ -165,8 +209,13 @@ Completion complete(std::string_view text, ScriptState& state) {
   std::size_t start = text.size();
   while (start > 0 && (is_word_letter(text[start - 1]) || text[start - 1] == '.' || text[start - 1] == ':')) --start;
   Completion result{.start = start, .candidates = {}, .is_text = place.is_text};
-  if (place.is_text) return result;
+  if (place.is_text && !wants_patches(place, text)) return result;
   const std::string word(text.substr(start));
+  if (place.is_text) {
+    result.candidates = patch_names(state.lua());
+    keep_those_of(word, result.candidates);
+    return result;
+  }
   const std::size_t separator = word.find_last_of(".:");
   if (separator != std::string::npos) {
     result.candidates = members(state.lua(), word.substr(0, separator), word[separator]);
@@ -174,9 +223,7 @@ Completion complete(std::string_view text, ScriptState& state) {
     result.candidates = globals(state.lua());
     for (const std::string& option : options_at(place)) result.candidates.push_back(option + " = ");
   }
-  std::erase_if(result.candidates, [&](const std::string& candidate) { return !candidate.starts_with(word); });
-  std::sort(result.candidates.begin(), result.candidates.end());
-  result.candidates.erase(std::unique(result.candidates.begin(), result.candidates.end()), result.candidates.end());
+  keep_those_of(word, result.candidates);
   return result;
 }
 

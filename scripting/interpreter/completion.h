@@ -11,7 +11,7 @@ namespace sterna::scripting {
 
 struct Completion {
   std::size_t start = 0;                ///< where the word begins that is completed
-  std::vector<std::string> candidates;  ///< whole words, sorted; empty in a text, where names of files are wanted
+  std::vector<std::string> candidates;  ///< whole words, sorted; in a text names of patches where those are wanted, else none: names of files
   bool is_text = false;                 ///< within quotes
 };
 

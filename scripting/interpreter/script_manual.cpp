@@ -12,7 +12,7 @@ constexpr std::string_view k_head = R"(# Lua reference
 
 Made by `sterna manual` from the tables of verbs and options; a test fails when this file is stale. Do not edit it.
 
-One call is one verb with one table of named entries: `volume_mesh{ wall, layers = 30, first_height = 2e-6 }`. Lengths are metres, angles radians; `mm`, `cm`, `inch`, `ft` and `deg`
+One call is one verb with one table of named entries: `volume_mesh{ wall, layers = 30, first_height = 2e-6 }`. Lengths are metres, angles radians; `m`, `mm`, `um`, `cm`, `inch`, `ft` and `deg`
 are numbers: `5*mm`, `40*deg`. An entry that a verb does not know, of a wrong type or out of range is an error at file:line, with a suggestion; all problems of a table are told together.
 Options of a stage may stand in a table of its name: `envelope = { layers = 30 }`. `"automatic"` asks for the default of an option that has one.
 
@@ -30,6 +30,8 @@ numbers of fields, lines that only run then, code in branches that are not taken
 constexpr std::string_view k_setup =
     R"(body = fuselage{ name = "body", along = "smooth", frames = { { x = 0, diameter = 0.4 }, { x = 4, diameter = 1.2 }, { x = 8, diameter = 0.4 } } }
 main_wing = wing{ name = "wing", symmetric = true, position = {3, 0, 0}, sections = { { y = 0, chord = 2, airfoil = "naca2412" }, { y = 5, chord = 1 } } }
+fin = wing{ name = "fin", position = {6, 0, 0}, trailing_edge = 0, sections = { { chord = 2, airfoil = "naca0012" }, { z = 2, chord = 1 } } }
+fin:control{ "rudder", from = {0.2, 0.7}, to = {0.9, 0.7} }
 engine = nacelle{ name = "engine", symmetric = true, position = {3, 2, -0.9}, length = 1.2, diameter = 0.6 }
 model = box{ {0, 0, 0}, {1, 1, 1}, name = "Body" }
 sting_model = box{ {0.9, 0.4, 0.4}, {2, 0.6, 0.6}, name = "sting" }
@@ -39,7 +41,8 @@ class = envelope.classify{ wall }
 env = make_envelope{ wall, layers = 3, first_height = 0.01, max_thickness = 0.1 }
 tets = tetrahedra{ env, farfield = sphere{ radius = 6 } }
 mesh = prisms{ env, tets }
-model:write("model.step", "model.igs"); sting_model:write "sting.step"; body:model():write "widebody.smx"
+model:write("model.step", "model.igs"); sting_model:write "sting.step"
+aircraft{ body, fin, unite = false }:write "widebody.smx"; airliner = read_smx "widebody.smx"
 wall:write("wing.stl", "body.stl"); surface_mesh{ sting_model, max_edge = 0.5 }:write "sting.stl"
 mesh:write "mesh.su2"; env:write "case.sterna"
 finer = volume_mesh{ surface_mesh{ model, max_edge = 0.3 }, layers = 5, first_height = 0.006, farfield = sphere{ radius = 6 } }

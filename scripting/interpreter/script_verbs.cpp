@@ -193,10 +193,8 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
   apply_overrides(call, schema);
   for (const auto& name : names) require_mesh_output(name);
   finish_checks(call);
-  for (const auto& name : names) {
-    write_mesh(*mesh, name, options, call.session.context);
-    call.session.context.info("wrote " + name.string() + " and " + name.string() + ".json");
-  }
+  for (const auto& name : names) write_mesh(*mesh, name, options, call.session.context);
+  call.session.context.info(wrote_text(names));
   return mesh;
 }
 
@@ -208,6 +206,7 @@ std::string write_files_help() {
 std::string check_help() {
   CheckSettings options;
   return options_help(sterna::options_of(options)) + gate_limits_help() +
+         "details = true: prints all gates with their worst places, as `sterna check` does, not only the verdict and the worst three\n" +
          "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n" +
          "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
 }
@@ -220,6 +219,11 @@ ScriptValue check_mesh(const ScriptCall& call) {
   const std::size_t n_options = reader.read_options(sterna::options_of(options));
   GateTable limits;
   const bool has_limits = read_gate_limits(reader, limits);
+  bool is_detailed = false;
+  if (const ScriptValue* value = reader.field("details")) {
+    if (const bool* flag = std::get_if<bool>(value)) is_detailed = *flag;
+    else reader.add_problem("details: expected true or false, not " + std::string(type_text(*value)));
+  }
   std::filesystem::path cells;
   if (const ScriptValue* value = reader.field("cells")) {
     if (const auto* name = std::get_if<std::string>(value)) {
@@ -241,7 +245,12 @@ ScriptValue check_mesh(const ScriptCall& call) {
   CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(limits), context.part("mesh", 0.0, wall ? 0.5 : 1.0));
   if (wall && report.quality_measured) measure_on_model(mesh->mesh, *wall, limits, report, context.part("model", 0.5, 1.0));
   if (!cells.empty()) io::write_quality_vtu(mesh->mesh, cells, call.session.context);
-  call.session.print(to_text(report));
+  if (is_detailed) {
+    call.session.print(to_text(report));
+  } else {
+    call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has told the worst of what is known
+    call.session.context.debug(to_text(report));
+  }
   if (report.quality_measured && report.intersections_checked) mesh->check = report;
   if (options.accepts(report)) return mesh;
   ErrorInfo info{.code = ErrorCode::mesh_invalid,
@@ -377,7 +386,8 @@ constexpr std::array<ScriptVerb, 4> k_mesh_methods = {{
      "Writes a case of OpenFOAM that can be run: mesh, fields by the kinds of patches, models, schemes for such meshes, forces, Allrun.", write_foam_case,
      foam_case_help, true, "self"},
 }};
-constexpr std::array<ScriptUnit, 6> k_units = {{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
+constexpr std::array<ScriptUnit, 7> k_units = {
+    {{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
 
 }  // namespace
 

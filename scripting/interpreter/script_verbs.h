@@ -23,7 +23,7 @@ struct ScriptUnit {
   const char* name;
   double value;  ///< SI
 };
-/// m, mm, cm, inch, ft, deg: global numbers.
+/// m, mm, um, cm, inch, ft, deg: global numbers.
 std::span<const ScriptUnit> script_units();
 
 /// The verb or unit whose name is nearest to a misspelt one; empty when none is near.

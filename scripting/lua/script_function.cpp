@@ -97,7 +97,7 @@ void ScriptFunction::fail() const {
   const Error error = error_on_top(state_);
   lua_pop(state_, 1);
   ErrorInfo info = error.info();
-  if (info.attempted.empty()) info.attempted = "calling a function of the script";
+  if (info.attempted.empty()) info.attempted = k_calling_function;
   throw Error(std::move(info));
 }
 

@@ -12,6 +12,9 @@ struct lua_State;
 namespace sterna::scripting {
 
 /// Lives as long as the call whose argument it is; only the thread that runs the script may call it.
+/// What was attempted where an error of a function says nothing of it.
+inline constexpr std::string_view k_calling_function = "calling a function of the script";
+
 class ScriptFunction {
  public:
   /// Of the function at `index` of the stack, which stays as it is.

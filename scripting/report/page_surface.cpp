@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "geom/base/error.h"
+#include "geom/mesh/body_patches.h"
 #include "scripting/report/thin_surface.h"
 
 namespace sterna::scripting {
@@ -110,14 +111,21 @@ std::string PageMaker::frame_json() const {
 std::string PageMaker::patches_json() const {
   std::vector<double> areas(patches_.size(), 0.0);
   std::vector<std::int64_t> counts(patches_.size(), 0);
+  std::vector<Box> boxes(patches_.size());
   for (std::size_t t = 0; t < triangles_.triangles.size(); ++t) {
     const auto& c = triangles_.triangles[t];
     areas[triangles_.patch[t]] += 0.5 * norm(cross(points_[c[1]] - points_[c[0]], points_[c[2]] - points_[c[0]]));
     ++counts[triangles_.patch[t]];
+    for (const std::uint32_t corner : c) boxes[triangles_.patch[t]].add(points_[corner]);
   }
+  const std::vector<std::uint8_t> is_of_body = patches_of_bodies(patches_, boxes);
   Json list = Json::array();
   for (const PatchId p : patches_.ids())
-    list.push_back({{"name", patches_[p].name}, {"kind", to_string(patches_[p].kind)}, {"area", areas[p.index()]}, {"triangles", counts[p.index()]}});
+    list.push_back({{"name", patches_[p].name},
+                    {"kind", to_string(patches_[p].kind)},
+                    {"area", areas[p.index()]},
+                    {"triangles", counts[p.index()]},
+                    {"is_of_body", is_of_body[p.index()] != 0}});
   return list.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -73,10 +73,18 @@ void write_measure(const ScriptSession& session, double seconds, const fs::path&
   io::write_whole(folder / k_measure_file, json.dump(2) + "\n");
 }
 
+/// Without what every case does: call its function.
+std::string message_of_function(const Error& error) {
+  ErrorInfo info = error.info();
+  if (info.attempted != k_calling_function) return error.what();
+  info.attempted.clear();
+  return Error(std::move(info)).what();
+}
+
 /// Fills the status with what became of the function's error, and draws it.
 void note_failure(const Error& error, CaseStatus& status, const fs::path& folder) {
   status.state = error.code() == ErrorCode::cancelled ? CaseState::killed : CaseState::failed;
-  status.message = status.state == CaseState::killed ? "stopped on request" : error.what();
+  status.message = status.state == CaseState::killed ? "stopped on request" : message_of_function(error);
   status.code = to_string(error.code());
   status.places = error.info().places;
   if (status.state == CaseState::failed && !error.info().geometry.empty()) io::write_trouble_vtu(error.info().geometry, folder / "trouble.vtu");

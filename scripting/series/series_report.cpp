@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -131,6 +133,25 @@ std::map<std::string, std::string> gate_states(const std::filesystem::path& fold
   return gates;
 }
 
+/// G3 before G10.
+struct GateOrder {
+  bool operator()(const std::string& a, const std::string& b) const {
+    const auto number = [](const std::string& gate) {
+      return gate.size() > 1 && gate[0] == 'G' ? std::atoi(gate.c_str() + 1) : std::numeric_limits<int>::max();
+    };
+    return std::pair(number(a), a) < std::pair(number(b), b);
+  }
+};
+
+/// Warnings of the case's log.
+std::int64_t n_warnings(const std::filesystem::path& folder) {
+  std::ifstream file(folder / k_log_file);
+  std::int64_t n = 0;
+  for (std::string line; std::getline(file, line);)
+    if (line.find("warning: ") != std::string::npos) ++n;
+  return n;
+}
+
 std::string outcome_text(const CaseStatus& status) {
   if (status.state != CaseState::done) return std::string(to_string(status.state)) + ": " + first_line(status.message);
   if (status.mesh.verdict.empty()) return "done";
@@ -169,7 +190,7 @@ std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> result
   std::string text = "case";
   for (const std::string& name : parameters) text += "," + csv_text(name);
   std::map<std::string, std::map<std::string, std::string>> gates;  // by case, then by gate
-  std::set<std::string> gate_names;
+  std::set<std::string, GateOrder> gate_names;
   for (const CaseResult& result : results) {
     if (result.status.state != CaseState::done) continue;
     gates[result.of->name] = gate_states(plan.folder_of(*result.of));
@@ -177,7 +198,7 @@ std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> result
   }
   text += ",status,verdict,cells,quality,worst";
   for (const std::string& gate : gate_names) text += "," + csv_text(gate);
-  text += ",seconds,reused,error\n";
+  text += ",warnings,seconds,reused,error\n";
   for (const CaseResult& result : results) {
     const CaseStatus& status = result.status;
     text += csv_text(result.of->name);
@@ -189,6 +210,7 @@ std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> result
       const auto state = of_case.find(gate);
       text += "," + (state == of_case.end() ? std::string() : csv_text(state->second));
     }
+    text += "," + std::to_string(n_warnings(plan.folder_of(*result.of)));
     text += "," + fmt::format("{:.3f}", result.seconds) + "," + csv_text(reused_of(result)) + "," + csv_text(error_text(status)) + "\n";
   }
   return text;

@@ -97,6 +97,7 @@ ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptio
     if (!attempt.problem.empty()) value.report += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);
   context.info(value.report);
   value.model = std::move(united.model);
+  value.is_as_described = false;
   value.parts.clear();
   return value;
 }

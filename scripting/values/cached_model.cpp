@@ -53,12 +53,13 @@ using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
 
 /// \throws NotKept
 void write_model_value(ByteSink& sink, const ModelValue& value) {
-  const auto& [model, description, without_description, inputs, report, sizes, layers, parts, through, provenance] =
+  const auto& [model, description, without_description, is_as_described, inputs, report, sizes, layers, parts, through, provenance] =
       value;  // all of them: a new one does not compile
   ModelWriter writer(sink);
   writer.model(model);
   write_value(sink, description);
   write_value(sink, without_description);
+  write_value(sink, is_as_described);
   write_value(sink, inputs);
   write_value(sink, report);
   write_value(sink, sizes);
@@ -81,6 +82,7 @@ ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
   value.model = reader.model();
   read_value(source, value.description);
   read_value(source, value.without_description);
+  read_value(source, value.is_as_described);
   read_value(source, value.inputs);
   read_value(source, value.report);
   read_value(source, value.sizes);

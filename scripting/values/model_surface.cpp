@@ -10,6 +10,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
+#include "geom/math/constants.h"
 #include "geom/mesh/topology.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/cached_surface.h"
@@ -190,6 +191,7 @@ SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceReci
   surface.report.is_closed = topology.n_boundary_halfedges() == 0;
   surface.mesh_report = std::move(made.mesh.report);
   context.info(surface_mesh_text(all.model, surface));
+  context.debug(indented(to_text(*surface.mesh_report)));
   return surface;
 }
 
@@ -267,7 +269,7 @@ std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string
 
 std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
-  std::string text = describe(surface) + "\n" + indented(to_text(report));
+  std::string text = describe(surface) + fmt::format("; angles {:.3g} to {:.4g} deg", report.min_angle / k_degree, report.max_angle / k_degree);
   if (report.n_free_edges > 0) {
     const std::vector<OpenEdge> open = open_edges(model);
     for (std::size_t i = 0; i < std::min(k_listed, open.size()); ++i)
@@ -296,10 +298,11 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
                               const Reuse& reuse) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "meshing the surface of " + file.name,
-                   .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
-                   .hint = "a triangulation is meshed as it is: sterna mesh " + file.name});
+      throw Error(
+          {.code = ErrorCode::bad_argument,
+           .attempted = "meshing the surface of " + file.name,
+           .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
+           .hint = "new triangles for a triangulation: sterna remesh " + file.name + " -o wall.stl; a volume mesh on it as it is: sterna mesh " + file.name});
   std::vector<ModelHandle> models;
   SurfaceRecipe with_files = recipe;
   const double n = static_cast<double>(files.size());

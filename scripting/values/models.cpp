@@ -9,10 +9,12 @@
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
 #include "geom/base/hash.h"
+#include "geom/math/constants.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
 #include "geom/model/smx.h"
 #include "io/file/cad_file.h"
+#include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/value_keys.h"
 
@@ -41,6 +43,7 @@ ModelValue value_of(AircraftReading reading, const InputPath& file, const RunCon
   }
   for (const std::string& message : reading.messages) value.report += (value.report.empty() ? "" : "\n") + message;
   value.description = std::move(reading.aircraft);
+  value.is_as_described = true;
   context.info(file.name + ": " + describe(value));
   return value;
 }
@@ -62,6 +65,22 @@ bool is_model_output(const std::filesystem::path& path) { return is_smx(path) ||
 
 ModelValue read_smx_model(const InputPath& file, const RunContext& context) { return value_of(read_smx(file.path, context), file, context); }
 ModelValue read_cpacs_model(const InputPath& file, const RunContext& context) { return value_of(read_cpacs(file.path, context), file, context); }
+
+ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSetting>& settings, const RunContext& context) {
+  if (!value.description || !value.is_as_described)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "deflecting control surfaces of a model",
+                 .problem = value.description ? "it is not as a file describes it" : "its components are not known as data: " + value.without_description,
+                 .hint = "deflect right after read_smx or read_cpacs; wings of a script by wing:deflect{} before aircraft{}"});
+  ModelValue result = value;
+  result.description = with_controls_set(*value.description, settings);
+  result.model = make_components(*result.description, context);
+  result.parts.clear();
+  result.provenance = KeyMaker("deflect").add(*result.description).key();
+  for (const Deflection& d : result.description->deflections)
+    if (d.angle != 0.0) context.debug(fmt::format("{} turned by {:.4g} deg", d.surface.name, d.angle / k_degree));
+  return result;
+}
 
 ModelValue read_model(const InputPath& file, const ReadCadOptions& options, const RunContext& context) {
   if (is_smx(file.path)) return read_smx_model(file, context);

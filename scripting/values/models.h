@@ -15,6 +15,7 @@
 #include "geom/model/model.h"
 #include "geom/model/reference_data.h"
 #include "geom/model/select_faces.h"
+#include "geom/model/set_controls.h"
 #include "scripting/lua/script_value.h"
 #include "scripting/values/model_parts.h"
 #include "scripting/values/verbs.h"
@@ -26,6 +27,7 @@ struct ModelValue {
   Model model;
   std::optional<Aircraft> description;  ///< components as data, in the model's place and shape
   std::string without_description;      ///< why there is none: "rotate", "read from a.step"
+  bool is_as_described = false;         ///< the model is make_components(description) and nothing else: of a file
   std::vector<InputFile> inputs;
   std::string report;  ///< lines about how it was read or made; may be empty
   std::vector<surfmesh::PatchSurfaceOptions> sizes =
@@ -47,6 +49,10 @@ ModelValue read_model(const InputPath& file, const ReadCadOptions& options, cons
 /// The same for a file that must be of that kind.
 ModelValue read_smx_model(const InputPath& file, const RunContext& context);
 ModelValue read_cpacs_model(const InputPath& file, const RunContext& context);
+
+/// A model that was read from .smx or CPACS with its control surfaces turned (with_controls_set); what moved it afterwards is lost with its description.
+/// \throws Error(bad_argument) for other models, and as with_controls_set and make_components
+ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSetting>& settings, const RunContext& context);
 
 /// \throws Error(unsupported_format, write_failed) when a model cannot be written to a file of this name. Before the work.
 void require_model_output(const ModelValue& value, const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -418,12 +419,46 @@ void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, co
     context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }");
 }
 
+/// Fewer layers than reach the size of tetrahedra leave a jump on top: said before the work, with the number that is enough. Where one request counts for all
+/// walls; `inspect` knows the rest.
+void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
+  const volmesh::EnvelopeOptions& e = options.envelope;
+  const bool is_one_request = options.patches.empty() && !options.first_heights && options.family.refinement == 1.0 && is_automatic(e.total_height) &&
+                              is_automatic(e.max_thickness) && !is_automatic(e.first_height) && e.max_growth > 1.0;
+  if (!is_one_request) return;
+  constexpr double k_regular = 0.816496580927726, k_jump = 3.0, k_told = 0.1, k_most = 0.9;  // G9's usual limit; shares of the area
+  const double last = e.first_height * std::pow(e.max_growth, e.layers - 1);
+  std::vector<std::pair<double, double>> wanted;  // height of the last cell, area
+  double area = 0.0, thin = 0.0;
+  for (const TriangleId t : wall.mesh.triangles.ids()) {
+    if (wall.mesh.patches[wall.mesh.triangle_patch[t]].kind != PatchKind::wall) continue;
+    const auto& v = wall.mesh.triangles[t];
+    const Point &a = wall.mesh.points[v[0]], &b = wall.mesh.points[v[1]], &c = wall.mesh.points[v[2]];
+    wanted.emplace_back(k_regular * (distance(a, b) + distance(b, c) + distance(c, a)) / 3.0, 0.5 * norm(cross(b - a, c - a)));
+    area += wanted.back().second;
+    if (k_jump * last < wanted.back().first) thin += wanted.back().second;
+  }
+  if (!(thin > k_told * area)) return;
+  std::ranges::sort(wanted);
+  double below = 0.0, height = 0.0;
+  for (std::size_t i = 0; i < wanted.size() && below < k_most * area; ++i) {
+    below += wanted[i].second;
+    height = wanted[i].first;
+  }
+  const int n = 1 + static_cast<int>(std::ceil(std::log(height / (k_jump * e.first_height)) / std::log(e.max_growth)));
+  context.info(
+      fmt::format("hint: on {:.0f} % of the walls' area the last of {} layers stays thinner than a third of the tetrahedra on it: layers = {} reach it "
+                  "(sterna inspect tells where)",
+                  100.0 * thin / area, e.layers, n));
+}
+
 }  // namespace
 
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
   warn_of_other_member(wall, options, context);
   hint_at_wake(wall, options, context);
+  hint_at_layers(wall, options, context);
   if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, with_wall_facts(wall, options), {}, reuse, context));
   require_stage_output(stages);
   FinishedParts parts;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
 constexpr double k_least_told = 0.5;          ///< seconds of a stage whose busy share is told
-constexpr std::size_t k_listed_troubles = 5;  ///< measures that miss a limit in the summary; a finished mesh is told in at most 25 lines
+constexpr std::size_t k_listed_troubles = 3;  ///< measures that miss a limit in the summary; a finished mesh is told in a dozen lines
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
 
@@ -27,57 +28,50 @@ std::string verdict_text(const MeshValue& mesh) {
 
 std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(mesh.mesh.points.size()); }
 
-/// What a user can do about a measure that misses its limits.
-std::string_view remedy_of(Measure measure) {
-  switch (measure) {
-    case Measure::stack_growth:
-    case Measure::interface_height:
-    case Measure::interface_volume: return "more layers, a larger max_growth, or finer triangles on the wall there";
-    case Measure::first_height:
-    case Measure::coverage:
-    case Measure::collapsed:
-    case Measure::layer_step: return "fewer layers, or a smaller first_height or max_thickness, where walls are near";
-    case Measure::cad_distance:
-    case Measure::cad_normal: return "smaller chord_error of surface_mesh";
-    case Measure::orthogonality:
-    case Measure::non_orthogonality:
-    case Measure::skewness:
-    case Measure::stack_angle: return "finer triangles at the sharp edge, or round it";
-    default: return "remesh the wall there: triangles without needles that change slowly in size";
-  }
+/// Name and value of the strictest kind of limit that `value` misses.
+std::pair<const char*, double> missed_limit(const GateResult& gate, double value) {
+  if (gate.state == GateState::fail) return {"hard limit", gate.limits.hard};
+  const bool is_target_missed = info_of(gate.measure).is_low_bad ? value < gate.limits.target : value > gate.limits.target;
+  return is_target_missed ? std::pair{"target", gate.limits.target} : std::pair{"usual limit", gate.limits.usual};
 }
 
-/// "hard limit 5 deg", "target 12 deg", "usual limit 35 deg": the strictest kind of limit that `value` misses.
+/// "hard limit 5 deg", "target 12 deg", "usual limit 35 deg"
 std::string missed_limit_text(const GateResult& gate, double value) {
   const MeasureInfo& info = info_of(gate.measure);
-  const bool is_target_missed = info.is_low_bad ? value < gate.limits.target : value > gate.limits.target;
-  std::pair<const char*, double> missed{"usual limit", gate.limits.usual};
-  if (gate.state == GateState::fail) missed = {"hard limit", gate.limits.hard};
-  else if (is_target_missed) missed = {"target", gate.limits.target};
-  return fmt::format("{} {:.4g}{}", missed.first, in_report_unit(info, missed.second), info.is_angle ? " deg" : "");
+  const auto [name, limit] = missed_limit(gate, value);
+  return fmt::format("{} {:.4g}{}", name, in_report_unit(info, limit), info.is_angle ? " deg" : "");
 }
 
-/// A measure that misses a limit, in one line: its worst place that is ours, and what would mend it.
+/// By which factor the strictest kind of limit that the worst place misses is missed: what puts troubles in order. Infinite where a lower limit meets 0.
+double excess_of(const GateResult& gate) {
+  const double value = gate.places.empty() ? gate.worst : gate.places.front().value;
+  const double limit = missed_limit(gate, value).second;
+  const double ratio = info_of(gate.measure).is_low_bad ? limit / value : value / limit;
+  return value > 0.0 && limit > 0.0 ? ratio : std::numeric_limits<double>::infinity();
+}
+
+/// A measure that misses a limit, in one line: what is wrong in plain words, its worst place that is ours, and what would mend it.
 std::string trouble_text(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   const double value = gate.places.empty() ? gate.worst : gate.places.front().value;
-  std::string text = fmt::format("  {:<11} {} {}: {:.4g}{} ({})", info.gate, to_string(gate.state), info.title, in_report_unit(info, value),
-                                 info.is_angle ? " deg" : "", missed_limit_text(gate, value));
+  std::string text = fmt::format("  worst       {}: {} {} {:.4g}{} ({})", trouble_of(gate.measure), info.gate, to_string(gate.state),
+                                 in_report_unit(info, value), info.is_angle ? " deg" : "", missed_limit_text(gate, value));
   if (!gate.places.empty()) text += " at " + format_point(gate.places.front().position) + ", " + gate.places.front().what;
   return text + "; " + std::string(remedy_of(gate.measure)) + "\n";
 }
 
-/// The first few measures that FAIL, then those that warn; what is forced; where the rest is told.
+/// The worst few measures, those that FAIL before those that warn. The rest: -v, `sterna check`, manifest, report page.
 std::string troubles_text(const CheckReport& report) {
   std::vector<const GateResult*> troubles;
-  for (const GateState state : {GateState::fail, GateState::warn})
+  for (const GateState state : {GateState::fail, GateState::warn}) {
+    const std::size_t n_before = troubles.size();
     for (const GateResult& gate : report.gates)
       if (gate.state == state) troubles.push_back(&gate);
+    std::stable_sort(troubles.begin() + static_cast<std::ptrdiff_t>(n_before), troubles.end(),
+                     [](const GateResult* a, const GateResult* b) { return excess_of(*a) > excess_of(*b); });
+  }
   std::string text;
   for (std::size_t i = 0; i < std::min(troubles.size(), k_listed_troubles); ++i) text += trouble_text(*troubles[i]);
-  if (troubles.size() > k_listed_troubles)
-    text +=
-        fmt::format("  more        {} measures miss a limit: sterna check, the manifest and sterna report list them\n", troubles.size() - k_listed_troubles);
   return text;
 }
 
@@ -145,11 +139,15 @@ std::string quality_text(const CheckReport& report) {
 std::string summary_text(const MeshValue& mesh) {
   const CellCounts cells = count_cells(mesh.mesh);
   const volmesh::LayerReport& layer = mesh.origin->layer;
-  std::string text;
+  const bool is_measured = mesh.check && mesh.check->quality_measured;
+  std::string text = "  verdict     " + verdict_text(mesh) + (is_measured ? ", " + quality_text(*mesh.check) : "") + "\n";
   for (const std::string& change : mesh.origin->changes) text += "  changed     " + change + "\n";
-  text += fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
-  text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
-                      mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
+  text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, ", count_text(n_nodes(mesh)), count_text(cells.prisms),
+                      mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers);
+  if (cells.pyramids > 0) text += count_text(cells.pyramids) + " pyramids, ";
+  if (cells.hexahedra > 0) text += count_text(cells.hexahedra) + " hexahedra, ";
+  text += fmt::format("{} tetrahedra; wall of {} triangles, {:.6g} m long\n", count_text(cells.tetrahedra), count_text(mesh.origin->n_wall_triangles),
+                      layer.body_length);
   if (const volmesh::NeedleReport& needles = mesh.origin->needles; needles.n_needles > 0)
     text += fmt::format("  needles     {} of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(needles.n_needles),
                         count_text(needles.n_left), count_text(needles.n_flips), count_text(needles.n_given), count_text(needles.n_triangles));
@@ -168,18 +166,40 @@ std::string summary_text(const MeshValue& mesh) {
     text += fmt::format("  collapsed   {:.2f} % of the area, {}; first at {}: {}\n", 100.0 * layer.collapsed_area,
                         counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"), format_point(layer.collapsed.front().position),
                         layer.collapsed.front().what);
-  const bool is_measured = mesh.check && mesh.check->quality_measured;
   if (is_measured) text += troubles_text(*mesh.check);
-  return text + "  verdict     " + verdict_text(mesh) + (is_measured ? ", " + quality_text(*mesh.check) : "");
+  text.pop_back();
+  return text;
+}
+
+std::string wrote_text(const std::vector<std::filesystem::path>& names) {
+  std::string written;
+  for (const auto& name : names) written += (written.empty() ? "" : ", ") + name.string();
+  return "wrote " + written + (names.size() > 1 ? ", each with a manifest beside it (.json)" : " and " + written + ".json");
+}
+
+std::string check_summary_text(const CheckReport& report, bool tells_troubles) {
+  if (!report.is_valid()) return to_text(report);
+  std::string text = "VALID";
+  if (report.quality_measured) text += ", " + quality_text(report);
+  text += fmt::format("; every face matched, every cell valid{}; mesh:check{{ details = true }} prints all gates\n",
+                      report.intersections_checked ? ", nothing intersects" : "");
+  if (!report.quality_measured) return text;
+  if (tells_troubles) text += troubles_text(report);
+  for (const Measure measure : {Measure::cad_distance, Measure::cad_normal})
+    if (report.gate(measure).state != GateState::not_checked) text += to_text(report.gate(measure));
+  return text;
 }
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
-  std::string text = fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest\n", measure.wall_seconds, measure.threads,
-                                 mesh.origin->tetra_engine_seconds, mesh.origin->tetra_engine, rest_seconds(mesh, measure));
   const bool is_own = mesh.origin->tetra_engine == "sterna";
-  text += fmt::format("  memory      {:.0f} MB at most here, {:.0f} MB in the {}\n", peak_memory_bytes() / k_bytes_per_mb,
-                      mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb, is_own ? "engine's arrays" : "engine's process");
-  text += "  stages     ";
+  return fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest; memory {:.0f} MB at most here, {:.0f} MB in the {}",
+                     measure.wall_seconds, measure.threads, mesh.origin->tetra_engine_seconds, mesh.origin->tetra_engine, rest_seconds(mesh, measure),
+                     peak_memory_bytes() / k_bytes_per_mb, mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb,
+                     is_own ? "engine's arrays" : "engine's process");
+}
+
+std::string stages_text(const RunMeasure& measure) {
+  std::string text = "  stages     ";
   for (const StageTime& stage : measure.stages) {
     text += fmt::format(" {} {:.2f}", stage.stage, stage.seconds);
     if (stage.seconds >= k_least_told) text += fmt::format(" ({:.0f} % busy)", 100.0 * stage.busy_share(measure.threads));

@@ -32,13 +32,19 @@ double peak_memory_bytes();
 
 /// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
 std::string quality_text(const CheckReport& report);
-/// A dozen lines at most: sizes, coverage, up to five measures that miss a limit with their worst place and a remedy, verdict. The rest is in `check`, the
+/// A dozen lines at most: verdict, sizes, coverage, the worst three measures that miss a limit with their worst place and a remedy. The rest is in `check`, the
 /// manifest and the page.
 /// \pre mesh.origin
 std::string summary_text(const MeshValue& mesh);
-/// Several lines: seconds in the tetrahedra engine and the rest, stages, memory.
+/// "wrote a.su2, a.vtu, each with a manifest beside it (.json)"
+std::string wrote_text(const std::vector<std::filesystem::path>& names);
+/// What a script's mesh:check() prints, a few lines: verdict, sizes and volume; with `tells_troubles` the worst three measures; violations with their places.
+std::string check_summary_text(const CheckReport& report, bool tells_troubles);
+/// One line: seconds in the tetrahedra engine and the rest, memory.
 /// \pre mesh.origin
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure);
+/// One line: seconds of each stage, and how busy the threads were.
+std::string stages_text(const RunMeasure& measure);
 /// Both as JSON, schema "sterna-stats-1".
 /// \pre mesh.origin
 std::string stats_json(const MeshValue& mesh, const RunMeasure& measure);

@@ -95,6 +95,9 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
   SurfaceValue wall = join_wall(read, context.part("stitch", k_wall_read_end, 1.0));
   // The unit is never silent: a factor of 1000 looks fine until the solver runs.
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
+  constexpr double k_tiny = 0.1, k_huge = 1000.0;  // m: shorter than models in tunnels, longer than ships
+  if (const double length = body_length(wall.mesh); length > 0.0 && (length < k_tiny || length > k_huge))
+    context.info(fmt::format("hint: the surface is {:.4g} m long: is 1 unit of the file {:g} m? (unit = mm, --unit inch ...)", length, options.unit));
   return wall;
 }
 
@@ -207,7 +210,7 @@ void set_option_as_typed(const Option& option, std::string_view text) {
     if (option.unit != Unit::radian && !is_bare_unit) throw;
     ErrorInfo info = error.info();
     if (is_bare_unit) {
-      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, cm, inch, in, ft)";
+      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, um, cm, inch, in, ft)";
       throw Error(std::move(info));
     }
     if (text.find("deg") == std::string_view::npos) info.hint = "angles are in radians; write degrees as 40deg";

@@ -1,4 +1,4 @@
-// wing:deflect{} and wing:control{}.
+// wing:deflect{} and wing:control{}, and deflections of control surfaces that files describe.
 #include <algorithm>
 #include <array>
 
@@ -6,61 +6,7 @@
 #include "scripting/lua/component_value.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/verbs/component_verbs.h"
-
-namespace sterna::scripting {
-
-struct ControlOptions {
-  std::string kind = "trailing_edge";
-  std::string other_side = "same";
-};
-struct DeflectOptions {
-  double angle = k_automatic;
-  std::string gap = "sealed";
-  double fairing = k_automatic;
-};
-
-}  // namespace sterna::scripting
-
-namespace sterna {
-
-template <>
-struct Schema<scripting::ControlOptions> {
-  using O = scripting::ControlOptions;
-  static constexpr std::string_view stage = "control";
-  static constexpr std::array fields = {
-      Field<O>{.name = "kind",
-               .member = &O::kind,
-               .help = "what moves: behind the hinge, before it, all of the chord",
-               .choices = "trailing_edge leading_edge all_moving"},
-      Field<O>{.name = "other_side",
-               .member = &O::other_side,
-               .help = "what the image on the wing's other half does: flaps the same, ailerons the opposite",
-               .choices = "same opposite none"},
-  };
-};
-template <>
-struct Schema<scripting::DeflectOptions> {
-  using O = scripting::DeflectOptions;
-  static constexpr std::string_view stage = "deflect";
-  static constexpr std::array fields = {
-      Field<O>{.name = "angle",
-               .member = &O::angle,
-               .unit = Unit::radian,
-               .min = -1.0471975511965976,
-               .max = 1.0471975511965976,
-               .help = "trailing edge down; leading edge flaps: leading edge down; all-moving: nose up",
-               .required = true},
-      Field<O>{.name = "gap", .member = &O::gap, .help = "sealed: the skin bends; open: a part of its own behind a slot", .choices = "sealed open"},
-      Field<O>{.name = "fairing",
-               .member = &O::fairing,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "sealed: along the span over which it returns to the wing beside its ends",
-               .automatic = "a tenth of the mean chord at its ends"},
-  };
-};
-
-}  // namespace sterna
+#include "scripting/verbs/control_options.h"
 
 namespace sterna::scripting {
 namespace {
@@ -102,7 +48,7 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
                    : control.kind == "all_moving" ? ControlKind::all_moving
                                                   : ControlKind::trailing_edge;
   const bool has_other_side = wing->is_symmetric || wing->has_mirror_image;
-  d.other_side = !has_other_side || control.other_side == "none" ? OtherSide::none : control.other_side == "same" ? OtherSide::same : OtherSide::opposite;
+  d.other_side = has_other_side ? other_side_of(control.other_side) : OtherSide::none;
   d.surface.has_image = d.other_side != OtherSide::none;
   if (is_deflected) {
     d.angle = deflect.angle;
@@ -114,7 +60,54 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   return component;
 }
 
+/// The options of one setting; kinds and places are the file's.
+OptionTable setting_options(DeflectOptions& deflect, ControlOptions& control) {
+  OptionTable options = sterna::options_of(deflect);
+  for (Option& option : sterna::options_of(control))
+    if (option.name == "other_side") options.push_back(std::move(option));
+  return options;
+}
+
 }  // namespace
+
+OtherSide other_side_of(const std::string& choice) { return choice == "none" ? OtherSide::none : choice == "same" ? OtherSide::same : OtherSide::opposite; }
+
+std::vector<ControlSetting> read_control_settings(const ScriptTable& table, const std::string& where, TableReader& reader) {
+  std::vector<ControlSetting> settings;
+  if (!table.items.empty() || !table.other_keys.empty() || table.fields.empty())
+    reader.add_problem(where + ": expected angles by names of control surfaces, { Elevator = 5*deg, [\"Flap*\"] = { angle = 20*deg } }");
+  for (const auto& [names, value] : table.fields) {
+    const std::string entry = where + "[\"" + names + "\"]";
+    DeflectOptions deflect;
+    ControlOptions control;
+    const OptionTable schema = setting_options(deflect, control);
+    const auto* inner = std::get_if<TableHandle>(&value);
+    const ScriptTable alone{.items = {}, .fields = {{"angle", value}}, .other_keys = {}};
+    TableReader entries(inner ? **inner : alone, entry);
+    entries.read_options(schema);
+    entries.require(schema);
+    try {
+      entries.finish();
+    } catch (const Error& error) {
+      reader.add_problem(entry + ": " + error.info().problem);
+    }
+    settings.push_back({.names = names,
+                        .angle = is_automatic(deflect.angle) ? 0.0 : deflect.angle,
+                        .gap = deflect.gap == "open" ? ControlGap::open : ControlGap::sealed,
+                        .fairing = is_automatic(deflect.fairing) ? Deflection::k_automatic_fairing : deflect.fairing,
+                        .other_side = other_side_of(control.other_side)});
+  }
+  return settings;
+}
+
+std::string control_settings_help() {
+  DeflectOptions deflect;
+  ControlOptions control;
+  return "deflections = { Elevator = 5*deg, [\"Flap*\"] = { angle = 20*deg } }: turns control surfaces (or, of sumo, controls) that the file describes; an "
+         "angle, "
+         "or a table of:\n" +
+         options_help(setting_options(deflect, control));
+}
 
 ScriptValue deflect_wing(const ScriptCall& call) { return change_wing(call, true); }
 ScriptValue control_wing(const ScriptCall& call) { return change_wing(call, false); }

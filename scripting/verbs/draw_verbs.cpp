@@ -66,9 +66,10 @@ ScriptTable with_texts(const ScriptCall& call, ScriptTable table) {
   return table;
 }
 
-/// What a picture's title calls it: the first file that it was made of, and how many there are beside that.
-std::string name_of(const std::vector<InputFile>& inputs) {
-  if (inputs.empty()) return {};
+/// What a picture's title calls it: the case of a series, the first file that it was made of and how many there are beside that, or the script.
+std::string name_of(const std::vector<InputFile>& inputs, const ScriptCall& call) {
+  if (!call.session.output_folder.empty()) return call.session.output_folder.filename().string();
+  if (inputs.empty()) return call.session.script.filename().string();
   const std::string first = std::filesystem::path(inputs.front().name).filename().string();
   return inputs.size() == 1 ? first : first + " and " + std::to_string(inputs.size() - 1) + " more";
 }
@@ -104,9 +105,9 @@ ScriptValue draw_object(const ScriptCall& call) {
   const std::filesystem::path path = output_path(call, *output);
   const RunContext context = call.session.context.part("draw", 0.0, 1.0);
   if (mesh) {
-    write_picture((*mesh)->mesh, (*mesh)->check ? &*(*mesh)->check : nullptr, options, name_of((*mesh)->inputs), path, context);
+    write_picture((*mesh)->mesh, (*mesh)->check ? &*(*mesh)->check : nullptr, options, name_of((*mesh)->inputs, call), path, context);
   } else if (surface) {
-    write_picture((*surface)->mesh, options, name_of((*surface)->inputs), path, context);
+    write_picture((*surface)->mesh, options, name_of((*surface)->inputs, call), path, context);
   } else {
     const auto drawable = read_drawable(find_input(call, *file), options.unit, context);
     const std::string name = std::filesystem::path(*file).filename().string();

@@ -14,6 +14,7 @@
 #include "scripting/lua/script_watch.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/verbs/control_options.h"
 
 namespace sterna::scripting {
 
@@ -92,8 +93,8 @@ namespace {
 // ---- Readers -------------------------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_read_cad_usage = "read_cad \"model.step\"  or  read_cad{ \"model.igs\", unit = inch }";
-constexpr std::string_view k_read_smx_usage = "read_smx \"widebody.smx\"";
-constexpr std::string_view k_read_cpacs_usage = "read_cpacs \"d150.xml\"";
+constexpr std::string_view k_read_smx_usage = "read_smx \"widebody.smx\"  or  read_smx{ \"widebody.smx\", deflections = { rudder = 5*deg } }";
+constexpr std::string_view k_read_cpacs_usage = "read_cpacs \"d150.xml\"  or  read_cpacs{ \"d150.xml\", deflections = { [\"Flap*\"] = 10*deg } }";
 
 ScriptValue read_cad_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_read_cad_usage);
@@ -112,8 +113,16 @@ ScriptValue read_description(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_read_smx_usage);
   TableReader reader(table, call.attempted());
   const auto file = single_file(call, reader);
+  std::vector<ControlSetting> settings;
+  if (const ScriptValue* value = reader.field("deflections")) {
+    if (const auto* angles = std::get_if<TableHandle>(value)) settings = read_control_settings(**angles, "deflections", reader);
+    else reader.add_problem("deflections: expected a table of angles by names of control surfaces, not " + std::string(type_text(*value)));
+  }
   reader.finish();
-  return std::make_shared<const ModelValue>(Read(*file, call.session.context.part(call.verb, 0.0, 1.0)));
+  const RunContext context = call.session.context.part(call.verb, 0.0, 1.0);
+  ModelValue value = Read(*file, context);
+  if (!settings.empty()) value = deflected_model(value, settings, context);
+  return std::make_shared<const ModelValue>(std::move(value));
 }
 
 // ---- Airfoils ------------------------------------------------------------------------------------------------------------------------------
@@ -315,9 +324,10 @@ std::string geometry_help_of() {
 constexpr std::array<ScriptVerb, 5> k_geometry_verbs = {{
     {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, geometry_help_of<ReadCadOptions>, true,
      "model", true},
-    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model",
-     true},
-    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true, "model", true},
+    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, control_settings_help, true,
+     "model", true},
+    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, control_settings_help, true,
+     "model", true},
     {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil,
      geometry_help_of<AirfoilOptions>, false, "airfoil"},
     {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface,

@@ -13,6 +13,7 @@
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/models.h"
 #include "scripting/values/sampled_map.h"
+#include "scripting/verbs/control_options.h"
 
 namespace sterna::scripting {
 
@@ -88,12 +89,14 @@ constexpr std::string_view k_deform_usage =
     "0, 0, 0.1}, {0, 0, 1, 0, 0, 0}}, kernel = \"thin_plate\" }";
 constexpr std::string_view k_write_usage = "model:write(\"a.step\", \"a.igs\", \"a.brep\")  or  model:write{ \"a.step\", step_schema = \"ap242\" }";
 constexpr std::string_view k_kinds_usage = "model:kinds{ [\"Body*\"] = \"slip\" }";
+constexpr std::string_view k_deflect_model_usage = "airliner:deflect{ [\"rud*\"] = { angle = 5*deg, gap = \"sealed\" } }";
 constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\" }";
 
 /// What a model was described by does not describe it any more.
 ScriptValue without_description(ModelValue value, std::string_view by) {
   if (value.description) value.without_description = "it was changed by " + std::string(by);
   value.description.reset();
+  value.is_as_described = false;
   return std::make_shared<const ModelValue>(std::move(value));
 }
 
@@ -112,6 +115,18 @@ ScriptValue moved(const ModelHandle& old, const Transform& motion, std::string_v
   move_parts(motion, value);
   return without_description(std::move(value), by);
 }
+
+ScriptValue deflect_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_deflect_model_usage);
+  const ScriptTable nothing;
+  TableReader reader(nothing, call.attempted());
+  const std::vector<ControlSetting> settings = read_control_settings(table, "deflect", reader);
+  reader.finish();
+  return std::make_shared<const ModelValue>(deflected_model(*model, settings, call.session.context.part("deflect", 0.0, 1.0)));
+}
+
+std::string deflect_model_help() { return control_settings_help(); }
 
 ScriptValue move_model(const ScriptCall& call) { return moved(self<ModelHandle>(call), read_shift(call, k_move_usage), "move"); }
 ScriptValue rotate_model(const ScriptCall& call) { return moved(self<ModelHandle>(call), read_turn(call, k_rotate_usage), "rotate"); }
@@ -239,6 +254,7 @@ ScriptValue set_kinds(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 1, k_kinds_usage);
   TableReader reader(table, call.attempted());
   ModelValue value = *handle;
+  value.is_as_described = false;
   // Patterns that spell out more come later, so that they win.
   std::vector<std::string> patterns;
   for (const auto& [pattern, kind] : table.fields) patterns.push_back(pattern);
@@ -393,10 +409,18 @@ ScriptValue model_field(const ScriptCall& call) {
                                               [&](const ScriptVerb& verb) { return verb.name.substr(verb.name.find(':') + 1) == *name; }));
   if (name && !is_member && std::any_of(model.components.begin(), model.components.end(), [&](const Component& c) { return c.name == *name; }))
     return changed(handle, select_components(model, *name, call.attempted()), "select");
-  return select_field(call, std::move(fields), model_methods());
+  try {
+    return select_field(call, std::move(fields), model_methods());
+  } catch (const Error& error) {
+    if (!name) throw;
+    ErrorInfo info = error.info();
+    info.hint += "; components:";
+    for (const Component& component : model.components) info.hint += " " + component.name;
+    throw Error(std::move(info));
+  }
 }
 
-constexpr std::array<ScriptVerb, 11> k_methods = {{
+constexpr std::array<ScriptVerb, 12> k_methods = {{
     {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help, true,
      "self"},
     {"model:move", k_move_usage, "The model moved, metres.", move_model, nullptr, true, "model"},
@@ -406,6 +430,8 @@ constexpr std::array<ScriptVerb, 11> k_methods = {{
      "model"},
     {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model,
      deform_help, true, "model"},
+    {"model:deflect", k_deflect_model_usage, "A model of read_smx or read_cpacs with control surfaces turned: real deflections, as wing:deflect{} makes them.",
+     deflect_model, deflect_model_help, true, "model"},
     {"model:rename", k_rename_usage, "The model with other names of components, solids and patches.", rename_model, nullptr, true, "model"},
     {"model:kinds", k_kinds_usage, "The model with other kinds of patches: wall, slip, symmetry, inflow, outflow, farfield, interface.", set_kinds, nullptr,
      true, "model"},

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "geom/base/child_process.h"
@@ -63,12 +65,61 @@ std::string reading_script(const std::filesystem::path& input) {
   return "local surface\nlocal mesh = read_mesh{ " + name + " }\nif mesh.cells == 0 then\n  mesh = nil\n  surface = " + as_surface + "end\n";
 }
 
+constexpr const char* k_results_file = "series.json";
+
+/// The first of a case's files that holds a volume mesh, else a surface; empty: none does.
+std::string shown_output(const nlohmann::json& outputs) {
+  std::string surface;
+  for (const nlohmann::json& output : outputs) {
+    try {
+      const io::Format& format = io::format_of(output.get<std::string>());
+      if (format.read_volume) return output;
+      if (format.read_surface && surface.empty()) surface = output;
+    } catch (const Error&) {  // of no format
+    }
+  }
+  return surface;
+}
+
+/// A script whose argument `case` goes through the meshes of a series, one at a time.
+/// \throws Error(file_malformed) for a table that cannot be read; (file_not_found) where no case has a mesh
+std::string series_script(const std::filesystem::path& folder) {
+  std::ifstream file(folder / k_results_file, std::ios::binary);
+  const nlohmann::json results = nlohmann::json::parse(file, nullptr, false);
+  if (!results.is_object() || !results.contains("cases"))
+    throw Error({.code = ErrorCode::file_malformed,
+                 .attempted = "showing " + folder.string(),
+                 .problem = std::string(k_results_file) + " in it is no table of a series"});
+  std::string entries;
+  std::size_t n = 0;
+  for (const nlohmann::json& entry : results["cases"]) {
+    const std::string name = entry.value("name", "");
+    const std::string output = shown_output(entry.value("outputs", nlohmann::json::array()));
+    if (output.empty()) continue;
+    const std::string told = name + ": " + entry.value("verdict", entry.value("status", "")) + ", " + entry.value("quality", "");
+    entries += "  { " + lua_text(std::filesystem::absolute(folder / name / output).string()) + ", " + lua_text(told) + " },\n";
+    ++n;
+  }
+  if (n == 0)
+    throw Error({.code = ErrorCode::file_not_found,
+                 .attempted = "showing " + folder.string(),
+                 .problem = "no case of this series has a mesh or a surface",
+                 .hint = "let its function write one: mesh:write(p.name .. \".su2\")"});
+  const std::string count = std::to_string(n);
+  return "local choice = args{ case = number{ 1, min = 1, max = " + (n > 1 ? count : "2") + ", step = 1 } }\nlocal cases = {\n" + entries +
+         "}\nlocal shown = cases[math.min(math.max(math.floor(choice.case + 0.5), 1), #cases)]\nprint(\"case \" .. math.floor(choice.case + 0.5) .. \" of " +
+         count +
+         ", \" .. shown[2])\nlocal surface\nlocal mesh = read_mesh{ shown[1] }\nif mesh.cells == 0 then\n  mesh = nil\n  surface = read_surface{ shown[1], "
+         "allow_open = "
+         "true }\nend\n";
+}
+
 void require_input(const std::filesystem::path& input) {
-  if (std::filesystem::is_directory(input))
+  if (std::filesystem::is_directory(input) && !std::filesystem::exists(input / k_results_file))
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "showing " + input.string(),
-                 .problem = "it is a folder",
-                 .hint = "name a file in it; a series has its own page, series.html"});
+                 .problem = "it is a folder without " + std::string(k_results_file) + ", so of no series that has run",
+                 .hint = "name a file in it"});
   if (!std::filesystem::exists(input))
     throw Error({.code = ErrorCode::file_not_found, .attempted = "showing " + input.string(), .problem = "there is no such file"});
 }
@@ -88,7 +139,7 @@ std::optional<ChildProcess> open_browser(const std::string& address, const Comma
 
 CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
   CLI::App* command = app.add_subcommand("view", "the workbench: a page in the browser that shows what a script makes, and follows it as it is changed");
-  command->add_option("file", view.input, "case.lua; or the file of a model, a surface or a volume mesh")->required();
+  command->add_option("file", view.input, "case.lua; or the file of a model, a surface or a volume mesh; or the folder of a series that has run")->required();
   command
       ->add_option_function<std::vector<std::string>>(
           "arguments",
@@ -123,7 +174,7 @@ int execute(const ViewCommand& command, const CommandContext& context) {
   const SessionFolder session;
   const bool is_script = command.input.extension() == ".lua";
   const std::filesystem::path script = is_script ? command.input : session.path() / "view.lua";
-  if (!is_script) io::write_whole(script, reading_script(command.input));
+  if (!is_script) io::write_whole(script, std::filesystem::is_directory(command.input) ? series_script(command.input) : reading_script(command.input));
   const std::filesystem::path cache = command.cache.empty() ? session.path() / "cache" : command.cache;
   std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                     "view",

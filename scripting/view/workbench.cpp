@@ -207,7 +207,8 @@ class Workbench::Parts {
         else state_.values[name] = text.get<std::string>();
       }
     }
-    ask_for(is_dragging ? "sketch" : "geometry");
+    if (!settings_.is_made_script) ask_for(is_dragging ? "sketch" : "geometry");
+    else if (!is_dragging) ask_for("mesh");
     return json_answer({{"ok", true}});
   }
 

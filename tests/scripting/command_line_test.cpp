@@ -296,5 +296,14 @@ TEST_F(CommandLine, UnionOfSurfaceFiles) {
   EXPECT_NE(sterna({"formats"}).output.find("CPACS"), std::string::npos);
 }
 
+TEST_F(CommandLine, DoctorMakesASmallMeshByEachEngine) {
+  const test::ProcessResult result = sterna({"doctor"});
+  EXPECT_EQ(result.status, k_exit_success) << result.output << result.errors;
+  for (const char* part : {"libTKernel.so", "threads in use", "engine sterna  ok", "engine hxt     ok", "engine tetgen  ok", "VALID"})
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << " in\n" << result.output;
+  const std::vector<std::string> no_room = {"-c", "TMPDIR=/nowhere " + test::sterna_program().string() + " doctor"};
+  EXPECT_EQ(test::run_process("/bin/sh", no_room, folder).status, k_exit_failed);
+}
+
 }  // namespace
 }  // namespace sterna::scripting

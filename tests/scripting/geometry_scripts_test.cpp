@@ -250,6 +250,24 @@ TEST_F(GeometryScripts, UnionsOfModelsAndOfSurfaces) {
   EXPECT_EQ(run("local u = union{ read_surface 'box.stl', 'moved.stl' } print(u.is_closed, u.length)"), "true\t1.5\n");
 }
 
+TEST_F(GeometryScripts, ControlSurfacesOfFilesAreDeflected) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::filesystem::path bjet = test::shared_data() / "smx/bjet.smx", d150 = test::shared_data() / "cpacs/CPACS_30_D150.xml";
+  // The elevator's trailing edge goes down, so the stabilizer reaches lower; the file's model is as it was, and a deflection can be taken back.
+  EXPECT_EQ(run("local a = read_smx '" + bjet.string() + "' local b = read_smx{ '" + bjet.string() + "', deflections = { Elevator = 20*deg } } " +
+                "local function low(m) return m['Stabilizer'].min[3] end local c, d = a:deflect{ Elevator = 20*deg }, b:deflect{ Elevator = 0 } "
+                "print(low(b) < low(a) - 0.01, low(c) == low(b), math.abs(low(d) - low(a)) < 1e-3)"),
+            "true\ttrue\ttrue\n");
+  EXPECT_EQ(
+      run("local m = read_cpacs{ '" + d150.string() + "', deflections = { ['*Flap'] = 20*deg, ['*aileron'] = { angle = -5*deg, other_side = 'opposite' } } } " +
+          "local n = 0 for _ in pairs(m.patches) do n = n + 1 end print(n > 10)"),
+      "true\n");
+  EXPECT_THAT(error("read_smx{ '" + bjet.string() + "', deflections = { Elevatr = 5*deg } }"), HasSubstr("did you mean \"Elevator\"?"));
+  EXPECT_THAT(error("read_smx{ '" + bjet.string() + "', deflections = { Elevator = 5 } }"), HasSubstr("write degrees as 40*deg"));
+  EXPECT_THAT(error("read_smx{ '" + bjet.string() + "', deflections = { Elevator = { angel = 5*deg } } }"), HasSubstr("did you mean \"angle\"?"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deflect{ Flap = 5*deg }"), HasSubstr("right after read_smx or read_cpacs"));
+}
+
 TEST_F(GeometryScripts, HelpOfEveryVerbNamesItsOptions) {
   const std::string text =
       run("for _, v in ipairs{ fuselage, wing, nacelle, pylon, boom, fairing, body_of_revolution, sting, aircraft, airfoil, surface, test_section, read_cad, "

@@ -156,7 +156,8 @@ TEST_F(SurfaceMeshVerb, TheCommandLineMeshesModels) {
               AllOf(HasSubstr("--max-edge"), HasSubstr("--curvature-angle"), HasSubstr("--refinement"), HasSubstr("--cap")));
   const test::ProcessResult made = sterna({"surface", "block.step", "-o", "wall.su2", "--max-edge", "0.5", "--curvature-angle", "12"});
   EXPECT_EQ(made.status, k_exit_success) << made.errors;
-  EXPECT_THAT(made.errors, AllOf(HasSubstr("wrote wall.su2: TriMesh: "), HasSubstr("closed, 1 patch"), HasSubstr("worst angle on \"block\"")));
+  EXPECT_THAT(made.errors, AllOf(HasSubstr("wrote wall.su2: TriMesh: "), HasSubstr("closed, 1 patch"), HasSubstr("m long; angles ")));
+  EXPECT_THAT(sterna({"-v", "surface", "block.step", "-o", "wall.su2", "--max-edge", "0.5"}).errors, HasSubstr("worst angle on \"block\""));
   EXPECT_THAT(sterna({"info", "wall.su2"}).output, HasSubstr("\"block\", wall"));
   // Components of sumo files are united: one closed surface without crossings.
   const test::ProcessResult plane = sterna({"surface", "plane.smx", "-o", "plane.stl", "--set", "surface_mesh.curvature_angle=20deg"});

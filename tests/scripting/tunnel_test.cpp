@@ -88,8 +88,8 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   EXPECT_THAT(log_, HasSubstr("periodic sides tunnel_left and tunnel_right: "));
   const std::string manifest = text_of("row.sterna.json");
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"periodic_sides\""), HasSubstr("\"worst_distance\""), HasSubstr("\"periodic\"")));
-  EXPECT_THAT(run("read_mesh(" + out("row.sterna") + "):check()"), HasSubstr("periodic: tunnel_left and tunnel_right"));
-  EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check()"),
+  EXPECT_THAT(run("read_mesh(" + out("row.sterna") + "):check{ details = true }"), HasSubstr("periodic: tunnel_left and tunnel_right"));
+  EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check{ details = true }"),
               HasSubstr("periodic: tunnel_left and tunnel_right"));
   run("read_mesh(" + out("row.sterna") + "):su2_config{ " + out("row.cfg") +
       ", mesh = 'row.su2', flow{ mach = 0.3, altitude = 0, length = 0.8 }, reference_area = 1 }");

@@ -76,19 +76,19 @@ double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, c
 
 double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& options, double smooth_angle, const RunContext& context) {
   if (!is_automatic(options.feature_angle)) {
-    context.info("feature angle " + degrees_text(options.feature_angle) + ", as given");
+    context.debug("feature angle " + degrees_text(options.feature_angle) + ", as given");
     return options.feature_angle;
   }
   if (!is_automatic(smooth_angle)) {
     const double angle = std::max(static_cast<double>(k_lowest) * k_degree, smooth_angle + k_above_smooth);
     if (angle <= static_cast<double>(k_highest) * k_degree) {
-      context.info("feature angle " + degrees_text(angle) + ": the surface mesh turns by up to " + degrees_text(smooth_angle) + " where the model is smooth");
+      context.debug("feature angle " + degrees_text(angle) + ": the surface mesh turns by up to " + degrees_text(smooth_angle) + " where the model is smooth");
       return angle;
     }
     context.info("the surface mesh turns by " + degrees_text(smooth_angle) + " where the model is smooth, too much for a feature angle");
   }
   const double angle = middle_of_gap(base, context);
-  context.info("feature angle " + degrees_text(angle) + ", the gap in the histogram of dihedral angles");
+  context.debug("feature angle " + degrees_text(angle) + ", the gap in the histogram of dihedral angles");
   return angle;
 }
 

@@ -11,7 +11,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_wish_failures = 3;  ///< wishes are many, and those that can be had are had soon
+constexpr double k_angles_end = 0.4;  ///< share of the time
+constexpr int k_wish_failures = 3;    ///< wishes are many, and those that can be had are had soon
 
 /// Of the pass after the one for the limits: the figures that gates wish for. Changes for their sake make no angle worse than they find it, or than the limits.
 QualityLimits wished_limits(const ImproveOptions& options) {
@@ -42,8 +43,8 @@ void tell(const TetraBoundary& boundary, const TetraResult& tets, const AngleSur
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
   AngleSurvey survey = survey_of(boundary, tets, options, context);
   ImproveReport report{.n_bad_before = static_cast<std::int64_t>(survey.bad.size()), .min_angle_before = survey.smallest, .max_angle_before = survey.largest};
-  const auto improve_to = [&](const QualityLimits& limits, const auto& choose) {
-    Improver improver(boundary, tets, limits, context);
+  const auto improve_to = [&](const QualityLimits& limits, const RunContext& part, const auto& choose) {
+    Improver improver(boundary, tets, limits, part);
     choose(improver);
     report.rounds += improver.run(options.improve_rounds);
     improver.finish(tets);
@@ -51,8 +52,9 @@ ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tet
   };
   if (options.improve_rounds > 0) {
     if (!survey.bad.empty())
-      improve_to(quality_limits(options.improve_min_angle, options.improve_max_angle), [&](Improver& improver) { improver.work_on(survey.bad); });
-    improve_to(wished_limits(options), [&](Improver& improver) { improver.work_on_all_but(survey.bad); });
+      improve_to(quality_limits(options.improve_min_angle, options.improve_max_angle), context.part("angles", 0.0, k_angles_end),
+                 [&](Improver& improver) { improver.work_on(survey.bad); });
+    improve_to(wished_limits(options), context.part("shapes", k_angles_end, 1.0), [&](Improver& improver) { improver.work_on_all_but(survey.bad); });
   }
   tell(boundary, tets, survey, options, report, context);
   return report;

@@ -26,7 +26,8 @@ constexpr std::uint64_t k_free_effort = 2'000'000, k_free_effort_of_tet = 100;
 /// thousand, walls full of needles go on like this for minutes.
 constexpr std::uint64_t k_dear_mend = 10'000;
 constexpr std::size_t k_judged_passes = 3;
-constexpr double k_hard_counts = 3.0;  ///< tetrahedra beyond the hard limits count as so many bad ones, as in the costs of a Region
+constexpr double k_expected_passes = 2.5;  ///< like the coming one, as far as progress is told
+constexpr double k_hard_counts = 3.0;      ///< tetrahedra beyond the hard limits count as so many bad ones, as in the costs of a Region
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
 constexpr double k_floor = 0.5;
 /// Volume of a prism over that of a tetrahedron that fits it: a third of the height of a regular one is the step that gates G9 count from.
@@ -183,10 +184,13 @@ int Improver::run(int max_passes) {
   const std::uint64_t free_until = left - std::min(left, k_free_effort + k_free_effort_of_tet * n_about_);
   std::vector<std::uint64_t> left_after;  // each pass
   std::vector<double> bad_after;
+  double n_done = 0.0;  // jobs
   for (; pass < max_passes; ++pass) {
     context_.check_stop();
     std::vector<Job> jobs = choose_jobs(pass);
     if (jobs.empty()) break;
+    context_.progress(n_done / (n_done + k_expected_passes * static_cast<double>(jobs.size())));
+    n_done += static_cast<double>(jobs.size());
     if (left == 0) {
       context_.log(LogLevel::warning, "improvement of tetrahedra ends with " + std::to_string(jobs.size()) +
                                           " places left: strips and fans of needles take more than " + std::to_string(k_effort_of_tet) +
@@ -199,9 +203,9 @@ int Improver::run(int max_passes) {
       const double mended = bad_after[n - 1 - k_judged_passes] - bad_after[n - 1];
       const auto effort = static_cast<double>(left_after[n - 1 - k_judged_passes] - left);
       if (effort > static_cast<double>(k_dear_mend) * std::max(mended, 0.0)) {
-        context_.log(LogLevel::info, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
-                                         " below what is wished: the last " + std::to_string(k_judged_passes) + " took more than " +
-                                         std::to_string(k_dear_mend) + " tries for each that they mended");
+        context_.log(LogLevel::debug, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
+                                          " below what is wished: the last " + std::to_string(k_judged_passes) + " took more than " +
+                                          std::to_string(k_dear_mend) + " tries for each that they mended");
         break;
       }
     }

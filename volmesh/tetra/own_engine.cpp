@@ -21,6 +21,7 @@ namespace sterna::volmesh {
 namespace {
 
 /// Of the size field: a third more tetrahedra than there are in the mean (docs/tetrahedra.md). What is not used costs no memory.
+constexpr double k_recovery_ends = 0.2, k_refinement_ends = 0.97;  ///< shares of the time
 constexpr double k_places_per_leaf = 40.0;
 constexpr double k_most_places = 5e7;  ///< to begin with
 
@@ -54,9 +55,9 @@ std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<
     context.warn(failures.back());
     return std::nullopt;
   }
-  context.info("recovery: " + std::to_string(report.n_missing_edges) + " of " + std::to_string(report.n_edges) + " edges and " +
-               std::to_string(report.n_missing_facets) + " of " + std::to_string(report.n_facets) + " triangles were missing, " +
-               std::to_string(report.n_points) + " points in the volume for their sake");
+  context.debug("recovery: " + std::to_string(report.n_missing_edges) + " of " + std::to_string(report.n_edges) + " edges and " +
+                std::to_string(report.n_missing_facets) + " of " + std::to_string(report.n_facets) + " triangles were missing, " +
+                std::to_string(report.n_points) + " points in the volume for their sake");
   if (!joined) return std::move(recovery.mesh);
   TetraResult result;
   result.new_points.assign(recovery.mesh.points.begin() + static_cast<std::ptrdiff_t>(points.size()), recovery.mesh.points.end());
@@ -135,7 +136,7 @@ bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes
       tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes, static_cast<std::size_t>(std::min(expected, k_most_places)));
   if (report.is_over_limit) return false;
   const double seconds = seconds_since(start);
-  context.info(told(report, mesh.nodes.size(), result.engine_seconds, seconds));
+  context.debug(told(report, mesh.nodes.size(), result.engine_seconds, seconds));
   result.new_points.assign(mesh.points.begin() + static_cast<std::ptrdiff_t>(n_boundary), mesh.points.end());
   result.tetrahedra = std::move(mesh.nodes);
   result.engine = to_string(EngineKind::sterna);
@@ -153,7 +154,7 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
   const Deadline deadline(options.time_limit, context);
   try {
     const auto start = std::chrono::steady_clock::now();
-    std::optional<tets::TetMesh> mesh = recover_here(input, failures, deadline.context());
+    std::optional<tets::TetMesh> mesh = recover_here(input, failures, deadline.context().part("recovery", 0.0, k_recovery_ends));
     if (mesh) {
       outcome.result.emplace().engine_seconds = seconds_since(start);
     } else {
@@ -164,7 +165,7 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
     }
     TetraResult& result = *outcome.result;
     result.failures.insert(result.failures.begin(), failures.begin(), failures.end());
-    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, result, deadline.context()))
+    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, result, deadline.context().part("refinement", k_recovery_ends, k_refinement_ends)))
       return over_limit("out of memory: the limit is " + rounded(options.memory_limit / 1e6, "MB"), "memory_limit");
     if (!is_automatic(options.max_new_points) && static_cast<double>(result.new_points.size()) > options.max_new_points)
       return failed(FailureKind::deterministic, {.code = ErrorCode::tetra_engine_failed,

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "geom/base/error.h"
 #include "geom/cad/aircraft_union.h"
@@ -12,6 +14,7 @@
 #include "geom/model/components.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/section_rows.h"
+#include "geom/model/set_controls.h"
 #include "geom/model/smx.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"
@@ -421,6 +424,56 @@ TEST(Deflection, what_cannot_be_is_refused_by_name) {
   ControlSurface other = flap(0.1, 0.3, 0.7);
   other.wing = "tail";
   EXPECT_THAT(error_of(wing, {{other, 0.1}}), HasSubstr("belongs to wing 'tail'"));
+}
+
+std::string error_of_settings(const Aircraft& aircraft, const std::vector<ControlSetting>& settings) {
+  return test::error_of([&] { (void)with_controls_set(aircraft, settings); }).what();
+}
+
+TEST(SetControls, neighbours_give_each_other_room_and_stay_closed) {
+  Aircraft aircraft{.name = "a", .wings = {straight_wing()}};
+  for (const auto& [name, from, to] : {std::tuple{"Inner", 0.1, 0.25}, std::tuple{"Outer", 0.25, 0.4}, std::tuple{"Tab", 0.4, 0.45}})
+    aircraft.control_surfaces.push_back({.name = name, .wing = "wing", .hinge = {{from, 0.7}, {to, 0.8}}});
+  const Aircraft turned = with_controls_set(aircraft, {{.names = "Inner", .angle = 0.3}, {.names = "Out*", .angle = -0.2}});
+  ASSERT_EQ(turned.deflections.size(), 3u);
+  const auto of = [&](const std::string& name) { return *std::ranges::find(turned.deflections, name, [](const Deflection& d) { return d.surface.name; }); };
+  // A fairing of a tenth of the chord of 2 m is a sixtieth of the span of 12 m: both are drawn in by one, the outer one by a whole one beside the tab.
+  EXPECT_NEAR(of("Inner").surface.hinge.back().span, 0.25 - 1.02 / 60.0, 1e-6);
+  EXPECT_NEAR(of("Outer").surface.hinge.front().span, 0.25 + 1.02 / 60.0, 1e-6);
+  EXPECT_NEAR(of("Outer").surface.hinge.back().span, 0.4 - 1.02 / 60.0, 1e-6);
+  EXPECT_EQ(of("Tab").surface.hinge.front().span, 0.4);
+  EXPECT_NEAR(of("Inner").surface.hinge.back().chord, 0.7 + 0.1 * (0.15 - 1.02 / 60.0) / 0.15, 1e-6);  // on its line
+  const Model model = make_components(turned, RunContext());
+  EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
+  EXPECT_GT(area_of(model, "Inner", FaceRole::control), 1.0);
+}
+
+TEST(SetControls, controls_of_the_bjet_move_segments_with_their_factors) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft bjet = read_smx(test::shared_data() / "smx" / "bjet.smx", RunContext()).aircraft;
+  const Aircraft turned =
+      with_controls_set(bjet, {{.names = "Aileron", .angle = 0.1}, {.names = "Flap", .angle = 0.2}, {.names = "RightElevator", .angle = 0.05}});
+  std::map<std::string, double> angles;
+  for (const Deflection& d : turned.deflections) angles[d.surface.name] = d.angle;
+  EXPECT_EQ(angles, (std::map<std::string, double>{{"LeftAileronSegment0", -0.1},
+                                                   {"LeftAileronSegment1", 0.2},
+                                                   {"LeftElevator", 0.0},
+                                                   {"RightAileronSegment0", 0.2},
+                                                   {"RightAileronSegment1", 0.1},
+                                                   {"RightElevator", 0.05}}));
+  const Model model = make_components(turned, RunContext());
+  for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-5) << model.solids[s].name;
+  EXPECT_EQ(with_controls_set(bjet, {}).deflections, bjet.deflections);
+}
+
+TEST(SetControls, what_cannot_be_is_refused_with_the_names_that_there_are) {
+  Aircraft aircraft{.name = "a", .wings = {straight_wing()}};
+  EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flap", .angle = 0.1}}), HasSubstr("describes no control surfaces"));
+  aircraft.control_surfaces.push_back(flap(0.1, 0.3, 0.7));
+  aircraft.controls.push_back({"High lift", {{"Flap", 1.0}}});
+  EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flop", .angle = 0.1}}), HasSubstr("did you mean \"Flap\"?"));
+  EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flap", .angle = 0.1}, {.names = "F*", .angle = 0.1}}), HasSubstr("is asked for by \"Flap\", too"));
+  EXPECT_THAT(error_of_settings(aircraft, {{.names = "High lift", .angle = 0.1}, {.names = "Flap", .angle = 0.1}}), HasSubstr("is asked for by \"High lift\""));
 }
 
 }  // namespace

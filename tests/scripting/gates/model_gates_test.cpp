@@ -40,7 +40,7 @@ TEST_F(ModelGates, AMeshIsComparedWithTheModelOfItsWall) {
               AllOf(HasSubstr("\"cad_distance\": {\n        \"gate\": \"G17\",\n        \"state\": \"pass\""), HasSubstr("\"cad_normal\"")));
   // The mesh alone says how.
   EXPECT_THAT(
-      run(k_can + k_mesh + "mesh:check()"),
+      run(k_can + k_mesh + "mesh:check{ details = true }"),
       AllOf(HasSubstr("G17  wall nodes off the CAD, / length not checked: needs the model: mesh:check{ wall = wall }"), HasSubstr("--model model.step")));
 
   const test::ProcessResult clean = sterna({"check", "can.su2", "--model", "can.step", "--json"});

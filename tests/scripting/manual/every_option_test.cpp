@@ -104,6 +104,11 @@ std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGrou
     for (const std::string& flow : k_flows)
       if ((", " + flow).find(", " + option.name + " = ") != std::string::npos) return {verb_of_flow->second + flow + " }"};
   }
+  if (group.title.starts_with("deflections = {")) {
+    const std::string settings = " rudder = { " + (option.name == "angle" ? "" : std::string("angle = 5*deg, ")) + assignment + " } }";
+    if (verb.name == "model:deflect") return {"airliner:deflect{" + settings};
+    return {std::string(verb.name) + "{ " + (verb.name == "read_smx" ? "'widebody.smx'" : "'d150.xml'") + ", deflections = {" + settings + " }"};
+  }
   const std::string root = "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { ";
   if (group.title.starts_with("each section"))
     return {root + assignment + ", y = 5 } } }", root + assignment + " } } }", root + "y = 5, " + assignment + ", z = 1 } } }"};

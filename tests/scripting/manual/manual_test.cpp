@@ -45,8 +45,8 @@ TEST(Manual, EveryExampleRuns) {
   std::ofstream("sizes.vtu") << k_sizes_vtu;
   for (const char* name : {"wall.stl", "torn.stl", "tail.stl"})
     if (!std::filesystem::exists(name)) std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", name);
-  const bool has_cpacs = std::filesystem::exists(test::shared_data() / "cpacs" / "simpletest.cpacs.xml");
-  if (has_cpacs) std::filesystem::copy(test::shared_data() / "cpacs" / "simpletest.cpacs.xml", "d150.xml");
+  const bool has_cpacs = std::filesystem::exists(test::shared_data() / "cpacs" / "simpletest-flaps.cpacs.xml");
+  if (has_cpacs) std::filesystem::copy(test::shared_data() / "cpacs" / "simpletest-flaps.cpacs.xml", "d150.xml");
   ScriptState state({.script = folder / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}}, RunContext({.threads = 2}));
   int n_examples = 0;
   for (const ScriptVerb* verb : all_verbs())

@@ -62,12 +62,20 @@ TEST_F(Prompt, CompletesOptionsOfTheInnermostVerb) {
   EXPECT_THAT(after("first_h"), testing::IsEmpty());
 }
 
+TEST_F(Prompt, CompletesNamesOfPatchesInTheirTexts) {
+  state_.run("model = box{ {0,0,0}, {1,1,1}, name = 'fuselage' } other = box{ {2,0,0}, {3,1,1}, name = 'fin' }", "=test");
+  EXPECT_THAT(after("surface_mesh{ model, patches = { [\"fu"), testing::ElementsAre("fuselage"));
+  EXPECT_THAT(after("mesh:su2_config{ \"a.cfg\", monitor = \"f"), testing::ElementsAre("fin", "fuselage"));
+  EXPECT_THAT(after("surface_mesh{ model, patches = { fin = { kind = \"f"), testing::IsEmpty());
+  EXPECT_TRUE(complete("surface_mesh{ model, patches = { [\"fu", state_).is_text);
+}
+
 TEST_F(Prompt, CompletesMethodsAndFieldsOfValues) {
   state_.run("model = box{ {0,0,0}, {1,1,1} } design = { wing = model }", "=test");
   EXPECT_THAT(after("model:ro"), testing::ElementsAre("model:rotate"));
   EXPECT_THAT(after("print(model.is_"), testing::ElementsAre("model.is_closed"));
   EXPECT_THAT(after("design.wi"), testing::ElementsAre("design.wing"));
-  EXPECT_THAT(after("design.wing:de"), testing::ElementsAre("design.wing:deform"));
+  EXPECT_THAT(after("design.wing:defo"), testing::ElementsAre("design.wing:deform"));
   EXPECT_THAT(after("model:rotate{ pit"), testing::ElementsAre("pitch = "));
   EXPECT_THAT(after("nothing:ro"), testing::IsEmpty());
   EXPECT_EQ(complete("print(model:ro", state_).start, 6u);

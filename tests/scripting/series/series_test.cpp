@@ -69,7 +69,7 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
   EXPECT_THAT(failed, HasSubstr("case.lua:9: no such thing"));
   EXPECT_THAT(text_of("small/series.json"), HasSubstr("\"failed\": 1"));
   EXPECT_THAT(text_of("small/series.csv"), HasSubstr("case,height,layers,status,verdict,cells,quality,worst,"));
-  EXPECT_THAT(text_of("small/series.csv"), HasSubstr(",seconds,reused,error\n"));
+  EXPECT_THAT(text_of("small/series.csv"), HasSubstr(",warnings,seconds,reused,error\n"));
   EXPECT_THAT(text_of("small/series.csv"), HasSubstr("\nheight=0.01_layers=2,0.01,2,done,VALID,"));
 }
 

@@ -225,6 +225,27 @@ TEST_F(WorkbenchTest, ShowsFilesAndEndsRunsThatAreOvertaken) {
   EXPECT_EQ(wait_for([](const ViewJson& s) { return s["run"]["status"] == "stopped"; })["run"]["status"], "stopped");
 }
 
+TEST_F(WorkbenchTest, GoesThroughTheCasesOfASeries) {
+  std::ofstream(folder_ / "series.lua")
+      << "series{ 'boxes', over = { height = { 1, 2, 3 } }, case = function(p)\n"
+         "  if p.height == 2 then return 1 end\n"
+         "  return volume_mesh{ surface_mesh{ box{ {0, 0, 0}, {1, 1, p.height} }, max_edge = 0.6 }, layers = 2, first_height = 0.02,\n"
+         "    farfield = sphere{ radius = 10 } }:write(p.name .. '.su2') end }\n";
+  ASSERT_EQ(run_process(sterna_program(), {"run", "series.lua"}, folder_).status, 0);
+  start({"boxes", "--no-browser"});
+  ViewJson now = wait_for_end(0);
+  EXPECT_EQ(now["run"]["status"], "done") << now.dump();
+  ASSERT_EQ(now["parameters"].size(), 1u);
+  EXPECT_EQ(now["parameters"][0]["name"], "case");
+  EXPECT_EQ(now["parameters"][0]["max"], 2);  // one of the three has no mesh
+  EXPECT_NE(now["lines"].dump().find("case 1 of 2, height=1: VALID"), std::string::npos) << now["lines"].dump();
+  EXPECT_EQ(object(now, "mesh")["kind"], "mesh");
+  EXPECT_EQ(post("values", {{"values", {{"case", "2"}}}}), 200);
+  now = wait_for_end(now["run"]["number"]);
+  EXPECT_NE(now["lines"].dump().find("case 2 of 2, height=3: VALID"), std::string::npos) << now["lines"].dump();
+  EXPECT_EQ(post("save", ViewJson::object()), 409);  // it is no script of the user's
+}
+
 TEST_F(WorkbenchTest, SaysWhatItCannotShow) {
   EXPECT_NE(run_process(sterna_program(), {"view", "nothing.lua", "--no-browser"}, folder_).errors.find("there is no such file"), std::string::npos);
   EXPECT_NE(run_process(sterna_program(), {"view", ".", "--no-browser"}, folder_).errors.find("it is a folder"), std::string::npos);

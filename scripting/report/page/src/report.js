@@ -38,7 +38,7 @@ export class ReportApp {
   initial_values(hash) {
     const { report } = this;
     const index = (text, n) => (/^\d+$/.test(text ?? "") && Number(text) < n ? Number(text) : -1);
-    const walls = report.patches.map((patch, k) => (patch.kind === "wall" ? k : -1)).filter((k) => k >= 0);
+    const walls = report.patches.map((patch, k) => (patch.is_of_body ? k : -1)).filter((k) => k >= 0);
     const all = report.patches.map((_, k) => k);
     const wanted = hash.patches?.split(",").map((text) => index(text, all.length)).filter((k) => k >= 0);
     return {
@@ -64,8 +64,7 @@ export class ReportApp {
 
   hash_entries() {
     const { values } = this.state;
-    const walls = this.report.patches.filter((patch) => patch.kind === "wall").length;
-    const usual = walls ? this.report.patches.map((p, k) => (p.kind === "wall" ? k : -1)).filter((k) => k >= 0) : this.report.patches.map((_, k) => k);
+    const usual = this.report.patches.map((p, k) => (p.is_of_body ? k : -1)).filter((k) => k >= 0);
     const shown = [...values.patches].sort((a, b) => a - b);
     return {
       tab: values.tab === "summary" && values.place < 0 && values.cut < 0 ? null : values.tab,

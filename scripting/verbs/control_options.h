@@ -1,0 +1,71 @@
+// Options of deflections, of wings that scripts describe and of control surfaces that files describe.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geom/base/schema.h"
+#include "geom/model/set_controls.h"
+#include "scripting/lua/table_reader.h"
+
+namespace sterna::scripting {
+
+struct ControlOptions {
+  std::string kind = "trailing_edge";
+  std::string other_side = "same";
+};
+struct DeflectOptions {
+  double angle = k_automatic;
+  std::string gap = "sealed";
+  double fairing = k_automatic;
+};
+
+OtherSide other_side_of(const std::string& choice);
+
+/// { Elevator = 5*deg, ["Flap*"] = { angle = 20*deg, gap = "open" } }: settings in the order of the names; notes problems.
+std::vector<ControlSetting> read_control_settings(const ScriptTable& table, const std::string& where, TableReader& reader);
+/// Help on what an entry's table holds.
+std::string control_settings_help();
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::ControlOptions> {
+  using O = scripting::ControlOptions;
+  static constexpr std::string_view stage = "control";
+  static constexpr std::array fields = {
+      Field<O>{.name = "kind",
+               .member = &O::kind,
+               .help = "what moves: behind the hinge, before it, all of the chord",
+               .choices = "trailing_edge leading_edge all_moving"},
+      Field<O>{.name = "other_side",
+               .member = &O::other_side,
+               .help = "what the image on the wing's other half does: flaps the same, ailerons the opposite",
+               .choices = "same opposite none"},
+  };
+};
+template <>
+struct Schema<scripting::DeflectOptions> {
+  using O = scripting::DeflectOptions;
+  static constexpr std::string_view stage = "deflect";
+  static constexpr std::array fields = {
+      Field<O>{.name = "angle",
+               .member = &O::angle,
+               .unit = Unit::radian,
+               .min = -1.0471975511965976,
+               .max = 1.0471975511965976,
+               .help = "trailing edge down; leading edge flaps: leading edge down; all-moving: nose up",
+               .required = true},
+      Field<O>{.name = "gap", .member = &O::gap, .help = "sealed: the skin bends; open: a part of its own behind a slot", .choices = "sealed open"},
+      Field<O>{.name = "fairing",
+               .member = &O::fairing,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "sealed: along the span over which it returns to the wing beside its ends",
+               .automatic = "a tenth of the mean chord at its ends"},
+  };
+};
+
+}  // namespace sterna
