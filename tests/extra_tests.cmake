@@ -47,7 +47,7 @@ add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SO
 set_tests_properties(python PROPERTIES TIMEOUT 300)
 
 # Links and pictures of the documents lead somewhere, and the index has every page.
-add_test(NAME documents COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/documents_test.py ${CMAKE_SOURCE_DIR})
+add_test(NAME documents COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/documents_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
 
 # What documents tell their readers to do, done: their files written, their commands run, their output found.
 foreach(document python tutorials/tunnel_series tutorials/aircraft_from_numbers tutorials/one_off_cad gallery)
