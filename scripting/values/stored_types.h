@@ -73,7 +73,7 @@ inline constexpr std::size_t k_members<volmesh::PatchRule> = 8;
 template <>
 inline constexpr std::size_t k_members<volmesh::ActuatorDisc> = 6;
 template <>
-inline constexpr std::size_t k_members<volmesh::WakeSheet> = 4;
+inline constexpr std::size_t k_members<volmesh::WakeSheet> = 5;
 template <>
 inline constexpr std::size_t k_members<volmesh::PeriodicNames> = 2;
 template <>

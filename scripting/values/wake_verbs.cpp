@@ -15,6 +15,7 @@ struct SheetNumbers {
   std::string wing = volmesh::WakeSheet{}.wing;
   double length = volmesh::WakeSheet{}.length;
   double growth = volmesh::WakeSheet{}.growth;
+  double height_growth = volmesh::WakeSheet{}.height_growth;
 };
 
 }  // namespace sterna::scripting
@@ -34,6 +35,11 @@ struct Schema<scripting::SheetNumbers> {
                .help = "of the sheet, in chords of the wing before it; a larger value takes more cells"},
       Field<O>{
           .name = "growth", .member = &O::growth, .min = 1.0, .max = 2.0, .help = "largest ratio of edges along the sheet; a larger value takes fewer cells"},
+      Field<O>{.name = "height_growth",
+               .member = &O::height_growth,
+               .min = 1.0,
+               .max = 2.0,
+               .help = "largest ratio of first heights from row to row along the sheet, so that fewer layers are needed; 1: all layers go on to its end"},
   };
 };
 
@@ -45,7 +51,7 @@ namespace {
 using volmesh::WakeSheet;
 using SheetJson = nlohmann::json;
 
-constexpr std::string_view k_wake_sheet_usage = "wake_sheet{ wing = \"main*\", length = 2, growth = 1.2, direction = {1, 0, 0.05} }";
+constexpr std::string_view k_wake_sheet_usage = "wake_sheet{ wing = \"main*\", length = 2, growth = 1.2, height_growth = 1.2, direction = {1, 0, 0.05} }";
 
 WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
   WakeSheet wake;
@@ -61,6 +67,7 @@ WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
   wake.wing = numbers.wing;
   wake.length = numbers.length;
   wake.growth = numbers.growth;
+  wake.height_growth = numbers.height_growth;
   return wake;
 }
 
@@ -134,8 +141,11 @@ WakeSheet wake_sheet_of_text(const std::string& text) {
 std::string wakes_json(const std::vector<WakeSheet>& wakes) {
   SheetJson list = SheetJson::array();
   for (const WakeSheet& wake : wakes)
-    list.push_back(
-        {{"wing", wake.wing}, {"length", wake.length}, {"growth", wake.growth}, {"direction", {wake.direction.x, wake.direction.y, wake.direction.z}}});
+    list.push_back({{"wing", wake.wing},
+                    {"length", wake.length},
+                    {"growth", wake.growth},
+                    {"height_growth", wake.height_growth},
+                    {"direction", {wake.direction.x, wake.direction.y, wake.direction.z}}});
   return list.dump();
 }
 
@@ -147,6 +157,7 @@ std::vector<WakeSheet> wakes_of_json(const std::string& text) {
       wakes.push_back({.wing = entry.at("wing").get<std::string>(),
                        .length = entry.at("length").get<double>(),
                        .growth = entry.at("growth").get<double>(),
+                       .height_growth = entry.at("height_growth").get<double>(),
                        .direction = {way.at(0).get<double>(), way.at(1).get<double>(), way.at(2).get<double>()}});
     }
   } catch (const SheetJson::exception& error) {

@@ -12,6 +12,7 @@ struct WakeSheet {
   std::string wing = "*";         ///< patches with trailing edges, a pattern as in rules of patches
   double length = 2.0;            ///< local chords
   double growth = 1.2;            ///< largest ratio of consecutive edges along the stream
+  double height_growth = 1.2;     ///< largest ratio of first heights of consecutive rows of cells along the stream
   Vec3 direction{1.0, 0.0, 0.0};  ///< of the free stream; any length
 };
 

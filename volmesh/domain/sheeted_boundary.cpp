@@ -130,7 +130,8 @@ SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, c
   for (TriangleVertices& t : result.boundary.triangles)
     for (VertexId& v : t) v = moved(v);
   for (DoubledSheets::Foot& foot : sheets.feet)
-    for (VertexId& v : foot.sides) v = moved(v);
+    for (std::array<VertexId, 2>* sides : {&foot.sides, &foot.start})
+      for (VertexId& v : *sides) v = moved(v);
   for (VertexId& v : sheets.rims) v = moved(v);
   sheets.n_given_vertices += shift;
   sheets.n_given_triangles += n_completion;
@@ -152,7 +153,8 @@ void hold_sheets(const SheetedBoundary& sheeted, Domain& domain) {
   domain.sheets.n_given_vertices = domain.wall.n_vertices() - n_added;
   domain.sheets.n_given_triangles = domain.wall.n_triangles() - n_sheet_triangles;
   for (DoubledSheets::Foot& foot : domain.sheets.feet)
-    for (VertexId& v : foot.sides) v = number[v];
+    for (std::array<VertexId, 2>* sides : {&foot.sides, &foot.start})
+      for (VertexId& v : *sides) v = number[v];
   std::ranges::sort(domain.sheets.feet, {}, [](const DoubledSheets::Foot& foot) { return foot.sides[0]; });
   domain.constraints.vertex.resize(domain.wall.n_vertices());
   for (VertexId& v : domain.sheets.rims) {

@@ -1,6 +1,7 @@
 #include "volmesh/domain/trailing_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geom/base/glob.h"
@@ -17,6 +18,7 @@ constexpr double k_base_cosine = 0.7, k_side_of_base_cosine = 0.5;  ///< with th
 constexpr double k_upright = 0.3;                                   ///< z of the normals of sides that look neither up nor down
 constexpr double k_base_width = 0.1;                                ///< of the chord
 constexpr double k_chain_bend = 0.5;                                ///< cosine of 60 degrees
+constexpr double k_median_reach = 0.5;                              ///< chords
 constexpr std::size_t k_least_edges = 3;
 
 Vec3 unit_normal_of(const TriMesh& wall, TriangleId t) {
@@ -115,6 +117,40 @@ bool has_narrow_base(const TriMesh& wall, const Topology& topology, const WingTr
   return true;
 }
 
+/// The value that half of the weight is below.
+double weighted_median(std::vector<std::array<double, 2>> values) {
+  std::ranges::sort(values);
+  double whole = 0.0, below = 0.0;
+  for (const auto& [value, weight] : values) whole += weight;
+  for (const auto& [value, weight] : values)
+    if ((below += weight) >= 0.5 * whole) return value;
+  return 0.0;
+}
+
+/// Of values at a chain's vertices: medians over k_median_reach chords to both sides. Beside a body sections go on over it, or end at the wing's root, and at a
+/// tip they get as short as one likes.
+std::vector<double> medians_along(const TriMesh& wall, const Topology& topology, const TrailingEdge& chain, const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  std::vector<double> at = {0.0}, weight(n, 0.0);  // m along the chain; m
+  for (std::size_t i = 0; i < chain.edges.size(); ++i) {
+    const double length = distance(wall.points[topology.from(chain.edges[i])], wall.points[topology.to(chain.edges[i])]);
+    at.push_back(at.back() + length);
+    for (const std::size_t end : {i, i + 1}) weight[end % n] += length;
+  }
+  const auto median = [&](double middle, double reach) {
+    std::vector<std::array<double, 2>> within;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double way = std::abs(at[i] - middle);
+      if ((chain.is_loop ? std::min(way, at.back() - way) : way) <= reach) within.push_back({values[i], weight[i]});
+    }
+    return weighted_median(std::move(within));
+  };
+  const double reach = k_median_reach * median(0.0, at.back());
+  std::vector<double> medians;
+  for (std::size_t i = 0; i < n; ++i) medians.push_back(median(at[i], reach));
+  return medians;
+}
+
 }  // namespace
 
 Vec3 normal_behind(const TriMesh& wall, const Topology& topology, HalfedgeId edge, bool is_blunt, const Vec3& stream) {
@@ -179,7 +215,7 @@ std::vector<double> local_chords(const TriMesh& wall, const Topology& topology, 
     chords.front() = chords[1];
     chords.back() = chords[n - 1];
   }
-  return chords;
+  return medians_along(wall, topology, chain, chords);
 }
 
 }  // namespace sterna::volmesh

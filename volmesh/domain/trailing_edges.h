@@ -37,7 +37,7 @@ Vec3 normal_behind(const TriMesh& wall, const Topology& topology, HalfedgeId edg
 
 /// How far the section of the wing through each vertex of a chain reaches against the stream, m: its local chord. A section is what hangs together of the
 /// triangles of `wing` that are cut by the plane of stream and the wing's normal at the edge. Ends of a chain that is no loop have that of their
-/// neighbours.
+/// neighbours, and all the median of those within half a chord.
 /// \post as many as vertices (edges + 1, or edges of a loop)
 std::vector<double> local_chords(const TriMesh& wall, const Topology& topology, const WingTriangles& wing, const Vec3& stream, const TrailingEdge& chain);
 

@@ -32,7 +32,8 @@ constexpr double k_spread = 0.3;                                ///< chords, ove
 constexpr double k_clear_angle = 0.3;   ///< of the way from the trailing edge: nearer than this, walls are in the way, unless farther than an edge
 constexpr double k_start_share = 0.01;  ///< of the first edge: walls are hit at its start
 constexpr std::size_t k_most_stations = 1000;
-constexpr int k_shape_sweeps = 3;  ///< of directions and chords along the edge
+constexpr int k_shape_sweeps = 3;       ///< of chords along the edge
+constexpr double k_shape_reach = 0.15;  ///< chords to both sides, over which directions are means
 
 /// A sheet of n x m cells behind the chain's n edges.
 class SheetMaker {
@@ -104,12 +105,37 @@ class SheetMaker {
       spacing_[i] /= n_edges;
       first[i] = std::max(upstream_edge(edge_vertex(i)), k_least_start * spacing_[i]);
     }
-    smooth_along(starts, [](const Vec3& a, const Vec3& b, const Vec3& c) { return normalized(normalized(a) + 2.0 * normalized(b) + normalized(c)); });
-    for (Vec3& normal : starts) normal = normalized(stream_ - dot(stream_, normalized(normal)) * normalized(normal));
+    even_out(starts);
     const std::vector<double> shares = stations(first);
     points_.resize(n_lines());
     for (std::size_t i = 0; i < n_lines(); ++i) points_[i] = points_along(i, starts[i], shares);
     if (!chain_.is_loop) spread_lines();
+  }
+
+  /// Makes directions of normals: means over some of the trailing edge, so that a round tip does not turn the last lines, and without a part along the edge, so
+  /// that lines do not cross.
+  void even_out(std::vector<Vec3>& normals) const {
+    for (Vec3& normal : normals) normal = normalized(normal);
+    const std::vector<Vec3> given = normals;
+    for (std::size_t i = 0; i < n_lines(); ++i) {
+      const double reach = k_shape_reach * chords_[i];
+      Vec3 sum = spacing_[i] * given[i];
+      const auto walk = [&](int step) {
+        std::size_t at = i;
+        for (double way = 0.0; chain_.is_loop || (step > 0 ? at < n_cells_ : at > 0);) {
+          const std::size_t beyond = (at + (step > 0 ? 1 : n_lines() - 1)) % n_lines();
+          way += distance(wall_.points[edge_vertex(at)], wall_.points[edge_vertex(beyond)]);
+          if (way > reach && at != i) break;
+          sum += spacing_[beyond] * given[beyond];
+          at = beyond;
+          if (way > reach) break;
+        }
+        return wall_.points[edge_vertex(at)];
+      };
+      const Vec3 edge = walk(1) - walk(-1), across = normalized(edge - dot(edge, stream_) * stream_), normal = normalized(sum);
+      const Vec3 start = stream_ - dot(stream_, normal) * normal;
+      normals[i] = normalized(start - dot(start, across) * across);
+    }
   }
 
   /// What is short across the stream at the trailing edge (beside a tip) need not be behind it: along each row, lines go to equal distances within k_spread
@@ -287,9 +313,14 @@ class SheetMaker {
         const bool is_foot = is_inside(i, j);
         sides[0] = j == 0 ? edge_vertex(i) : wall_.points.push_back(point(i, j));
         sides[1] = is_foot ? wall_.points.push_back(point(i, j)) : sides[0];
-        if (is_foot) made_.sheets.feet.push_back({sides, point(i, j), chain_.is_blunt && j == 0});
+        if (is_foot) made_.sheets.feet.push_back({sides, point(i, j), start_of(i), static_cast<int>(j), wake_.height_growth, chain_.is_blunt && j == 0});
         else made_.sheets.rims.push_back(sides[0]);
       }
+  }
+  /// Vertices of both sides on the trailing edge; the one that there is where no layers go on there. \pre row 0 is numbered before the others
+  std::array<VertexId, 2> start_of(std::size_t i) const {
+    const std::array<VertexId, 2>& sides = sides_[i][0];
+    return sides[0].is_valid() ? sides : std::array<VertexId, 2>{edge_vertex(i), edge_vertex(i)};
   }
   bool is_used(std::size_t i, std::size_t j) const {
     for (std::size_t column = 0; column < n_cells_; ++column)

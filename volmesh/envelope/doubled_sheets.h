@@ -14,9 +14,12 @@ namespace sterna::volmesh {
 /// finished mesh has them on the foot again (layer/close_wakes.h). On its free rims both sides share vertices, whose lines have no height.
 struct DoubledSheets {
   struct Foot {
-    std::array<VertexId, 2> sides;  ///< that on the left of the trailing edge, which is a given vertex on the edge itself; that on the right, always added
-    Point point;                    ///< m
-    bool is_on_base = false;        ///< on the edge of a blunt base: one side is a corner there, and may have a lower layer
+    std::array<VertexId, 2> sides;       ///< that on the left of the trailing edge, which is a given vertex on the edge itself; that on the right, always added
+    Point point;                         ///< m
+    std::array<VertexId, 2> start = {};  ///< of the trailing edge, on the same line, by sides
+    int row = 0;                         ///< along the stream; 0: on the trailing edge
+    double height_growth = 1.0;          ///< ratio of first heights from row to row that is asked for
+    bool is_on_base = false;             ///< on the edge of a blunt base: one side is a corner there, and may have a lower layer
   };
   std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< of the wall; what sheets have added follows
   std::vector<Foot> feet;                                   ///< ascending by their first

@@ -65,8 +65,6 @@ void taper_fans(const LayerBase& base, Envelope& envelope) {
   }
 }
 
-constexpr double k_rim_slope = 1.0;  ///< 45 degrees: between both sides of a sheet tetrahedra have three quarters of the way around its rim
-
 /// limit_gradient(), but steeper beside rims of sheets.
 void limit_heights(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
   for (const VertexId rim : base.sheet_rims) height[rim] = std::numeric_limits<double>::max();

@@ -6,6 +6,8 @@
 
 namespace sterna::volmesh {
 
+inline constexpr double k_rim_slope = 1.0;  ///< of heights beside rims of sheets, 45 degrees: tetrahedra have three quarters of the way around a rim
+
 /// Directions: the angle-weighted normal, pulled towards the best visible direction where it sees its faces badly. Heights: the target, which is the
 /// largest field with h <= eq. (1), h <= max_thickness (default 0.1 body lengths) and slope <= height_gradient along wall edges.
 /// Vertices without a direction that sees all their faces start collapsed (HeightLimit::invisible).

@@ -16,7 +16,7 @@ struct LayerDemand {
   Column<VertexId, double> max_growth;     ///< ratio
   Column<VertexId, double> max_thickness;  ///< m
   Column<VertexId, double> total_height;   ///< m; automatic: by eq. (1). Empty: nowhere given
-  Column<VertexId, std::uint16_t> layers;  ///< the same for all vertices of a triangle
+  Column<VertexId, std::uint16_t> layers;  ///< the same for all vertices of a triangle; on wake sheets they differ by one at most
   bool is_empty() const { return first_height.empty(); }
 };
 

@@ -56,6 +56,7 @@ class WakeCloser {
     LayerBlock block;
     block.n_layers = given_.n_layers;
     if (!given_.line_layers.empty()) block.line_layers.assign(given_.line_layers.begin(), given_.line_layers.begin() + n_lines);
+    if (std::ranges::all_of(block.line_layers, [&](int n) { return n == block.n_layers; })) block.line_layers.clear();
     block.first_node.assign(lines_.first().begin(), lines_.first().begin() + n_lines);
     block.is_collapsed.assign(given_.is_collapsed.begin(), given_.is_collapsed.begin() + n_lines);
     for (std::size_t column = 0; column < given_.n_columns(); ++column) {

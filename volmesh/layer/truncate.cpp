@@ -97,11 +97,12 @@ Truncation truncation_of(std::string_view text) {
 }
 
 LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context)
-    : base_(base), layers_(base.wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), is_fixed_(layers_.size(), 0) {
+    : base_(base), layers_(base.wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), asked_(layers_.size()), is_fixed_(layers_.size(), 0) {
   const LineTruncation lines(base, scale, envelope, truncation);
   parallel_for(context, layers_.size(), [&](std::size_t i) {
     const VertexId v(i);
     const int all = scale.n(v);
+    asked_[i] = static_cast<std::uint16_t>(all);
     LineChoice choice{all, all, all + 1};
     is_fixed_[i] = envelope.is_collapsed(v) || base.topology.outgoing(v).empty();
     if (!is_fixed_[i] && truncation != Truncation::never) choice = lines.choose(v);
@@ -160,7 +161,8 @@ void LayerNumbers::close_upwards() {
   visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
     if (is_fixed_[v.index()]) return;
     const int own = layers_[v.index()], beside = own - (own >= thin_from_[v.index()] ? 0 : 1);
-    const auto raise = [&](VertexId w, int least) {
+    const auto raise = [&](VertexId w, int wanted) {
+      const int least = std::min<int>(wanted, asked_[w.index()]);
       if (is_fixed_[w.index()] || layers_[w.index()] >= least) return;
       layers_[w.index()] = static_cast<std::uint16_t>(least);
       next.push_back(w);

@@ -40,6 +40,7 @@ class LayerNumbers {
   const LayerBase& base_;
   std::vector<std::uint16_t> layers_;
   std::vector<std::uint16_t> least_, thin_from_;  ///< what a line may have; from where on no neighbour may have fewer
+  std::vector<std::uint16_t> asked_;              ///< on wake sheets those of neighbours differ by one
   std::vector<std::uint8_t> is_fixed_;
 };
 

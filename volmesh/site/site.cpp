@@ -20,6 +20,7 @@
 #include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/patch_layers.h"
 #include "volmesh/envelope/periodic.h"
+#include "volmesh/envelope/sheet_heights.h"
 #include "volmesh/rims/slits.h"
 
 namespace sterna::volmesh {
@@ -142,6 +143,7 @@ LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContex
   for (const DoubledSheets::Foot& foot : domain.sheets.feet)
     if (!foot.is_on_base) base.level.push_back(foot.sides);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
+  grow_sheet_heights(domain.sheets, options.envelope, base);
   return base;
 }
 

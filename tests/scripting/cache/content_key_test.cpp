@@ -75,6 +75,8 @@ TEST(ContentKeys, WhatIsNoNumberOfAVolumeMeshCountsToo) {
   expect(options, true, "wake sheet");
   options.wakes.front().length = 3.0;
   expect(options, true, "length of a wake sheet");
+  options.wakes.front().height_growth = 1.1;
+  expect(options, true, "growth of heights on a wake sheet");
   options = {};
   options.smooth_angle = 0.2;
   expect(options, true, "smooth angle");

@@ -175,6 +175,44 @@ TEST(WakeSheets, MeshesOfWedgesAreValidAndKeepTheWall) {
   }
 }
 
+/// Of the wedge shaped wing: mesh with 14 layers, and first heights on the sheet that grow by a ratio from row to row.
+VolumeMeshResult with_height_growth(double growth, const char* truncate = "never") {
+  MeshCase mesh_case = layers(14, 1e-3);
+  mesh_case.farfield.farfield_radius = 10.0;
+  mesh_case.prisms.truncate = truncate;
+  mesh_case.wakes = {{.length = 2.0, .height_growth = growth}};
+  return volume_mesh(sharp_wing(20.0, 12), mesh_case, k_context);
+}
+
+/// Least height of a cell at the sheet behind x, m: the shortest edge off the plane z = 0 at one of its nodes.
+double least_height_behind(const HybridMesh& mesh, double x) {
+  constexpr double k_on_sheet = 1e-6;
+  double least = 1.0;
+  for (const auto& prism : mesh.prisms)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point &low = mesh.points[prism[k]], &high = mesh.points[prism[k + 3]];
+      if (std::abs(low.z) < k_on_sheet && low.x > x) least = std::min(least, distance(low, high));
+    }
+  return least;
+}
+
+TEST(WakeSheets, HeightsGrowAlongThemAndLayersGetFewer) {
+  const VolumeMeshResult equal = with_height_growth(1.0), growing = with_height_growth(1.3);
+  EXPECT_TRUE(equal.check.is_valid());
+  EXPECT_TRUE(growing.check.is_valid());
+  EXPECT_EQ(faces_of_wing(growing.mesh), faces_of_wing(equal.mesh));
+  EXPECT_EQ(growing.mesh.layers.base.size(), equal.mesh.layers.base.size());
+  EXPECT_TRUE(growing.mesh.layers.is_uniform());  // what is left as columns stands on the wing
+  EXPECT_LT(growing.mesh.prisms.size(), 0.8 * static_cast<double>(equal.mesh.prisms.size()));
+  EXPECT_LT(least_height_behind(equal.mesh, 2.0), 2e-3);
+  EXPECT_GT(least_height_behind(growing.mesh, 2.0), 2.0 * least_height_behind(growing.mesh, 1.0));
+  EXPECT_TRUE(check(explicit_cells(growing.mesh), {}, k_context).is_valid());
+}
+
+TEST(WakeSheets, TruncationGoesTogetherWithGrowingHeights) {
+  for (const char* truncate : {"auto", "always"}) EXPECT_TRUE(with_height_growth(1.25, truncate).check.is_valid()) << truncate;
+}
+
 TEST(WakeSheets, EqualForAnyNumberOfThreads) {
   const TriMesh wall = sharp_wing(20.0, 8);
   const MeshCase mesh_case = wake_case({{.length = 0.7}});

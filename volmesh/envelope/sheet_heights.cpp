@@ -1,0 +1,140 @@
+#include "volmesh/envelope/sheet_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "geom/math/constants.h"
+#include "volmesh/case/growth_law.h"
+#include "volmesh/envelope/envelope.h"
+#include "volmesh/envelope/initial.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_tallest_first = 0.8;    ///< of the height of a regular tetrahedron: first cells of a sheet's last rows
+constexpr double k_rounding = 1.0 + 1e-9;  ///< of growth ratios that are compared
+
+/// The options as a demand of every vertex.
+LayerDemand demand_everywhere(const LayerBase& base, const EnvelopeOptions& options) {
+  const std::size_t n = base.wall.n_vertices();
+  LayerDemand demand;
+  demand.first_height.assign(n, options.first_height);
+  demand.max_growth.assign(n, options.max_growth);
+  demand.max_thickness.assign(n, thickness_limit(options.max_thickness, options.total_height, base.body_length));
+  demand.layers.assign(n, static_cast<std::uint16_t>(options.layers));
+  return demand;
+}
+
+/// What both sides of one foot are asked for.
+struct SheetLine {
+  double first_height = 0.0, height = 0.0, growth = 1.0;  ///< m, m; that of the layer before the edge
+  int layers = 0;
+};
+
+class SheetGrower {
+ public:
+  SheetGrower(const DoubledSheets& sheets, const EnvelopeOptions& options, LayerBase& base) : sheets_(sheets), base_(base), scale_(base, options) {}
+
+  void grow() {
+    for (const DoubledSheets::Foot& foot : sheets_.feet) lines_.push_back(line_of(foot));
+    LayerDemand demand = base_.demand;
+    if (demand.total_height.empty()) {
+      demand.total_height.assign(base_.wall.n_vertices(), k_automatic);
+      for (const VertexId v : base_.wall.points.ids()) demand.total_height[v] = scale_.total_height(v);
+    }
+    level(demand.layers);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (sheets_.feet[i].row == 0) continue;
+      for (const VertexId v : sheets_.feet[i].sides) {
+        demand.first_height[v] = std::min(lines_[i].first_height, lines_[i].height / demand.layers[v]);
+        demand.total_height[v] = lines_[i].height;
+      }
+    }
+    base_.demand = std::move(demand);
+  }
+
+ private:
+  SheetLine line_of(const DoubledSheets::Foot& foot) const {
+    SheetLine line;
+    line.layers = scale_.n(foot.sides[0]);
+    if (foot.row == 0) return line;
+    const int all = scale_.n(foot.start[0]);
+    const double before = std::min(scale_.h0(foot.start[0]), scale_.h0(foot.start[1]));
+    double edge = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const VertexId v = foot.sides[k];
+      const double asked = scale_.total_height(v);
+      const double by_edge = layer_height(before, growth_for_edge(before, base_.layer_edge[v], scale_.max_growth(v), all), all);
+      const double height = std::min(is_automatic(asked) ? by_edge : asked, scale_.max_thickness(v));
+      line.height = k == 0 ? height : std::min(line.height, height);
+      edge = k == 0 ? base_.layer_edge[v] : std::min(edge, base_.layer_edge[v]);
+    }
+    line.growth = growth_for_height(before, line.height, all);
+    for (const VertexId v : foot.sides)
+      for_each_edge(base_.topology, v, [&](HalfedgeId, VertexId w) {
+        if (base_.is_sheet_rim(w)) line.height = std::min(line.height, k_rim_slope * distance(base_.wall.points[v], base_.wall.points[w]));
+      });
+    const double tallest = std::max(before, std::min(line.height, k_tallest_first * k_regular_height * edge));
+    line.first_height = std::min(tallest, before * std::pow(std::min(foot.height_growth, line.growth), foot.row));
+    line.layers = layers_for(line, all);
+    return line;
+  }
+
+  /// The least number of layers that grow by no more than those before the edge.
+  static int layers_for(const SheetLine& line, int all) {
+    for (int n = 1; n < all; ++n)
+      if (n == 1 ? line.height <= line.first_height * k_rounding : growth_for_height(line.first_height, line.height, n) <= line.growth * k_rounding) return n;
+    return all;
+  }
+
+  /// Raises numbers to one less than those of neighbours; rims have as many as the most of theirs, in name.
+  void level(Column<VertexId, std::uint16_t>& layers) const {
+    std::vector<VertexId> changed;
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      for (const VertexId v : sheets_.feet[i].sides) {
+        layers[v] = static_cast<std::uint16_t>(lines_[i].layers);
+        changed.push_back(v);
+      }
+    Column<VertexId, VertexId> partner(base_.wall.n_vertices());
+    for (const DoubledSheets::Foot& foot : sheets_.feet)
+      for (std::size_t k = 0; k < 2; ++k) partner[foot.sides[k]] = foot.sides[1 - k];
+    while (!changed.empty()) {
+      std::vector<VertexId> next;
+      const auto raise = [&](VertexId v, int least) {
+        if (!v.is_valid() || layers[v] >= least) return;
+        layers[v] = static_cast<std::uint16_t>(least);
+        next.push_back(v);
+      };
+      for (const VertexId v : changed) {
+        raise(partner[v], layers[v]);
+        for_each_edge(base_.topology, v, [&](HalfedgeId, VertexId w) {
+          if (partner[w].is_valid()) raise(w, layers[v] - 1);
+        });
+      }
+      changed.swap(next);
+    }
+    for (const VertexId rim : sheets_.rims) {
+      if (rim.index() < sheets_.n_given_vertices) continue;
+      layers[rim] = 1;
+      for_each_edge(base_.topology, rim, [&](HalfedgeId, VertexId w) {
+        if (partner[w].is_valid()) layers[rim] = std::max(layers[rim], layers[w]);
+      });
+    }
+  }
+
+  const DoubledSheets& sheets_;
+  LayerBase& base_;
+  EnvelopeScale scale_;
+  std::vector<SheetLine> lines_;  ///< of each foot
+};
+
+}  // namespace
+
+void grow_sheet_heights(const DoubledSheets& sheets, const EnvelopeOptions& options, LayerBase& base) {
+  if (std::ranges::none_of(sheets.feet, [](const DoubledSheets::Foot& foot) { return foot.height_growth > 1.0; })) return;
+  if (base.demand.is_empty()) base.demand = demand_everywhere(base, options);
+  SheetGrower(sheets, options, base).grow();
+}
+
+}  // namespace sterna::volmesh
