@@ -138,6 +138,8 @@ local mesh = volume_mesh{ wall,
       total_height = "automatic",     -- max_growth follows, or layers where max_growth is given
       max_thickness = "automatic",
       blend = "automatic",            -- metres from the border with walls that ask for something else; automatic: by their layers and edges
+      open_ridges = "as_all",         -- as ridges says; always, never: of edges between such patches
+      truncate = "as_all",            -- as prisms says; never, auto, always
     },
   },
   farfield = {                         -- or sphere{ radius = 100 }, box{ {-10, -5, -5}, {20, 5, 5}, edge = 2 }, cylinder{...}, a surface, a file, "none"

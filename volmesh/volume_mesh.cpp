@@ -206,6 +206,7 @@ FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Make
     if (round == k_fan_rounds && !closed.empty()) {
       context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some fans still had no valid cells");
       now.ridges.open_ridges = "never";
+      for (PatchRule& rule : now.patches) rule.open_ridges = "never";
     }
     MeshingSite site(wall, now, context, closed);
     try {

@@ -215,7 +215,8 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   add_cache_options(*command, mesh.cache);
   add_patch_option(*command, mesh.patches,
                    "what patches with such names ask for instead, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\": kind (slip, symmetry, inflow, outflow, "
-                   "farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend; of models also what `sterna surface "
+                   "farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend, open_ridges, truncate; of models also "
+                   "what `sterna surface "
                    "--patch` takes: max_edge ...; may be given several times");
   command->footer(
       "Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch. Heights may be found from the flow: --first-height \"y_plus 1 mach=0.78 altitude=11000 "

@@ -47,6 +47,14 @@ Json first_node_json(const volmesh::LayerReport& layer) {
           {"worst_facet", {{"deviation", first.worst_facet}, {"at", at(first.worst_facet_place)}}}};
 }
 
+/// Shares of the wall's vertices by the angle at which they see their worst facet.
+Json visibility_json(const volmesh::VisibilityReport& visibility) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < visibility.share_above.size(); ++i)
+    list.push_back({{"degrees", volmesh::k_visibility_limits_deg[i]}, {"share", visibility.share_above[i]}});
+  return list;
+}
+
 }  // namespace
 
 std::string layer_json(const volmesh::LayerReport& layer) {
@@ -63,6 +71,7 @@ std::string layer_json(const volmesh::LayerReport& layer) {
                {"mean_height", layer.mean_height},
                {"vertices", layer.n_vertices},
                {"compressed", layer.n_compressed}};
+  json["visibility_above"] = visibility_json(layer.visibility);
   json["first_node"] = first_node_json(layer);
   json["interface"] = {{"within", layer.interface.within},
                        {"below", layer.interface.below},

@@ -69,7 +69,7 @@ inline constexpr std::size_t k_members<UnionOptions> = 5;
 template <>
 inline constexpr std::size_t k_members<volmesh::SizeSource> = 12;
 template <>
-inline constexpr std::size_t k_members<volmesh::PatchRule> = 8;
+inline constexpr std::size_t k_members<volmesh::PatchRule> = 10;
 template <>
 inline constexpr std::size_t k_members<volmesh::ActuatorDisc> = 6;
 template <>

@@ -79,7 +79,7 @@ std::set<std::string> names_of_role(const Model& model, FaceRole role) {
 
 bool is_any(const volmesh::PatchRule& rule) {
   return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) ||
-         !is_automatic(rule.blend);
+         !is_automatic(rule.blend) || rule.open_ridges != volmesh::PatchRule{}.open_ridges || rule.truncate != volmesh::PatchRule{}.truncate;
 }
 
 /// The size of all patches, as a rule that those of single patches overrule.

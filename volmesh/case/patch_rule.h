@@ -17,6 +17,8 @@ struct PatchRule {
   double total_height = k_automatic;
   double max_thickness = k_automatic;
   double blend = k_automatic;
+  std::string open_ridges = "as_all";
+  std::string truncate = "as_all";
 };
 
 }  // namespace sterna::volmesh
@@ -69,6 +71,14 @@ struct Schema<volmesh::PatchRule> {
                .min = 1e-12,
                .help = "so far from the border with walls that ask for something else it is blended with theirs",
                .automatic = "3 times the taller layer there, at least 8 edges"},
+      Field<O>{.name = "open_ridges",
+               .member = &O::open_ridges,
+               .help = "whether layers get several normals along sharp convex edges between such patches; as_all: as ridges says",
+               .choices = "as_all never always"},
+      Field<O>{.name = "truncate",
+               .member = &O::truncate,
+               .help = "whether lines of less than their full height end with fewer layers; as_all: as prisms says",
+               .choices = "as_all never auto always"},
   };
 };
 

@@ -38,8 +38,10 @@ struct Inner {
 
 class RidgeOpener {
  public:
-  RidgeOpener(const RidgeOptions& options, double first_height, double raise, Domain& domain, const RunContext& context)
+  RidgeOpener(const RidgeOptions& options, const Column<PatchId, std::uint8_t>& is_open, double first_height, double raise, Domain& domain,
+              const RunContext& context)
       : options_(options),
+        is_open_(is_open),
         longest_edge_(k_longest_edge * first_height),
         raise_(raise),
         domain_(domain),
@@ -72,7 +74,7 @@ class RidgeOpener {
   void find_edges() {
     for (std::size_t i = 0; i < topology_.n_halfedges(); ++i) {
       const HalfedgeId h(i), twin = topology_.twin(h);
-      if (!twin.is_valid()) continue;
+      if (!twin.is_valid() || !is_open_[wall_.triangle_patch[triangle_of(h)]] || !is_open_[wall_.triangle_patch[triangle_of(twin)]]) continue;
       const Vec3 own = normal(triangle_of(h)), other = normal(triangle_of(twin));
       const Vec3 along = point(topology_.to(h)) - point(topology_.from(h));
       const double turn = std::atan2(dot(cross(own, other), normalized(along)), dot(own, other));
@@ -295,6 +297,7 @@ class RidgeOpener {
   }
 
   const RidgeOptions& options_;
+  const Column<PatchId, std::uint8_t>& is_open_;
   double longest_edge_, raise_;  ///< m
   Domain& domain_;
   TriMesh& wall_;
@@ -307,8 +310,9 @@ class RidgeOpener {
 
 }  // namespace
 
-void open_ridges(const RidgeOptions& options, double first_height, std::span<const VertexId> closed, Domain& domain, const RunContext& context) {
-  if (!options.is_on()) return;
+void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t>& is_open, double first_height, std::span<const VertexId> closed,
+                 Domain& domain, const RunContext& context) {
+  if (std::ranges::none_of(is_open, [](std::uint8_t is) { return is != 0; })) return;
   const double raise = k_raise * first_height;
   double largest = 0.0;
   for (const Point& p : domain.wall.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -316,7 +320,7 @@ void open_ridges(const RidgeOptions& options, double first_height, std::span<con
     throw_bad_argument("opening ridges",
                        "the first height of " + number_text(first_height, 3) + " m is too small for coordinates of " + number_text(largest, 3) + " m", {},
                        "move the surface to the origin, or open_ridges = \"never\"");
-  RidgeOpener(options, first_height, raise, domain, context).open(closed, context);
+  RidgeOpener(options, is_open, first_height, raise, domain, context).open(closed, context);
 }
 
 }  // namespace sterna::volmesh

@@ -1,6 +1,7 @@
 // Sharp convex edges of walls with layers get several normals: the wall is opened there, and what is open is closed by thin virtual triangles.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace sterna::volmesh {
 /// Vertices and triangles of the wall keep their numbers, new ones follow. \pre domain made, no slits
 /// \post wall closed and manifold as before, Domain::ridges says what was done; without ridges nothing has changed
 /// \throws Error(bad_argument) where the first height is too small for the coordinates
-void open_ridges(const RidgeOptions& options, double first_height, std::span<const VertexId> closed, Domain& domain, const RunContext& context);
+/// \param is_open of each patch of the wall: ridges between patches that are
+void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t>& is_open, double first_height, std::span<const VertexId> closed,
+                 Domain& domain, const RunContext& context);
 
 }  // namespace sterna::volmesh

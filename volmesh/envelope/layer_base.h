@@ -10,6 +10,7 @@
 #include "geom/base/run_context.h"
 #include "geom/mesh/topology.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/truncation.h"
 #include "volmesh/envelope/constraint.h"
 #include "volmesh/envelope/layer_demand.h"
 #include "volmesh/envelope/opened_ridges.h"
@@ -52,6 +53,9 @@ struct LayerBase {
   bool is_sheet_rim(VertexId v) const { return std::binary_search(sheet_rims.begin(), sheet_rims.end(), v); }
 
   LayerDemand demand;  ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
+
+  /// Whether lines may end early, where patches ask for other than PrismOptions::truncate (patch_layers.h); empty: nowhere.
+  Column<VertexId, Truncation> truncation;
 
   const OpenedRidges* ridges;  ///< null where nothing is open
   /// Triangles between lines of one foot: no part of the given wall.

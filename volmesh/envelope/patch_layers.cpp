@@ -354,4 +354,24 @@ LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std
   return demand;
 }
 
+Column<PatchId, std::uint8_t> patches_with_open_ridges(const Column<PatchId, Patch>& patches, bool of_all, std::span<const PatchRule> rules) {
+  Column<PatchId, std::uint8_t> result(patches.size(), of_all ? 1 : 0);
+  for (const PatchRule& rule : rules)
+    for (const PatchId patch : patches.ids())
+      if (rule.open_ridges != PatchRule{}.open_ridges && matches_glob(patches[patch].name, rule.names)) result[patch] = rule.open_ridges == "always" ? 1 : 0;
+  return result;
+}
+
+Column<VertexId, Truncation> truncation_by_patches(const TriMesh& wall, Truncation of_all, std::span<const PatchRule> rules) {
+  Column<PatchId, Truncation> of_patch(wall.patches.size(), of_all);
+  for (const PatchRule& rule : rules)
+    for (const PatchId patch : wall.patches.ids())
+      if (rule.truncate != PatchRule{}.truncate && matches_glob(wall.patches[patch].name, rule.names)) of_patch[patch] = truncation_of(rule.truncate);
+  if (std::ranges::all_of(wall.triangle_patch, [&](PatchId patch) { return of_patch[patch] == of_all; })) return {};
+  Column<VertexId, Truncation> result(wall.n_vertices(), Truncation::always);
+  for (const TriangleId t : wall.triangles.ids())
+    for (const VertexId v : wall.triangles[t]) result[v] = std::min(result[v], of_patch[wall.triangle_patch[t]]);
+  return result;
+}
+
 }  // namespace sterna::volmesh

@@ -46,4 +46,10 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
 LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
                       const RunContext& context);
 
+/// Per patch: whether ridges between such patches are opened. `of_all` is what holds for patches without a rule.
+Column<PatchId, std::uint8_t> patches_with_open_ridges(const Column<PatchId, Patch>& patches, bool of_all, std::span<const PatchRule> rules);
+
+/// LayerBase::truncation: at borders of patches the one by which lines give up the fewest layers. `of_all` is what holds for patches without a rule.
+Column<VertexId, Truncation> truncation_by_patches(const TriMesh& wall, Truncation of_all, std::span<const PatchRule> rules);
+
 }  // namespace sterna::volmesh

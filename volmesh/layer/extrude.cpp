@@ -68,7 +68,7 @@ Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_option
   const std::size_t n = base.wall.n_vertices();
   layers_.n_layers = 0;
   for (std::size_t i = 0; i < n; ++i) layers_.n_layers = std::max(layers_.n_layers, scale_.n(VertexId(i)));
-  if (truncation_ != Truncation::never) layers_.line_layers.resize(n);
+  if (is_truncating()) layers_.line_layers.resize(n);
   for (std::size_t i = 0; i < n && layers_.is_uniform(); ++i)
     if (scale_.n(VertexId(i)) != layers_.n_layers) layers_.line_layers.resize(n);
   for (std::size_t i = 0; i < layers_.line_layers.size(); ++i) layers_.line_layers[i] = static_cast<std::uint16_t>(scale_.n(VertexId(i)));
@@ -368,7 +368,7 @@ void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
 
 /// Layers of all lines under the envelope as it is.
 void Extruder::choose_layers(const Envelope& envelope) {
-  if (truncation_ == Truncation::never) return;
+  if (!is_truncating()) return;
   numbers_.emplace(base_, scale_, envelope, truncation_, context_);
   if (!least_layers_.empty()) numbers_->raise(least_layers_);
   layers_.line_layers = numbers_->layers();
@@ -434,7 +434,7 @@ void Extruder::extrude(Envelope& envelope) {
     }
     context_.debug("extrusion: " + std::to_string(bad.size()) + " invalid columns in round " + std::to_string(round) + ", " + std::to_string(hopeless.size()) +
                    " of them with straight lines too");
-    if (truncation_ != Truncation::never) hopeless = with_more_layers(hopeless);
+    if (is_truncating()) hopeless = with_more_layers(hopeless);
     if (!hopeless.empty()) lower_heights(hopeless, envelope);
     curving_.smooth(context_);
     some = columns_at(place_stale_lines(envelope));
@@ -445,7 +445,7 @@ void Extruder::extrude(Envelope& envelope) {
 }
 
 Extrusion Extruder::take() {
-  if (truncation_ != Truncation::never) {
+  if (is_truncating()) {
     layers_.n_layers = *std::ranges::max_element(layers_.line_layers);
     if (std::ranges::all_of(layers_.line_layers, [&](int n) { return n == layers_.n_layers; })) layers_.line_layers.clear();
   }

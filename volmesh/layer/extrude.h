@@ -55,6 +55,7 @@ class Extruder {
   double valid_share(const Envelope& envelope, std::size_t column) const;
   void choose_layers(const Envelope& envelope);
   Columns with_more_layers(const Columns& hopeless);
+  bool is_truncating() const { return truncation_ != Truncation::never || !base_.truncation.empty(); }
   int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
   Columns reduce_curving(const Envelope& envelope, const Columns& bad);
   void lower_heights(const Columns& columns, Envelope& envelope) const;
@@ -64,7 +65,7 @@ class Extruder {
   EnvelopeScale scale_;
   RunContext context_;
   Curving curving_;
-  Truncation truncation_;
+  Truncation truncation_;                    ///< of walls that do not ask for their own
   std::optional<LayerNumbers> numbers_;      ///< of the last choose_layers()
   std::vector<std::uint16_t> least_layers_;  ///< per line, where truncation spoiled a column
   LayerBlock layers_;                        ///< all lines have room for the nodes of all layers asked for here, collapsed ones too

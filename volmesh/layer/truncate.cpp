@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/constants.h"
 #include "volmesh/case/growth_law.h"
@@ -27,10 +26,10 @@ struct LineChoice {
 
 class LineTruncation {
  public:
-  LineTruncation(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation)
-      : base_(base), scale_(scale), envelope_(envelope), truncation_(truncation) {}
+  LineTruncation(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope) : base_(base), scale_(scale), envelope_(envelope) {}
 
-  LineChoice choose(VertexId v) const {
+  /// \pre truncation is not `never`
+  LineChoice choose(VertexId v, Truncation truncation) const {
     const int all = scale_.n(v);
     const double height = normal_height(base_, envelope_, v), h0 = scale_.h0(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
     const auto last = [&](int n) {
@@ -45,7 +44,7 @@ class LineTruncation {
     const int least = least_with_growth(most_growth);
     LineChoice choice;
     choice.least = first_of(least, all, [&](int n) { return last(n) <= k_most_last * regular; });
-    if (truncation_ == Truncation::always) {
+    if (truncation == Truncation::always) {
       choice.wanted = least_with_growth(std::min(most_growth, growth_for_height(h0, envelope_.target[v], all)));
       choice.thin_from = all + 1;
     } else {
@@ -72,7 +71,6 @@ class LineTruncation {
   const LayerBase& base_;
   const EnvelopeScale& scale_;
   const Envelope& envelope_;
-  Truncation truncation_;
 };
 
 /// Around fans all columns have all layers: close_fans.h makes cells of its own there.
@@ -89,28 +87,22 @@ void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<st
 
 }  // namespace
 
-Truncation truncation_of(std::string_view text) {
-  if (text == "auto") return Truncation::automatic;
-  if (text == "never") return Truncation::never;
-  if (text == "always") return Truncation::always;
-  throw_bad_argument("truncating the layer", "there is no \"" + std::string(text) + "\"", {}, "auto, never or always");
-}
-
 LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context)
     : base_(base), layers_(base.wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), asked_(layers_.size()), is_fixed_(layers_.size(), 0) {
-  const LineTruncation lines(base, scale, envelope, truncation);
+  const LineTruncation lines(base, scale, envelope);
   parallel_for(context, layers_.size(), [&](std::size_t i) {
     const VertexId v(i);
     const int all = scale.n(v);
     asked_[i] = static_cast<std::uint16_t>(all);
     LineChoice choice{all, all, all + 1};
     is_fixed_[i] = envelope.is_collapsed(v) || base.topology.outgoing(v).empty();
-    if (!is_fixed_[i] && truncation != Truncation::never) choice = lines.choose(v);
+    const Truncation own = base.truncation.empty() ? truncation : base.truncation[v];
+    if (!is_fixed_[i] && own != Truncation::never) choice = lines.choose(v, own);
     layers_[i] = static_cast<std::uint16_t>(choice.wanted);
     least_[i] = static_cast<std::uint16_t>(choice.least);
     thin_from_[i] = static_cast<std::uint16_t>(choice.thin_from);
   });
-  if (truncation == Truncation::never) return;
+  if (truncation == Truncation::never && base.truncation.empty()) return;
   keep_fans(base, scale, least_);
   for (std::size_t i = 0; i < layers_.size(); ++i) layers_[i] = std::max(layers_[i], least_[i]);
   close_downwards();

@@ -2,17 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "volmesh/case/truncation.h"
 #include "volmesh/envelope/envelope.h"
 
 namespace sterna::volmesh {
-
-enum class Truncation : std::uint8_t { never, automatic, always };
-/// \p text "auto", "never" or "always", as PrismOptions::truncate
-Truncation truncation_of(std::string_view text);
 
 /// Layers of each line under the envelope as it is, whose heights stay: with fewer layers in the same height each is taller, and the last one nearer to the
 /// tetrahedra above.
@@ -23,7 +19,8 @@ Truncation truncation_of(std::string_view text);
 /// times that height. `always`: as many as it takes to grow as a line of its full height would. `never`: none.
 ///
 /// What is left of larger steps than one is levelled by raising the lower number: that costs no height, while a full layer beside a gap would have to get low
-/// over as many edges as it has more layers. Lines of opened ridges and around them keep all layers, and so do collapsed ones (in name).
+/// over as many edges as it has more layers. Walls that ask for their own have it (LayerBase::truncation). Lines of opened ridges and around them keep all
+/// layers, and so do collapsed ones (in name).
 class LayerNumbers {
  public:
   /// `base` must outlive this.

@@ -12,16 +12,21 @@ namespace {}  // namespace
 VisibilityReport report_visibility(const LayerBase& base) {
   VisibilityReport report;
   report.angle.resize(base.visibility.size());
+  Column<VertexId, double> worst_line(base.visibility.size(), 0.0);  // of each foot
   std::vector<VertexId> hard;
   for (const VertexId v : base.visibility.ids()) {
     const double angle = std::acos(std::clamp(base.visibility[v], -1.0, 1.0));
     report.angle[v] = angle;
     report.max_angle = std::max(report.max_angle, angle);
-    for (std::size_t i = 0; i < k_visibility_limits_deg.size(); ++i)
-      if (angle > k_visibility_limits_deg[i] * k_degree) report.share_above[i] += 1.0;
+    double& of_foot = worst_line[base.ridges == nullptr || base.ridges->is_empty() ? v : base.ridges->foot[v]];
+    of_foot = std::max(of_foot, angle);
     if (angle > k_visibility_limits_deg[0] * k_degree) hard.push_back(v);
   }
-  for (double& share : report.share_above) share /= static_cast<double>(base.visibility.size());
+  const std::size_t n_given = base.ridges == nullptr || base.ridges->is_empty() ? base.visibility.size() : base.ridges->n_given_vertices;
+  for (std::size_t i = 0; i < k_visibility_limits_deg.size(); ++i) {
+    const auto n_above = std::ranges::count_if(worst_line, [&](double angle) { return angle > k_visibility_limits_deg[i] * k_degree; });
+    report.share_above[i] = static_cast<double>(n_above) / static_cast<double>(n_given);
+  }
   std::stable_sort(hard.begin(), hard.end(), [&](VertexId a, VertexId b) { return report.angle[a] > report.angle[b]; });
   hard.resize(std::min(hard.size(), k_max_places));
   for (const VertexId v : hard)

@@ -15,7 +15,7 @@ inline constexpr std::array<double, 4> k_visibility_limits_deg = {30.0, 45.0, 60
 struct VisibilityReport {
   Column<VertexId, double> angle;
   double max_angle = 0.0;
-  std::array<double, 4> share_above{};  ///< of the vertices, above k_visibility_limits_deg
+  std::array<double, 4> share_above{};  ///< of the given vertices, above k_visibility_limits_deg; of fans the worst line counts
   std::vector<ErrorPlace> hardest;      ///< the worst ten above the first of these limits
 };
 

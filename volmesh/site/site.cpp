@@ -26,11 +26,15 @@
 namespace sterna::volmesh {
 namespace {
 
+bool opens_ridges(const MeshCase& options) {
+  return options.ridges.is_on() || std::ranges::any_of(options.patches, [](const PatchRule& rule) { return rule.open_ridges == "always"; });
+}
+
 /// What wake sheets cannot be made together with.
 void require_no_others(const MeshCase& options) {
   if (options.wakes.empty()) return;
   const auto refuse = [](std::string what, std::string hint) { throw_bad_argument("making wake sheets", std::move(what), {}, std::move(hint)); };
-  if (options.ridges.is_on()) refuse("layers cannot have several normals at ridges, too", "leave wakes out, or open_ridges = \"never\"");
+  if (opens_ridges(options)) refuse("layers cannot have several normals at ridges, too", "leave wakes out, or open_ridges = \"never\"");
   if (!options.discs.empty()) refuse("there are actuator discs, too", "leave one of them out");
   if (!options.periodic.empty()) refuse("there are periodic sides, too", "leave one of them out");
 }
@@ -131,8 +135,10 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
       for (const TriangleId t : domain.wall2surface) domain.wall_weights.push_back(needles.weights[t]);
     for (TriangleId& t : domain.wall2surface) t = needles.sources[t];
   }
-  if (!domain.slits.empty() && options.ridges.is_on()) context.warn("ridges stay closed: an actuator disc ends on the wall");
-  else open_ridges(options.ridges, least_first_height(options), closed, domain, context);
+  if (!domain.slits.empty() && opens_ridges(options)) context.warn("ridges stay closed: an actuator disc ends on the wall");
+  else
+    open_ridges(options.ridges, patches_with_open_ridges(domain.wall.patches, options.ridges.is_on(), options.patches), least_first_height(options), closed,
+                domain, context);
   return domain;
 }
 
@@ -143,6 +149,7 @@ LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContex
   for (const DoubledSheets::Foot& foot : domain.sheets.feet)
     if (!foot.is_on_base) base.level.push_back(foot.sides);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
+  base.truncation = truncation_by_patches(domain.wall, truncation_of(options.prisms.truncate), options.patches);
   grow_sheet_heights(domain.sheets, options.envelope, base);
   return base;
 }

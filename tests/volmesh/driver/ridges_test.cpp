@@ -12,6 +12,7 @@
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"
 #include "volmesh/domain/open_ridges.h"
+#include "volmesh/envelope/patch_layers.h"
 #include "volmesh/stages.h"
 #include "volmesh/volume_mesh.h"
 
@@ -30,7 +31,7 @@ MeshCase wing_case(bool is_open) {
 Domain opened(const TriMesh& wall, const RidgeOptions& options, std::vector<VertexId> closed = {}) {
   Domain domain;
   domain.wall = wall;
-  open_ridges(options, 1e-3, closed, domain, k_context);
+  open_ridges(options, patches_with_open_ridges(wall.patches, options.is_on(), {}), 1e-3, closed, domain, k_context);
   return domain;
 }
 
@@ -82,7 +83,8 @@ TEST(Ridges, TooSmallAFirstHeightIsRefused) {
   for (Point& p : wall.points) p.x += 1e9;
   Domain domain;
   domain.wall = wall;
-  test::expect_error(ErrorCode::bad_argument, "too small for coordinates", [&] { open_ridges({.open_ridges = "always"}, 1e-3, {}, domain, k_context); });
+  test::expect_error(ErrorCode::bad_argument, "too small for coordinates",
+                     [&] { open_ridges({.open_ridges = "always"}, patches_with_open_ridges(wall.patches, true, {}), 1e-3, {}, domain, k_context); });
 }
 
 TEST(Ridges, MeshesOfWedgesAreValidAndKeepTheWall) {
@@ -98,6 +100,37 @@ TEST(Ridges, MeshesOfWedgesAreValidAndKeepTheWall) {
     EXPECT_EQ(all_explicit.cells.total(), open.check.cells.total());
     EXPECT_NEAR(all_explicit.dual_volume, open.check.dual_volume, 1e-11 * open.check.dual_volume);
   }
+}
+
+/// Two sharp wings beside each other, each its own patch: "wing" and "tail".
+TriMesh two_wings() {
+  TriMesh wall = sharp_wing(30.0, 8), tail = wall;
+  for (Point& p : tail.points) p.x += 4.0;
+  tail.patches = Column<PatchId, Patch>{{"tail", PatchKind::wall}};
+  append(wall, tail);
+  return wall;
+}
+
+TEST(Ridges, PatchesSayWhetherTheirsAreOpened) {
+  const TriMesh wall = two_wings();
+  const std::vector<PatchRule> wing_only = {{.names = "wing", .open_ridges = "always"}}, not_tail = {{.names = "tail", .open_ridges = "never"}};
+  const auto feet = [&](bool of_all, const std::vector<PatchRule>& rules) {
+    Domain domain;
+    domain.wall = wall;
+    open_ridges({}, patches_with_open_ridges(wall.patches, of_all, rules), 1e-3, {}, domain, k_context);
+    std::size_t n_behind = 0;
+    for (const OpenedRidges::Foot& foot : domain.ridges.feet) n_behind += foot.point.x > 3.0 ? 1 : 0;
+    return std::array{domain.ridges.feet.size(), n_behind};
+  };
+  EXPECT_EQ(feet(true, {}), (std::array<std::size_t, 2>{14, 7}));
+  EXPECT_EQ(feet(false, wing_only), (std::array<std::size_t, 2>{7, 0}));
+  EXPECT_EQ(feet(true, not_tail), (std::array<std::size_t, 2>{7, 0}));
+  MeshCase mesh_case = wing_case(false);
+  mesh_case.patches = wing_only;
+  const VolumeMeshResult mesh = volume_mesh(wall, mesh_case, k_context);
+  EXPECT_TRUE(mesh.check.is_valid());
+  EXPECT_GT(mesh.mesh.hexahedra.size(), 0u);
+  EXPECT_LT(mesh.layer.visibility.share_above[2], volume_mesh(wall, wing_case(false), k_context).layer.visibility.share_above[2]);
 }
 
 TEST(Ridges, EqualForAnyNumberOfThreads) {

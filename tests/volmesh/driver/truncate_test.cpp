@@ -155,5 +155,22 @@ TEST(Truncation, OpenedRidgesKeepTheirLayers) {
   EXPECT_GT(count_cells(result.mesh).hexahedra, 0);
 }
 
+TEST(Truncation, PatchesSayWhetherTheirLinesEndEarly) {
+  TriMesh wall = two_balls(0.2);
+  wall.patches = Column<PatchId, Patch>{{"left", PatchKind::wall}, {"right", PatchKind::wall}};
+  for (const TriangleId t : wall.triangles.ids())
+    if (corners(wall, t)[0].x > 1.0) wall.triangle_patch[t] = PatchId(1);
+  MeshCase mesh_case = ball_case("never", 30);
+  mesh_case.patches = {{.names = "right", .truncate = "auto"}};
+  const VolumeMeshResult result = volume_mesh(wall, mesh_case, k_context);
+  EXPECT_TRUE(result.check.is_valid());
+  ASSERT_EQ(result.layer.patches.size(), 2u);
+  EXPECT_EQ(result.layer.patches[0].truncated, 0.0);
+  EXPECT_GT(result.layer.patches[1].truncated, 0.0);
+  mesh_case = ball_case("auto", 30);
+  mesh_case.patches = {{.names = "*", .truncate = "never"}};
+  EXPECT_TRUE(volume_mesh(wall, mesh_case, k_context).mesh.layers.is_uniform());
+}
+
 }  // namespace
 }  // namespace sterna::volmesh
