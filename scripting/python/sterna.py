@@ -387,10 +387,11 @@ class Sterna:
         return {**json.loads(done.output), "warnings": done.warnings}
 
     def info(self, file: Path, **options: object) -> dict:
-        """`sterna info`: what a file of a surface, a mesh or a model holds, as "text"; and "manifest": what is known of how sterna made it, None where there is none."""
-        done = self._must("info", [file], options)
+        """`sterna info --json`: what a file holds: "kind" (surface, volume mesh, model), "box", "patches" with name, kind and area; of volume meshes "nodes" and "cells"; of
+        models "components", "solids", "wings" (span, areas, mean chords), "total". And "manifest": what is known of how sterna made it, None where there is none."""
+        done = self._must("info", [file], {"json": True, **options})
         manifest = self._path(f"{os.fspath(file)}.json")
-        return {"text": done.output, "manifest": _load(manifest) if manifest.is_file() else None, "warnings": done.warnings}
+        return {**json.loads(done.output), "manifest": _load(manifest) if manifest.is_file() else None, "warnings": done.warnings}
 
     def draw(self, mesh: Path, picture: Path, **options: object) -> str:
         """`sterna draw mesh -o picture.png`; gives the picture's path."""

@@ -20,13 +20,15 @@ export function lines_of(app) {
   for (const entry of app.series.cases) {
     const value = parameter(over, entry), y = column?.of(entry);
     const x = labels ? labels.indexOf(String(value)) : value;
-    if (typeof x !== "number" || (labels && x < 0) || typeof y !== "number") {
-      ++n_left_out;
+    const is_gap = typeof y !== "number";  // a failed case: the line is interrupted there
+    if (is_gap) ++n_left_out;
+    if (typeof x !== "number" || (labels && x < 0)) {
+      if (!is_gap) ++n_left_out;
       continue;
     }
     const name = by && by !== over ? `${by} ${value_text(parameter(by, entry))}` : (column?.title ?? "");
     if (!lines.has(name)) lines.set(name, []);
-    lines.get(name).push({ x, y, name: entry.name, is_bad: entry.verdict === "INVALID" });
+    lines.get(name).push({ x, y: is_gap ? null : y, name: entry.name, is_bad: entry.verdict === "INVALID" });
   }
   return { column, n_left_out, labels, lines: [...lines].map(([name, points]) => ({ name, points: points.sort((a, b) => a.x - b.x) })) };
 }
@@ -50,11 +52,11 @@ export function chart_section(app) {
   let chart = null;
   const draw = () => {
     const { column, lines, labels, n_left_out } = lines_of(app);
-    app.n_points = lines.reduce((sum, line) => sum + line.points.length, 0);
+    app.n_points = lines.reduce((sum, line) => sum + line.points.filter((point) => point.y !== null).length, 0);
     app.n_lines = lines.length;
     fill(note, n_left_out ? `${n_left_out} of ${series.cases.length} cases have no value here.` : "", lines.some((line) => line.points.some((point) => point.is_bad)) ? " A red cross is an INVALID mesh." : "", app.n_points ? "" : " Nothing to draw.");
     chart?.destroy();
-    const is_log = column?.is_log && lines.every((line) => line.points.every((p) => p.y > 0));
+    const is_log = column?.is_log && lines.every((line) => line.points.every((p) => p.y === null || p.y > 0));
     chart = new Chart(canvas, {
       type: "line",
       data: {
