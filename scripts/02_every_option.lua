@@ -93,6 +93,7 @@ local mesh = volume_mesh{ wall,
   layers = 30,
   first_height = 1e-6 * wall.length,  -- or of flow conditions: y_plus{ ... }, below
   refinement = 1.0,                 -- of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
+  family_wake = "automatic",        -- wake{ wall } where no source is given: on where refinement is given; on, off
 
   needles = {                          -- of the wall: see docs/needles.md
     split_needles = 5*deg,          -- triangles with a smaller angle are flipped and split; 0: never

@@ -256,6 +256,7 @@ void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, Su
 void complete_options(volmesh::MeshCase& options, const MeshCommand& command, const RunContext& context) {
   choose_solve_for(
       options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
+  choose_family_wake(options, is_given(command, "family", "refinement"));
   for (const auto& [name, text] : command.options)
     if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
   for (const auto& [names, of_patch] : command.patches)

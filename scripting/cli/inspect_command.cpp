@@ -33,7 +33,9 @@ OptionTable inspect_options_of_models(SurfaceRecipe& recipe, ReadCadOptions& rea
 }
 
 bool is_given(const InspectCommand& command, std::string_view name) {
-  return std::ranges::any_of(command.options, [&](const auto& option) { return option.first == name || option.first == "envelope." + std::string(name); });
+  return std::ranges::any_of(command.options, [&](const auto& option) {
+    return option.first == name || option.first == "envelope." + std::string(name) || option.first == "family." + std::string(name);
+  });
 }
 
 std::string names_of(const InspectCommand& command) {
@@ -91,6 +93,7 @@ int execute(const InspectCommand& command, const CommandContext& context) {
   set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), command.options, context);
   choose_solve_for(
       request.volume, [&](std::string_view name) { return is_given(command, name); }, "reading the options");
+  choose_family_wake(request.volume, is_given(command, "refinement"));
   if (!command.flow.empty()) request.flow = quantity_of_text("y_plus 1 " + command.flow).flow;
   if (!command.output.empty()) require_inspection_output(command.output);
   const Inspection report = is_model ? inspect_models(inputs, reading, recipe, request, context.run) : inspect_files(inputs, surface, request, context.run);

@@ -98,6 +98,16 @@ void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const Scr
   }
 }
 
+void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given) {
+  if (is_refinement_given && options.family.family_wake == volmesh::FamilyOptions{}.family_wake) options.family.family_wake = "on";
+}
+
+void choose_family_wake(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call) {
+  choose_family_wake(options, reader.is_given("family", "refinement") || std::ranges::any_of(call.session.overrides, [](const auto& entry) {
+                                return entry.first == "refinement" || entry.first == "family.refinement";
+                              }));
+}
+
 FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call) {
   const FunctionHandle* function = reader.option_function("envelope", "first_height");
   const bool is_overruled = std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, "first_height"); });

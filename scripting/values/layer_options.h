@@ -21,6 +21,12 @@ void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::
 /// \pre the options are read
 void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call);
 
+/// Members of a family have a wake, the medium one, too, whose refinement of 1 is given: sets family_wake to "on" where it is left to us.
+void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given);
+/// The same for a verb's table and the overrides of the command line.
+/// \pre the options are read
+void choose_family_wake(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call);
+
 /// The function that the table has as first_height, unless the command line gives a number; null: none.
 /// \pre the options are not read yet
 FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call);

@@ -22,7 +22,7 @@
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/wake_verbs.h"
-#include "volmesh/case/bare_wake.h"
+#include "volmesh/case/body_wake.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/layer/assemble.h"
 
@@ -188,6 +188,9 @@ class StageJson {
 
   /// Older versions did not, and made layers on walls as they were given.
   bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
+
+  /// Older versions did not, and gave members of a family no sources.
+  bool knows_family_wake() const { return json_.contains(Json::json_pointer("/options/family/family_wake")); }
 
   std::vector<volmesh::PatchRule> patch_rules() const {
     return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
@@ -416,7 +419,7 @@ namespace {
 /// What the body leaves behind is resolved by nothing but the growth of tetrahedra, unless a source asks for it.
 void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (volmesh::has_bare_wake(wall.mesh, options))
-    context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }");
+    context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }; members of a family have one");
 }
 
 /// Fewer layers than reach the size of tetrahedra leave a jump on top: said before the work, with the number that is enough. Where one request counts for all
@@ -490,6 +493,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::MeshCase options;
     if (!json.knows_needles()) options.needles.split_needles = 0.0;
+    if (!json.knows_family_wake()) options.family.family_wake = "off";
     json.read_options(all_options(wall->options, options));
     options.discs = json.discs();
     options.wakes = json.wakes();

@@ -61,7 +61,7 @@ SurfaceHandle with_inputs(const SurfaceHandle& wall, const std::vector<InputFile
 constexpr std::string_view k_classify_names = "feature_angle farfield";
 constexpr std::string_view k_classify_usage = "envelope.classify{ wall, feature_angle = 40*deg }";
 constexpr std::string_view k_initial_names =
-    "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement farfield";
+    "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement family_wake farfield";
 constexpr std::string_view k_initial_usage = "envelope.initial{ wall, class, layers = 5, first_height = 0.01, max_growth = 1.35 }";
 
 /// The wall as entry 1; for initial the classes as entry 2.
@@ -116,6 +116,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   if (table.fields.contains("patches")) options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   choose_solve_for(options, reader, call);
+  choose_family_wake(options, reader, call);
   MeshCase known = options;
   if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
   reader.require(volmesh::required_options_of(known));

@@ -155,6 +155,7 @@ ScriptValue inspect(const ScriptCall& call) {
   }
   for (const OptionTable* part : {&limits, &volume, &surface}) apply_overrides(call, *part);
   choose_solve_for(options, reader, call);
+  choose_family_wake(options, reader, call);
   if (first_heights && !given.surface) reader.add_problem("first_height: a function needs a surface as the first entry (from read_surface), not a file");
   reader.finish();
   if (!output.empty()) require_inspection_output(output);

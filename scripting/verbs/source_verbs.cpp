@@ -14,6 +14,7 @@
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/geometry_verbs.h"
+#include "volmesh/case/body_wake.h"
 
 namespace sterna::scripting {
 
@@ -181,7 +182,7 @@ ScriptValue point_value(const Vec3& p) { return std::make_shared<const ScriptTab
 ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) {
   const ScriptTable table = source_table(call);
   TableReader reader(table, call.attempted());
-  BodyWake wake;
+  volmesh::BodyWake wake;
   if (reader.items().size() > 1) reader.add_problem("takes one surface, or two points");
   reader.read_options(sterna::options_of(wake));
   Vec3 direction{1.0, 0.0, 0.0};
@@ -189,7 +190,7 @@ ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) 
   reader.finish();
   SizeSource source;
   try {
-    source = wake_behind(wall->mesh, wake, direction);
+    source = volmesh::wake_behind(wall->mesh, wake, direction);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = call.attempted();
@@ -213,7 +214,7 @@ ScriptValue make_wake(const ScriptCall& call) {
 
 std::string wake_help() {
   SourceNumbers numbers;
-  BodyWake wake;
+  volmesh::BodyWake wake;
   return options_help(options_of(numbers, k_source_kinds[5])) + "behind a surface, wake{ wall, length = 2 }:\n" + options_help(sterna::options_of(wake));
 }
 
@@ -315,45 +316,9 @@ SizeSource source_of_text(const std::string& text) {
   return source_of(table, *kind, attempted);
 }
 
-SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction) {
-  const std::string attempted = "placing a wake";
-  Box box;
-  for (const TriangleId t : wall.triangles.ids()) {
-    const PatchKind kind = wall.patches[wall.triangle_patch[t]].kind;
-    if (kind == PatchKind::inflow || kind == PatchKind::farfield)
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = attempted,
-                   .problem = "the surface has a patch of kind " + std::string(to_string(kind)) + ", so it is more than a body",
-                   .hint = "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }"});
-    if (kind != PatchKind::wall) continue;
-    for (const VertexId v : wall.triangles[t]) box.add(wall.points[v]);
-  }
-  if (box.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the surface has no walls"});
-  if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "its direction has no length"});
-  // Across the flow: sideways, which of a flow straight up is along y, and upwards.
-  const Vec3 along = normalized(direction), sideways = cross(Vec3{0.0, 0.0, 1.0}, along);
-  const Vec3 across = norm(sideways) > 0.0 ? normalized(sideways) : Vec3{0.0, 1.0, 0.0}, up = cross(along, across);
-  const auto extent = [&](const Vec3& axis) {
-    const Vec3 half = 0.5 * (box.max - box.min);
-    return std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
-  };
-  const double height = 2.0 * extent(up), body = box.longest_side();
-  constexpr double k_cells_over_height = 8.0, k_cells_over_length = 50.0;
-  SizeSource source{.kind = SourceKind::wake};
-  source.from = box.center() - extent(across) * across;
-  source.to = box.center() + extent(across) * across;
-  source.direction = along;
-  source.length = extent(along) + wake.length * body;
-  source.height = height;
-  source.spread = wake.spread;
-  source.size = is_automatic(wake.size) ? std::max(height / k_cells_over_height, body / k_cells_over_length) : wake.size;
-  source.size_end = is_automatic(wake.size_end) ? 2.0 * source.size : wake.size_end;
-  return source;
-}
-
 SizeSource wake_of_text(const std::string& text, const TriMesh& wall) {
   const std::string attempted = "wake \"" + text + "\"";
-  BodyWake wake;
+  volmesh::BodyWake wake;
   Vec3 direction{1.0, 0.0, 0.0};
   const OptionTable table = sterna::options_of(wake);
   std::istringstream words(text);
@@ -373,7 +338,7 @@ SizeSource wake_of_text(const std::string& text, const TriMesh& wall) {
     if (numbers.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three numbers"});
     direction = {numbers[0], numbers[1], numbers[2]};
   }
-  return wake_behind(wall, wake, direction);
+  return volmesh::wake_behind(wall, wake, direction);
 }
 
 ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call, *kind_named("sphere")); }

@@ -113,6 +113,26 @@ TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
   EXPECT_THAT(log_, HasSubstr("refinement 2"));
 }
 
+TEST_F(FlowScripts, members_of_a_family_have_a_wake) {
+  const std::string mesh = "volume_mesh{ read_surface 'ball.off', layers = 4, first_height = 0.01, farfield = sphere{ radius = 8 }, ";
+  const auto log_of = [&](const std::string& more, const std::vector<std::pair<std::string, std::string>>& overrides = {}) {
+    run(mesh + more + "}", overrides);
+    return log_;
+  };
+  const auto has_wake = HasSubstr("wake of a member of a family"), has_hint = HasSubstr("no source refines the wake");
+  for (const char* more : {"refinement = 1", "refinement = 'medium'", "refinement = 0.7", "family_wake = 'on'"})
+    EXPECT_THAT(log_of(more), AllOf(has_wake, Not(has_hint))) << more;
+  EXPECT_THAT(log_of("", {{"family.refinement", "1"}}), has_wake);
+  for (const char* more : {"", "refinement = 0.7, family_wake = 'off'"}) EXPECT_THAT(log_of(more), AllOf(Not(has_wake), has_hint)) << more;
+  EXPECT_THAT(log_of("refinement = 0.7, sources = { sphere{ {0, 0, 0}, radius = 2, size = 0.5 } }"), AllOf(Not(has_wake), Not(has_hint)));
+  // The same mesh in one go and through a file of steps, which does not keep sources, but what family_wake was.
+  run(mesh + "refinement = 1 }:write(" + out("whole.su2") + ")");
+  run("make_envelope{ read_surface 'ball.off', layers = 4, first_height = 0.01, farfield = sphere{ radius = 8 }, refinement = 1 }:write(" + out("e.sterna") +
+      ")");
+  run("local e = read_stages(" + out("e.sterna") + ").envelope prisms{ e, tetrahedra{ e } }:write(" + out("steps.su2") + ")");
+  EXPECT_EQ(text_of("steps.su2"), text_of("whole.su2"));
+}
+
 TEST_F(FlowScripts, wrong_functions_of_first_height_are_told_with_their_place) {
   const std::string mesh = "\nvolume_mesh{ read_surface 'ball.off', farfield = sphere{ radius = 8 }, layers = 4, first_height = ";
   EXPECT_THAT(error(mesh + "function(x, y, z) return x end }"), AllOf(HasSubstr("case.lua:2"), HasSubstr("no height"), HasSubstr("first height -")));

@@ -1,6 +1,8 @@
 // Members of a mesh family: the same mesh, finer or coarser.
 #pragma once
 
+#include <string>
+
 #include "geom/base/schema.h"
 #include "volmesh/case/mesh_step.h"
 
@@ -11,6 +13,7 @@ inline constexpr std::string_view k_family_names = "extra_coarse=0.4444444444444
 
 struct FamilyOptions {
   double refinement = 1.0;
+  std::string family_wake = "automatic";
 };
 
 }  // namespace sterna::volmesh
@@ -30,6 +33,11 @@ struct Schema<volmesh::FamilyOptions> {
                .help = "member f of a mesh family: first heights, sizes of tetrahedra, sources and farfield divided by f, f times the layers, growth to the "
                        "power 1/f; give the surface the same",
                .choices = volmesh::k_family_names},
+      Field<O>{.name = "family_wake",
+               .member = &O::family_wake,
+               .help = "wake{ wall } where no source is given, edges over f like all others, so that members differ by one factor there, too; automatic: where "
+                       "refinement is given",
+               .choices = "automatic on off"},
   };
 };
 

@@ -1,5 +1,5 @@
 // What the body leaves behind: drag feels how well it is resolved (docs/verification.md).
-#include "volmesh/case/bare_wake.h"
+#include "volmesh/case/body_wake.h"
 #include "volmesh/inspect/survey.h"
 
 namespace sterna::volmesh {

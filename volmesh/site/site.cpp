@@ -8,6 +8,7 @@
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
 #include "geom/math/measures.h"
+#include "volmesh/case/body_wake.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/cut_discs.h"
@@ -45,7 +46,7 @@ MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& cont
   require_options(required_options_of(options), "volume_mesh");
   if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
   require_no_others(options);
-  return effective_options(options, context);
+  return effective_options(with_family_wake(wall, std::move(options), context), context);
 }
 
 std::function<double(const Point&)> end_sizes(const MeshCase& options) {

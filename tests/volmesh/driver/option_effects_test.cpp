@@ -111,6 +111,7 @@ struct Change {
 
 const std::map<std::string, Change> k_changes = {
     {"family.refinement", {"1.3"}},
+    {"family.family_wake", {"on"}},
     {"needles.split_needles", {"0", "strips"}},
     {"needles.needle_budget", {"0.1", "strips"}},
     {"needles.flip_angle", {"0", "strips"}},

@@ -1,0 +1,91 @@
+#include "volmesh/case/body_wake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/base/print_text.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// As the rules of patches say, of which the last that matches counts.
+PatchKind kind_of_patch(const Patch& patch, const MeshCase& options) {
+  PatchKind kind = patch.kind;
+  for (const PatchRule& rule : options.patches)
+    if (rule.kind != PatchRule{}.kind && matches_glob(patch.name, rule.names)) kind = patch_kind_of(rule.kind, "setting the kinds of patches");
+  return kind;
+}
+
+bool is_wake_unrefined(const TriMesh& surface, const MeshCase& options) {
+  const std::string& shape = options.farfield.farfield_shape;
+  if (!options.sources.empty() || !options.wakes.empty() || shape == "none" || shape == "surface") return false;
+  bool has_walls = false;
+  for (const Patch& patch : surface.patches) {
+    const PatchKind kind = kind_of_patch(patch, options);
+    if (kind == PatchKind::inflow || kind == PatchKind::outflow || kind == PatchKind::farfield) return false;
+    has_walls |= kind == PatchKind::wall;
+  }
+  return has_walls;
+}
+
+bool wants_family_wake(const FamilyOptions& family) { return family.family_wake == "on" || (family.family_wake == "automatic" && family.refinement != 1.0); }
+
+}  // namespace
+
+SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction) {
+  const std::string attempted = "placing a wake";
+  Box box;
+  for (const TriangleId t : wall.triangles.ids()) {
+    const PatchKind kind = wall.patches[wall.triangle_patch[t]].kind;
+    if (kind == PatchKind::inflow || kind == PatchKind::farfield)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = attempted,
+                   .problem = "the surface has a patch of kind " + std::string(to_string(kind)) + ", so it is more than a body",
+                   .hint = "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }"});
+    if (kind != PatchKind::wall) continue;
+    for (const VertexId v : wall.triangles[t]) box.add(wall.points[v]);
+  }
+  if (box.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the surface has no walls"});
+  if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "its direction has no length"});
+  // Across the flow: sideways, which of a flow straight up is along y, and upwards.
+  const Vec3 along = normalized(direction), sideways = cross(Vec3{0.0, 0.0, 1.0}, along);
+  const Vec3 across = norm(sideways) > 0.0 ? normalized(sideways) : Vec3{0.0, 1.0, 0.0}, up = cross(along, across);
+  const auto extent = [&](const Vec3& axis) {
+    const Vec3 half = 0.5 * (box.max - box.min);
+    return std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+  };
+  const double height = 2.0 * extent(up), body = box.longest_side();
+  constexpr double k_cells_over_height = 8.0, k_cells_over_length = 50.0;
+  SizeSource source{.kind = SourceKind::wake};
+  source.from = box.center() - extent(across) * across;
+  source.to = box.center() + extent(across) * across;
+  source.direction = along;
+  source.length = extent(along) + wake.length * body;
+  source.height = height;
+  source.spread = wake.spread;
+  source.size = is_automatic(wake.size) ? std::max(height / k_cells_over_height, body / k_cells_over_length) : wake.size;
+  source.size_end = is_automatic(wake.size_end) ? 2.0 * source.size : wake.size_end;
+  return source;
+}
+
+bool has_bare_wake(const TriMesh& surface, const MeshCase& options) { return is_wake_unrefined(surface, options) && !wants_family_wake(options.family); }
+
+MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunContext& context) {
+  if (!wants_family_wake(options.family) || !is_wake_unrefined(surface, options)) return options;
+  const BodyWake wake;
+  TriMesh walls = surface;
+  for (Patch& patch : walls.patches) patch.kind = kind_of_patch(patch, options);
+  const SizeSource source = wake_behind(walls, wake, {1.0, 0.0, 0.0});
+  const double f = options.family.refinement;
+  context.info(
+      print_text("wake of a member of a family: edges of %.4g m, %.4g m at its end, %g body lengths behind the walls along x; sources of your own or "
+                 "family_wake = \"off\" replace it",
+                 source.size / f, source.size_end / f, wake.length));
+  options.sources.push_back(source);
+  return options;
+}
+
+}  // namespace sterna::volmesh
