@@ -49,6 +49,10 @@ struct FoamZone {
   std::vector<std::uint32_t> cells;  ///< ascending
 };
 
+/// The same with more cellZones than that of the layers.
+void write_numbered_foam(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, std::vector<FoamZone> zones,
+                         const RunContext& context);
+
 struct FoamMeshOptions {
   bool is_binary = true;
   Numbering numbering = Numbering::lines;  ///< of cells

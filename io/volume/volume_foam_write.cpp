@@ -441,9 +441,14 @@ void write_volume_foam(const HybridMesh& mesh, const std::filesystem::path& path
 }
 
 void write_numbered_foam(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context) {
+  write_numbered_foam(mesh, path, numbering, {}, context);
+}
+
+void write_numbered_foam(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, std::vector<FoamZone> zones,
+                         const RunContext& context) {
   require_foam_output(path);
   const std::filesystem::path folder_path = polymesh_folder(path), marker = marker_of(path);
-  const FoamMeshOptions options{.is_binary = !is_text_name(path), .numbering = numbering};
+  const FoamMeshOptions options{.is_binary = !is_text_name(path), .numbering = numbering, .zones = std::move(zones)};
   const FoamWriter writer(mesh, folder_path, options, context);
   AtomicFolder folder(folder_path, "faces");
   writer.write(folder.path());

@@ -149,8 +149,10 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   return json.dump(2) + "\n";
 }
 
+std::filesystem::path manifest_path(const std::filesystem::path& output) { return (output.has_filename() ? output : output.parent_path()).string() + ".json"; }
+
 void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context) {
-  io::write_whole(output.string() + ".json", manifest_json(mesh, output, context.seed()));
+  io::write_whole(manifest_path(output), manifest_json(mesh, output, context.seed()));
 }
 
 }  // namespace sterna::scripting

@@ -11,7 +11,10 @@ namespace sterna::scripting {
 /// JSON text of the manifest, schema "sterna-manifest-1".
 std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed);
 
-/// Writes "<output>.json", whole or not at all.
+/// Where the manifest of a mesh goes: NAME.json beside it, also of a folder with a slash at its end.
+std::filesystem::path manifest_path(const std::filesystem::path& output);
+
+/// Writes it there, whole or not at all.
 /// \throws Error(write_failed).
 void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context);
 

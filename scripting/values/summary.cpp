@@ -11,6 +11,7 @@
 
 #include "geom/math/constants.h"
 #include "scripting/values/layer_json.h"
+#include "scripting/values/manifest.h"
 
 namespace sterna::scripting {
 namespace {
@@ -174,7 +175,7 @@ std::string summary_text(const MeshValue& mesh) {
 std::string wrote_text(const std::vector<std::filesystem::path>& names) {
   std::string written;
   for (const auto& name : names) written += (written.empty() ? "" : ", ") + name.string();
-  return "wrote " + written + (names.size() > 1 ? ", each with a manifest beside it (.json)" : " and " + written + ".json");
+  return "wrote " + written + (names.size() == 1 ? " and " + manifest_path(names.front()).string() : ", each with a manifest beside it (.json)");
 }
 
 std::string check_summary_text(const CheckReport& report, bool tells_troubles) {

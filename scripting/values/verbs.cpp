@@ -16,6 +16,7 @@
 #include "io/volume/sterna_file.h"
 #include "scripting/lua/quantity.h"
 #include "scripting/values/flow_verbs.h"
+#include "scripting/values/foam_zones.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/manifest.h"
 #include "scripting/values/summary.h"
@@ -139,12 +140,19 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context) {
 void require_mesh_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_volume); }
 void require_surface_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_surface); }
 
+namespace {
+
+Numbering numbering_for(const io::Format& format, const WriteOptions& options) {
+  if (options.numbering != "automatic") return numbering_of(options.numbering);
+  return format.name == "OpenFOAM" ? Numbering::both : Numbering::lines;
+}
+
+}  // namespace
+
 void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path, std::string_view format_name, const WriteOptions& options,
                       const RunContext& context) {
   const io::Format& format = io::format_to_write(path, io::FormatUse::write_volume, format_name);
-  const Numbering numbering = options.numbering != "automatic" ? numbering_of(options.numbering)
-                              : format.name == "OpenFOAM"      ? Numbering::both
-                                                               : Numbering::lines;
+  const Numbering numbering = numbering_for(format, options);
   if (numbering == Numbering::lines || format.name == "sterna") return io::write_volume_file(mesh, path, context, format_name);
   // Cells that are numbered as one have an order of their own, which needs the columns; solvers with values in cells hardly feel the nodes.
   const HybridMesh numbered = renumbered(mesh, format.write_numbered ? Numbering::both : numbering, context);
@@ -161,6 +169,8 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
                       .certificate = mesh.origin ? certificate_json(mesh.origin->certificate) : std::string(),
                       .quality = mesh.check ? to_json(*mesh.check) : std::string()},
                      path, part);
+  } else if (const io::Format& format = io::format_to_write(given, io::FormatUse::write_volume, {}); format.name == "OpenFOAM") {
+    write_zoned_foam(mesh, given, numbering_for(format, options), part);
   } else {
     write_mesh_alone(mesh.mesh, given, {}, options, part);  // its slash tells a folder that is still to be made
   }

@@ -11,38 +11,16 @@
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/flow_verbs.h"
+#include "scripting/values/foam_zones.h"
 #include "scripting/values/manifest.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/case_tables.h"
 #include "scripting/verbs/foam_case.h"
-#include "volmesh/case/size_sources.h"
 
 namespace sterna::scripting {
 namespace {
 
 constexpr std::string_view k_proof = "system/controlDict";  ///< of a case
-
-/// Cells whose middle lies in a region of short edges: for cellZones, as sources of momentum and for pictures.
-std::vector<io::FoamZone> zones_of(const HybridMesh& mesh, const std::vector<volmesh::SizeSource>& sources) {
-  std::vector<io::FoamZone> zones;
-  for (const volmesh::SizeSource& source : sources) {
-    if (volmesh::volume_of(source) <= 0.0) continue;
-    // The size at a place is that of the region inside of it only, where sizes grow so fast that everything outside is larger.
-    constexpr double k_steep = 1e6;
-    io::FoamZone zone{.name = "source_" + std::to_string(zones.size() + 1) + "_" + std::string(to_string(source.kind)), .cells = {}};
-    const double largest = std::max(source.size, source.size_end) * (1.0 + 1e-9);
-    std::uint32_t number = 0;
-    for_each_cell(mesh, [&](const Cell& cell) {
-      Vec3 middle;
-      for (const NodeId node : cell.span()) middle += mesh.points[node];
-      middle = (1.0 / static_cast<double>(cell.span().size())) * middle;
-      if (volmesh::size_of(source, middle, k_steep) <= largest) zone.cells.push_back(number);
-      ++number;
-    });
-    zones.push_back(std::move(zone));
-  }
-  return zones;
-}
 
 /// \param mesh as the solver is to see it, \param made where it comes from
 void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& files, const FoamOptions& options, const std::filesystem::path& path,
@@ -50,7 +28,7 @@ void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& f
   const Numbering numbering = numbering_of(options.numbering);
   // Nodes by lines also where cells are not: what the mesh knows of its columns stays, and solvers with values in cells hardly feel the nodes.
   const HybridMesh numbered = renumbered(mesh, numbering == Numbering::lines ? numbering : Numbering::both, context);
-  const auto zones = zones_of(numbered, made.origin ? made.origin->options.sources : std::vector<volmesh::SizeSource>{});
+  const auto zones = zones_of_sources(numbered, made.origin ? made.origin->options.sources : std::vector<volmesh::SizeSource>{});
   io::AtomicFolder folder(path, k_proof);
   const std::filesystem::path polymesh = folder.path() / "constant" / "polyMesh";
   std::filesystem::create_directories(polymesh);

@@ -149,6 +149,15 @@ TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
   EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("photos") + ", flow{ reynolds = 100, length = 2 } }")), HasSubstr("something else"));
 }
 
+TEST_F(FoamCases, MeshesAloneHaveTheZonesOfSources) {
+  for (const char* numbering : {"both", "lines"}) {
+    run(with_mesh("m:write{ " + at("zoned/") + ", numbering = '" + numbering + "' }"));
+    EXPECT_THAT(text_of("zoned/constant/polyMesh/cellZones"), AllOf(HasSubstr("layers"), HasSubstr("source_1_sphere"))) << numbering;
+    EXPECT_THAT(log_, HasSubstr("zoned.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "zoned.json"));
+  }
+}
+
 TEST_F(FoamCases, MistakesAreToldTogetherAtTheirLine) {
   const std::string told = error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, model = 'kEpsilon', taks = 3 }"));
   EXPECT_THAT(told, AllOf(HasSubstr("case.lua:2: mesh:foam_case"), HasSubstr("kOmegaSST"), HasSubstr("did you mean \"tasks\"?")));
