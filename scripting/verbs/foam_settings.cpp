@@ -143,7 +143,11 @@ class FoamSettings {
         "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n" +
         (is_transonic() ? "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n"
                           "gradSchemes { default cellLimited pointCellsLeastSquares 1; }\n\n"
-                        : "gradSchemes { default pointCellsLeastSquares; }\n\n");
+         : s_.is_turbulent && !s_.is_compressible ? "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a "
+                                                    "sharp trailing edge become unstable after 100 "
+                                                    "to 200 iterations.\n"
+                                                    "gradSchemes { default pointCellsLeastSquares; grad(p) Gauss linear; }\n\n"
+                                                  : "gradSchemes { default pointCellsLeastSquares; }\n\n");
     text +=
         "// Second order upwind for the velocity. Component by component, laminar flow has it best (along its steepest direction a coarse sphere's drag is 2.5 "
         "% "
@@ -196,15 +200,13 @@ class FoamSettings {
             // Without a second solution for the pressure a half M6 became unstable after 150 iterations: faces above 80 degrees before its trailing edge.
             (s_.is_turbulent && !s_.is_compressible ? ";\n    nNonOrthogonalCorrectors 1;\n" : ";\n    nNonOrthogonalCorrectors 0;\n") + limits + reference +
             "    residualControl\n    {\n" + controls + "    }\n}\n\n";
-    return text +
-           (s_.is_compressible
-                ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
-                : std::string(
-                      s_.model == "SpalartAllmaras"
-                          ? "// nuTilda and the velocity in the buffer layer swing a little from one iteration to the next, and residuals end at 1e-6 to "
-                            "1e-5. Once the flow is\n// there, 0.4 for nuTilda ends that; from the start on it makes sharp trailing edges unstable.\n"
-                          : "") +
-                      "relaxationFactors\n{\n    equations { p 1; U 0.8; \"(nuTilda|k|omega)\" 0.7; }\n}\n");
+    return text + (s_.is_compressible
+                       ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
+                       : std::string(s_.model == "SpalartAllmaras"
+                                         ? "// At 0.7 for nuTilda, that and the velocity in the buffer layer swing from one iteration to the "
+                                           "next for ever.\n"
+                                         : "") +
+                             "relaxationFactors\n{\n    equations { p 1; U 0.8; nuTilda 0.4; \"(k|omega)\" 0.7; }\n}\n");
   }
 
   std::string temperature_limits() const {
