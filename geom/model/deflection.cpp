@@ -371,18 +371,24 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
 
 std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections) {
   const WingSpan span(wing);
-  constexpr double k_margin = 1.02;  // a fairing is a share of the chord at its surface's ends, which move
-  for (Deflection& a : deflections)
-    for (Deflection& b : deflections) {
-      if (&a == &b || is_open(a) || is_open(b) || !share_an_edge(a, b) || !(is_bending(a) || is_bending(b))) continue;
-      const Reach p = reach_of(a, span), q = reach_of(b, span);
-      const double fade_a = is_bending(a) ? k_margin * p.fade : 0.0, fade_b = is_bending(b) ? k_margin * q.fade : 0.0;
-      const double missing = (p.to + fade_a) - (q.from - fade_b) + k_same_span;
-      if (!(p.from < q.from && p.to < q.to) || missing <= 0.0) continue;
-      const double share = is_bending(a) && is_bending(b) ? 0.5 : 1.0;
-      if (is_bending(a)) draw_in(a, false, p.to - share * missing);
-      if (is_bending(b)) draw_in(b, true, q.from + share * missing);
-    }
+  constexpr int k_rounds = 8;  // a fairing is a share of the chord at its surface's ends, which move
+  // What stands beside the ends of a surface: its fairing, or the gap beside a part of its own; nothing beside a patch.
+  const auto beside = [](const Deflection& d, const Reach& reach) { return is_open(d) ? reach.end_gap : is_bending(d) ? reach.fade : 0.0; };
+  bool is_tight = true;
+  for (int round = 0; round < k_rounds && is_tight; ++round) {
+    is_tight = false;
+    for (Deflection& a : deflections)
+      for (Deflection& b : deflections) {
+        const bool moves_a = is_bending(a) || is_open(a), moves_b = is_bending(b) || is_open(b);
+        if (&a == &b || !share_an_edge(a, b) || !(moves_a || moves_b)) continue;
+        const Reach p = reach_of(a, span), q = reach_of(b, span);
+        const double missing = (p.to + beside(a, p)) - (q.from - beside(b, q)) + k_same_span;
+        if (!(p.from < q.from && p.to < q.to) || missing <= 0.0) continue;
+        const double share = moves_a && moves_b ? 0.5 : 1.0;
+        if (moves_a) is_tight = draw_in(a, false, p.to - share * missing - k_same_span) || is_tight;
+        if (moves_b) is_tight = draw_in(b, true, q.from + share * missing + k_same_span) || is_tight;
+      }
+  }
   return deflections;
 }
 

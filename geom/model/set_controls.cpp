@@ -32,6 +32,7 @@ class ControlSetter {
   Aircraft set(const std::vector<ControlSetting>& settings) {
     split_segments(settings);
     for (const ControlSetting& setting : settings) ask(setting);
+    join_segments();
     for (const Wing& wing : result_.wings) turn(wing);
     return std::move(result_);
   }
@@ -48,6 +49,7 @@ class ControlSetter {
   /// Surfaces that the controls asked for move by segments, as a surface for each.
   void split_segments(const std::vector<ControlSetting>& settings) {
     std::set<std::string> moved;
+    for (const ControlSetting& setting : settings) moved.insert(setting.names);  // segments have names of their own
     for (const ControlSetting& setting : settings)
       if (const Control* control = is_surface(setting.names) ? nullptr : control_of(setting.names))
         for (const ControlParticipation& p : control->participations) moved.insert(p.segment);
@@ -64,6 +66,7 @@ class ControlSetter {
         surfaces.push_back(surface);
         surfaces.back().name = segment_name(surface.name, i);
         surfaces.back().hinge = {surface.hinge[i], surface.hinge[i + 1]};
+        segments_[surfaces.back().name] = {surface.name, n};
       }
     }
     result_.control_surfaces = std::move(surfaces);
@@ -113,6 +116,37 @@ class ControlSetter {
                    "there are " + all);
   }
 
+  /// Segments beside each other that turn alike are one surface again; all of them together have their surface's name.
+  void join_segments() {
+    std::vector<ControlSurface> joined;
+    std::map<std::string, std::string> renamed;  // the first segment of a row that is the whole surface
+    for (const ControlSurface& surface : result_.control_surfaces) {
+      const auto asked = asked_.find(surface.name), before = joined.empty() ? asked_.end() : asked_.find(joined.back().name);
+      const auto segment = segments_.find(surface.name), other = joined.empty() ? segments_.end() : segments_.find(joined.back().name);
+      const bool are_alike = asked == asked_.end() ? before == asked_.end()
+                                                   : before != asked_.end() && asked->second.angle == before->second.angle &&
+                                                         asked->second.setting->gap == before->second.setting->gap &&
+                                                         asked->second.setting->fairing == before->second.setting->fairing;
+      if (segment == segments_.end() || other == segments_.end() || segment->second.first != other->second.first || !are_alike) {
+        joined.push_back(surface);
+        continue;
+      }
+      joined.back().hinge.push_back(surface.hinge.back());
+      asked_.erase(surface.name);
+      if (joined.back().hinge.size() == segment->second.second + 1) renamed[joined.back().name] = segment->second.first;
+    }
+    for (ControlSurface& surface : joined) {
+      const auto name = renamed.find(surface.name);
+      if (name == renamed.end()) continue;
+      if (auto asked = asked_.extract(surface.name)) {
+        asked.key() = name->second;
+        asked_.insert(std::move(asked));
+      }
+      surface.name = name->second;
+    }
+    result_.control_surfaces = std::move(joined);
+  }
+
   /// The wing's deflections, and patches of its other surfaces.
   void turn(const Wing& wing) {
     std::vector<Deflection> all;
@@ -141,7 +175,8 @@ class ControlSetter {
   }
 
   Aircraft result_;
-  std::map<std::string, Asked> asked_;  ///< by surface
+  std::map<std::string, Asked> asked_;                                   ///< by surface
+  std::map<std::string, std::pair<std::string, std::size_t>> segments_;  ///< surface of a segment, and how many it has
 };
 
 }  // namespace

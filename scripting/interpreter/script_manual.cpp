@@ -31,7 +31,7 @@ constexpr std::string_view k_setup =
     R"(body = fuselage{ name = "body", along = "smooth", frames = { { x = 0, diameter = 0.4 }, { x = 4, diameter = 1.2 }, { x = 8, diameter = 0.4 } } }
 main_wing = wing{ name = "wing", symmetric = true, position = {3, 0, 0}, sections = { { y = 0, chord = 2, airfoil = "naca2412" }, { y = 5, chord = 1 } } }
 fin = wing{ name = "fin", position = {6, 0, 0}, trailing_edge = 0, sections = { { chord = 2, airfoil = "naca0012" }, { z = 2, chord = 1 } } }
-fin:control{ "rudder", from = {0.2, 0.7}, to = {0.9, 0.7} }
+fin:control{ "Rudder", from = {0.2, 0.7}, to = {0.9, 0.7} }
 engine = nacelle{ name = "engine", symmetric = true, position = {3, 2, -0.9}, length = 1.2, diameter = 0.6 }
 model = box{ {0, 0, 0}, {1, 1, 1}, name = "Body" }
 sting_model = box{ {0.9, 0.4, 0.4}, {2, 0.6, 0.6}, name = "sting" }

@@ -194,8 +194,8 @@ std::string check_summary_text(const CheckReport& report, bool tells_troubles) {
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
   const bool is_own = mesh.origin->tetra_engine == "sterna";
   return fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest; memory {:.0f} MB at most here, {:.0f} MB in the {}",
-                     measure.wall_seconds, measure.threads, mesh.origin->tetra_engine_seconds, mesh.origin->tetra_engine, rest_seconds(mesh, measure),
-                     peak_memory_bytes() / k_bytes_per_mb, mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb,
+                     measure.wall_seconds, measure.threads, mesh.origin->tetra_engine_seconds, is_own ? "the own engine" : mesh.origin->tetra_engine,
+                     rest_seconds(mesh, measure), peak_memory_bytes() / k_bytes_per_mb, mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb,
                      is_own ? "engine's arrays" : "engine's process");
 }
 

@@ -93,7 +93,7 @@ namespace {
 // ---- Readers -------------------------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_read_cad_usage = "read_cad \"model.step\"  or  read_cad{ \"model.igs\", unit = inch }";
-constexpr std::string_view k_read_smx_usage = "read_smx \"widebody.smx\"  or  read_smx{ \"widebody.smx\", deflections = { rudder = 5*deg } }";
+constexpr std::string_view k_read_smx_usage = "read_smx \"widebody.smx\"  or  read_smx{ \"widebody.smx\", deflections = { Rudder = 5*deg } }";
 constexpr std::string_view k_read_cpacs_usage = "read_cpacs \"d150.xml\"  or  read_cpacs{ \"d150.xml\", deflections = { [\"Flap*\"] = 10*deg } }";
 
 ScriptValue read_cad_verb(const ScriptCall& call) {

@@ -89,7 +89,7 @@ constexpr std::string_view k_deform_usage =
     "0, 0, 0.1}, {0, 0, 1, 0, 0, 0}}, kernel = \"thin_plate\" }";
 constexpr std::string_view k_write_usage = "model:write(\"a.step\", \"a.igs\", \"a.brep\")  or  model:write{ \"a.step\", step_schema = \"ap242\" }";
 constexpr std::string_view k_kinds_usage = "model:kinds{ [\"Body*\"] = \"slip\" }";
-constexpr std::string_view k_deflect_model_usage = "airliner:deflect{ [\"rud*\"] = { angle = 5*deg, gap = \"sealed\" } }";
+constexpr std::string_view k_deflect_model_usage = "airliner:deflect{ [\"Rud*\"] = { angle = 5*deg, gap = \"sealed\" } }";
 constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\" }";
 
 /// What a model was described by does not describe it any more.

@@ -16,7 +16,8 @@ namespace {
 
 void report_welding(StitchReport& report) {
   if (report.n_unused_vertices > 0) report.messages.push_back("dropped " + count_of(report.n_unused_vertices, "unused vertex", "unused vertices"));
-  if (report.n_welded_exact > 0)
+  const bool is_loose = report.n_vertices_read == 3 * report.n_triangles_read;  // STL: every triangle has corners of its own
+  if (report.n_welded_exact > 0 && !is_loose)
     report.messages.push_back("welded " + count_of(report.n_welded_exact, "vertex", "vertices") + " to others with the same coordinates");
 }
 

@@ -438,11 +438,12 @@ TEST(SetControls, neighbours_give_each_other_room_and_stay_closed) {
   ASSERT_EQ(turned.deflections.size(), 3u);
   const auto of = [&](const std::string& name) { return *std::ranges::find(turned.deflections, name, [](const Deflection& d) { return d.surface.name; }); };
   // A fairing of a tenth of the chord of 2 m is a sixtieth of the span of 12 m: both are drawn in by one, the outer one by a whole one beside the tab.
-  EXPECT_NEAR(of("Inner").surface.hinge.back().span, 0.25 - 1.02 / 60.0, 1e-6);
-  EXPECT_NEAR(of("Outer").surface.hinge.front().span, 0.25 + 1.02 / 60.0, 1e-6);
-  EXPECT_NEAR(of("Outer").surface.hinge.back().span, 0.4 - 1.02 / 60.0, 1e-6);
+  const double fairing = 1.0 / 60.0;
+  EXPECT_NEAR(of("Inner").surface.hinge.back().span, 0.25 - fairing, 1e-6);
+  EXPECT_NEAR(of("Outer").surface.hinge.front().span, 0.25 + fairing, 1e-6);
+  EXPECT_NEAR(of("Outer").surface.hinge.back().span, 0.4 - fairing, 1e-6);
   EXPECT_EQ(of("Tab").surface.hinge.front().span, 0.4);
-  EXPECT_NEAR(of("Inner").surface.hinge.back().chord, 0.7 + 0.1 * (0.15 - 1.02 / 60.0) / 0.15, 1e-6);  // on its line
+  EXPECT_NEAR(of("Inner").surface.hinge.back().chord, 0.7 + 0.1 * (0.15 - fairing) / 0.15, 1e-6);  // on its line
   const Model model = make_components(turned, RunContext());
   EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
   EXPECT_GT(area_of(model, "Inner", FaceRole::control), 1.0);
@@ -464,6 +465,21 @@ TEST(SetControls, controls_of_the_bjet_move_segments_with_their_factors) {
   const Model model = make_components(turned, RunContext());
   for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-5) << model.solids[s].name;
   EXPECT_EQ(with_controls_set(bjet, {}).deflections, bjet.deflections);
+}
+
+TEST(SetControls, segments_that_turn_alike_are_one_surface) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft plane = read_smx(test::shared_data() / "smx" / "widebody.smx", RunContext()).aircraft;
+  for (const auto& [control, expected] : {std::pair{"LowSpeedRudder", "Rudder"}, std::pair{"HighSpeedAileron", "RightAileronSegment0"},
+                                          std::pair{"LowSpeedAileron", "RightAileronSegment2"}, std::pair{"RightAileronSegment1", "RightAileronSegment1"}})
+    for (const ControlGap gap : {ControlGap::sealed, ControlGap::open}) {
+      SCOPED_TRACE(std::string(control) + (gap == ControlGap::open ? ", open" : ", sealed"));
+      if (gap == ControlGap::open && std::string_view(control) == "LowSpeedRudder") continue;  // it reaches the tip
+      const Aircraft turned = with_controls_set(plane, {{.names = control, .angle = 0.2, .gap = gap}});
+      EXPECT_TRUE(std::ranges::any_of(turned.deflections, [&](const Deflection& d) { return d.surface.name == expected && d.angle != 0.0; }));
+      const Model model = make_components(turned, RunContext());
+      for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-4) << model.solids[s].name;
+    }
 }
 
 TEST(SetControls, what_cannot_be_is_refused_with_the_names_that_there_are) {

@@ -105,7 +105,7 @@ std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGrou
       if ((", " + flow).find(", " + option.name + " = ") != std::string::npos) return {verb_of_flow->second + flow + " }"};
   }
   if (group.title.starts_with("deflections = {")) {
-    const std::string settings = " rudder = { " + (option.name == "angle" ? "" : std::string("angle = 5*deg, ")) + assignment + " } }";
+    const std::string settings = " Rudder = { " + (option.name == "angle" ? "" : std::string("angle = 5*deg, ")) + assignment + " } }";
     if (verb.name == "model:deflect") return {"airliner:deflect{" + settings};
     return {std::string(verb.name) + "{ " + (verb.name == "read_smx" ? "'widebody.smx'" : "'d150.xml'") + ", deflections = {" + settings + " }"};
   }
