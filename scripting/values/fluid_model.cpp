@@ -216,14 +216,21 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
                  .problem = fmt::format("there are {} tunnels", solids.containers.size()),
                  .hint = "one closed container holds the fluid"});
   if (solids.bodies.empty()) return all;
+  std::vector<std::string> passing;  // "sting" through "outflow"
   const auto may_pass = [&](const cad::Overhang& overhang) {
-    return overhang.kind == ComponentKind::sting || std::ranges::any_of(all.through, [&](const std::string& pattern) {
-             return matches_glob(overhang.component, pattern) || matches_glob(overhang.face, pattern);
-           });
+    const bool is_declared = overhang.kind == ComponentKind::sting || std::ranges::any_of(all.through, [&](const std::string& pattern) {
+                               return matches_glob(overhang.component, pattern) || matches_glob(overhang.face, pattern);
+                             });
+    if (const std::string text = "\"" + overhang.component + "\" through \"" + overhang.wall + "\""; is_declared && !std::ranges::count(passing, text))
+      passing.push_back(text);
+    return is_declared;
   };
   FluidDomain fluid = cad::fluid_domain(solids.containers.front(), solids.bodies, {}, context, may_pass);
   std::string text = fmt::format("fluid: {:.6g} m^3 of {:.6g} m^3", fluid.report.volume, fluid.report.container_volume);
-  if (!fluid.report.cut.empty())
+  if (!passing.empty()) {
+    text += "; passes: ";
+    for (std::size_t i = 0; i < passing.size(); ++i) text += (i == 0 ? "" : ", ") + passing[i];
+  } else if (!fluid.report.cut.empty())
     text += "; " + names_text(fluid.report.cut) + (fluid.report.cut.size() == 1 ? " passes" : " pass") + " through the tunnel's faces";
   if (!fluid.report.inside.empty()) text += "; " + inside_text(fluid.report.inside);
   for (const UniteTry& attempt : fluid.report.tries)

@@ -21,7 +21,8 @@ namespace sterna::volmesh {
 namespace {
 
 /// Of the size field: a third more tetrahedra than there are in the mean (docs/tetrahedra.md). What is not used costs no memory.
-constexpr double k_recovery_ends = 0.2, k_refinement_ends = 0.97;  ///< shares of the time
+// Shares of the time: before the recovery the sizes are made, on one thread with nothing beside it.
+constexpr double k_begins = 0.15, k_begins_alone = 0.45, k_recovery = 0.12, k_refinement_ends = 0.97;
 constexpr double k_places_per_leaf = 40.0;
 constexpr double k_most_places = 5e7;  ///< to begin with
 
@@ -152,9 +153,10 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
   EngineOutcome outcome;
   std::vector<std::string> failures;
   const Deadline deadline(options.time_limit, context);
+  const double begins = context.threads() == 1 ? k_begins_alone : k_begins, refinement_begins = begins + k_recovery;
   try {
     const auto start = std::chrono::steady_clock::now();
-    std::optional<tets::TetMesh> mesh = recover_here(input, failures, deadline.context().part("recovery", 0.0, k_recovery_ends));
+    std::optional<tets::TetMesh> mesh = recover_here(input, failures, deadline.context().part("recovery", begins, refinement_begins));
     if (mesh) {
       outcome.result.emplace().engine_seconds = seconds_since(start);
     } else {
@@ -165,7 +167,7 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
     }
     TetraResult& result = *outcome.result;
     result.failures.insert(result.failures.begin(), failures.begin(), failures.end());
-    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, result, deadline.context().part("refinement", k_recovery_ends, k_refinement_ends)))
+    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, result, deadline.context().part("refinement", refinement_begins, k_refinement_ends)))
       return over_limit("out of memory: the limit is " + rounded(options.memory_limit / 1e6, "MB"), "memory_limit");
     if (!is_automatic(options.max_new_points) && static_cast<double>(result.new_points.size()) > options.max_new_points)
       return failed(FailureKind::deterministic, {.code = ErrorCode::tetra_engine_failed,

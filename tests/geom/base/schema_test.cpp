@@ -61,7 +61,7 @@ TEST(Schema, AUnitOfAnotherDimensionIsAnError) {
     }
     return std::string("none");
   };
-  EXPECT_NE(message("first_height", "12deg").find("envelope.first_height: \"12deg\" is an angle, expected a length (m, mm, cm, inch, in, ft)"),
+  EXPECT_NE(message("first_height", "12deg").find("envelope.first_height: \"12deg\" is an angle, expected a length (m, mm, um, cm, inch, in, ft)"),
             std::string::npos)
       << message("first_height", "12deg");
   EXPECT_NE(message("feature_angle", "3mm").find("is a length, expected an angle (deg, rad)"), std::string::npos);

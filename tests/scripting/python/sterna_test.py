@@ -172,7 +172,7 @@ class Program(Case):
 class Progresses(Case):
     def test_progress_and_log_arrive(self):
         steps, lines = [], []
-        sterna.Sterna(PROGRAM, folder=self.folder, progress=steps.append, log=lines.append).mesh(BOX, "box.su2", layers=3, first_height=1e-3)
+        sterna.Sterna(PROGRAM, folder=self.folder, progress=steps.append, log=lines.append).mesh(BOX, "box.su2", layers=3, first_height=1e-3, size_growth=1.06, farfield_radius=50)  # half a second: time for progress
         self.assertTrue(steps)
         self.assertTrue(all(0.0 <= step.share <= 1.0 for step in steps))
         self.assertEqual([step.share for step in steps], sorted(step.share for step in steps))
