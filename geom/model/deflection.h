@@ -29,8 +29,8 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface);
 /// more than half of it
 Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections);
 
-/// The same with ends drawn in where fairings and end gaps of neighbours (or one of them and a patch) would overlap: by half of what is missing each, a patch not
-/// at all. Hinges stay on their lines. What still overlaps `deflected` refuses.
+/// The same with ends drawn in where fairings and end gaps of neighbours (or one of them and a patch) would overlap: by half of what is missing each, a patch
+/// not at all. Hinges stay on their lines. What still overlaps `deflected` refuses.
 std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections);
 
 /// The deflection's image: its name as image_name says, its angle as `other_side` says (none: no angle); the hinge as it is.

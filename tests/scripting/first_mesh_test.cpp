@@ -37,7 +37,8 @@ class FirstMesh : public testing::Test {
 TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   const ProcessResult result = mesh_box("box.su2", {"-o", "box.vtu", "--stats", "stats.json"});
   ASSERT_EQ(result.status, k_exit_success) << result.errors;
-  for (const char* part : {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in the own engine, ", "memory", "wrote box.su2"})
+  for (const char* part :
+       {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in the own engine, ", "memory", "wrote box.su2"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
   // It has a FAIL, so there is much to tell, in few lines: the worst place and what to do.
   EXPECT_LE(std::count(result.errors.begin(), result.errors.end(), '\n'), 12) << result.errors;

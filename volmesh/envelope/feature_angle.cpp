@@ -85,7 +85,8 @@ double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& option
       context.debug("feature angle " + degrees_text(angle) + ": the surface mesh turns by up to " + degrees_text(smooth_angle) + " where the model is smooth");
       return angle;
     }
-    context.debug("the surface mesh turns by " + degrees_text(smooth_angle) + " where the model is smooth, too much for a feature angle");  // its mesher has warned
+    context.debug("the surface mesh turns by " + degrees_text(smooth_angle) +
+                  " where the model is smooth, too much for a feature angle");  // its mesher has warned
   }
   const double angle = middle_of_gap(base, context);
   context.debug("feature angle " + degrees_text(angle) + ", the gap in the histogram of dihedral angles");
