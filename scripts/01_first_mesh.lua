@@ -23,4 +23,5 @@ mesh:check()
 -- look at it in a browser.
 mesh:write("first_mesh.su2", "first_mesh.vtu")
 draw{ mesh, "first_mesh.png", cut = "y=-2.5", focus = "3.3,-2.2,0 radius=2.2", view = "215 25" }
-report{ mesh, "first_mesh.html" }
+local has_page, why = pcall(report, { mesh, "first_mesh.html" })
+if not has_page then print("no page: " .. tostring(why)) end             -- a build that could not reach npm has none
