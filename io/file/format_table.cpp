@@ -272,6 +272,8 @@ const Format& format_of(const std::filesystem::path& path) {
   return *candidates.front();
 }
 
+bool is_known_format(const std::filesystem::path& path) { return !formats_of_name(path).empty(); }
+
 const Format& format_to_write(const std::filesystem::path& path, FormatUse use, std::string_view name) {
   const std::string attempted = "writing " + path.string();
   const std::string what = use == FormatUse::write_surface ? "surface" : "volume mesh";

@@ -57,6 +57,8 @@ std::span<const Format> formats();
 /// begins with. A file that cannot be opened, or that is none of them, goes to the first of them: its reader says what it misses.
 /// \throws Error(unsupported_format) with the list of known extensions.
 const Format& format_of(const std::filesystem::path& path);
+/// Whether format_of knows the extension.
+bool is_known_format(const std::filesystem::path& path);
 
 /// The format to write `path` in: the first of that extension that writes surfaces (volumes), or the one of that name (case-insensitive), whatever the
 /// extension.

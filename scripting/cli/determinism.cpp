@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -18,6 +16,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
+#include "io/output/scratch_folder.h"
 #include "scripting/series/case_status.h"
 #include "scripting/series/child_process.h"
 #include "scripting/terminal/exit_status.h"
@@ -31,35 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds k_pause{5};         ///< between two looks at a run
 constexpr std::chrono::milliseconds k_stop_grace{800};  ///< a run that was asked to stop gets so long; Ctrl-C shall be over in a second
-constexpr std::size_t k_n_free_letters = 6;             ///< at the end of a name that mkdtemp completes
 constexpr std::size_t k_quoted = 2000;                  ///< bytes of a run's output for a message
 constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes that are compared at a time
-
-/// A folder of its own below that of temporary files (TMPDIR); removed with the object unless it is kept.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::string name = (fs::temp_directory_path() / ("sterna-determinism-" + std::string(k_n_free_letters, 'X'))).string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw Error({.code = ErrorCode::write_failed,
-                   .attempted = "making a folder for the runs",
-                   .problem = name + ": " + std::strerror(errno),
-                   .hint = "the environment's TMPDIR names another place"});
-    path_ = name;
-  }
-  ~WorkFolder() {
-    std::error_code ignored;  // what cannot be removed stays, as temporary files do
-    if (!is_kept_) fs::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-  void keep() { is_kept_ = true; }
-
- private:
-  fs::path path_;
-  bool is_kept_ = false;
-};
 
 std::string threads_text(int threads) { return std::to_string(threads) + (threads == 1 ? " thread" : " threads"); }
 
@@ -240,7 +212,7 @@ std::string to_json(const DeterminismReport& report) {
 int execute(const DeterminismCommand& command, const CommandContext& context) {
   require_usable(command);
   DeterminismReport report{.script = command.script.string(), .threads = command.threads, .files = {}, .left_out = {}, .kept = {}};
-  WorkFolder work;
+  io::ScratchFolder work("determinism");
   const auto folder_of = [&](std::size_t i) { return work.path() / ("run" + std::to_string(i + 1) + "_threads" + std::to_string(command.threads[i])); };
   for (std::size_t i = 0; i < command.threads.size(); ++i) {
     const int threads = command.threads[i];

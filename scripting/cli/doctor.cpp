@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "io/output/scratch_folder.h"
 #include "scripting/interpreter/script_run.h"
 #include "scripting/report/report_page.h"
 #include "scripting/terminal/exit_status.h"
@@ -121,31 +122,12 @@ Finding browser() {
   return {.what = "browser", .health = Health::poor, .text = "no xdg-open", .remedy = "sterna view then only says its address; xdg-utils has it"};
 }
 
-/// A folder that goes with its contents.
-class ScratchFolder {
- public:
-  ScratchFolder() : path_((fs::temp_directory_path() / "sterna-doctor-XXXXXX").string()) {
-    if (!mkdtemp(path_.data()))
-      throw Error({.code = ErrorCode::write_failed, .attempted = "sterna doctor", .problem = "no folder can be made in " + fs::temp_directory_path().string()});
-  }
-  ~ScratchFolder() {
-    std::error_code failure;
-    fs::remove_all(path_, failure);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 /// A box in a sphere: CAD, triangles, layers, tetrahedra, proof, file.
 Finding tiny_mesh(const std::string& engine, const CommandContext& context) {
   const std::string what = "engine " + engine;
   const bool is_needed = engine == k_engines.front();
   try {
-    const ScratchFolder folder;
+    const io::ScratchFolder folder("doctor");
     const fs::path script = folder.path() / "doctor.lua";
     std::ofstream(script) << "local m = volume_mesh{ surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.4 }, layers = 4, first_height = 0.01,\n"
                              "  farfield = sphere{ radius = 8 }, tetrahedra = { engine = \""

@@ -1,23 +1,9 @@
 #include "scripting/report/report_page.h"
 
+#include "scripting/report/embedded_text.h"
+
 #ifdef STERNA_REPORT_PAGE
-
-// The assembler takes the bytes in as they are: no generated source, no limit on the length of literals.
-asm(".pushsection .rodata\n"
-    "k_sterna_report_page_begin:\n"
-    ".incbin \"" STERNA_REPORT_PAGE
-    "\"\n"
-    "k_sterna_report_page_end:\n"
-    ".byte 0\n"
-    ".popsection\n"
-    ".globl k_sterna_report_page_begin\n"
-    ".globl k_sterna_report_page_end\n");
-
-extern "C" {
-extern const char k_sterna_report_page_begin[];
-extern const char k_sterna_report_page_end[];
-}
-
+STERNA_EMBED_TEXT(k_sterna_report_page_begin, k_sterna_report_page_end, STERNA_REPORT_PAGE)
 #endif
 
 namespace sterna::scripting {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -24,6 +23,7 @@
 #include "scripting/values/wake_verbs.h"
 #include "volmesh/case/body_wake.h"
 #include "volmesh/case/layer_choice.h"
+#include "volmesh/case/thin_layers.h"
 #include "volmesh/layer/assemble.h"
 
 namespace sterna::scripting {
@@ -422,37 +422,13 @@ void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, co
     context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }; members of a family have one");
 }
 
-/// Fewer layers than reach the size of tetrahedra leave a jump on top: said before the work, with the number that is enough. Where one request counts for all
-/// walls; `inspect` knows the rest.
+/// Fewer layers than reach the size of tetrahedra leave a jump on top: said before the work, with the number that is enough.
 void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
-  const volmesh::EnvelopeOptions& e = options.envelope;
-  const bool is_one_request = options.patches.empty() && !options.first_heights && options.family.refinement == 1.0 && is_automatic(e.total_height) &&
-                              is_automatic(e.max_thickness) && !is_automatic(e.first_height) && e.max_growth > 1.0;
-  if (!is_one_request) return;
-  constexpr double k_regular = 0.816496580927726, k_jump = 3.0, k_told = 0.1, k_most = 0.9;  // G9's usual limit; shares of the area
-  const double last = e.first_height * std::pow(e.max_growth, e.layers - 1);
-  std::vector<std::pair<double, double>> wanted;  // height of the last cell, area
-  double area = 0.0, thin = 0.0;
-  for (const TriangleId t : wall.mesh.triangles.ids()) {
-    if (wall.mesh.patches[wall.mesh.triangle_patch[t]].kind != PatchKind::wall) continue;
-    const auto& v = wall.mesh.triangles[t];
-    const Point &a = wall.mesh.points[v[0]], &b = wall.mesh.points[v[1]], &c = wall.mesh.points[v[2]];
-    wanted.emplace_back(k_regular * (distance(a, b) + distance(b, c) + distance(c, a)) / 3.0, 0.5 * norm(cross(b - a, c - a)));
-    area += wanted.back().second;
-    if (k_jump * last < wanted.back().first) thin += wanted.back().second;
-  }
-  if (!(thin > k_told * area)) return;
-  std::ranges::sort(wanted);
-  double below = 0.0, height = 0.0;
-  for (std::size_t i = 0; i < wanted.size() && below < k_most * area; ++i) {
-    below += wanted[i].second;
-    height = wanted[i].first;
-  }
-  const int n = 1 + static_cast<int>(std::ceil(std::log(height / (k_jump * e.first_height)) / std::log(e.max_growth)));
-  context.info(
-      fmt::format("hint: on {:.0f} % of the walls' area the last of {} layers stays thinner than a third of the tetrahedra on it: layers = {} reach it "
-                  "(sterna inspect tells where)",
-                  100.0 * thin / area, e.layers, n));
+  if (const auto thin = volmesh::thin_layers(wall.mesh, options))
+    context.info(
+        fmt::format("hint: on {:.0f} % of the walls' area the last of {} layers stays thinner than a third of the tetrahedra on it: layers = {} reach it "
+                    "(sterna inspect tells where)",
+                    100.0 * thin->share, options.envelope.layers, thin->enough));
 }
 
 }  // namespace

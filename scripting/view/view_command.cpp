@@ -10,6 +10,7 @@
 #include "geom/base/error.h"
 #include "io/file/format_table.h"
 #include "io/output/atomic_file.h"
+#include "io/output/scratch_folder.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/interpreter/script_args.h"
 #include "scripting/terminal/exit_status.h"
@@ -23,26 +24,6 @@ namespace sterna::scripting {
 namespace {
 
 constexpr int k_last_port = 65535;
-
-/// A folder for this session, removed with all that is in it.
-class SessionFolder {
- public:
-  SessionFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sterna-view-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error({.code = ErrorCode::write_failed, .attempted = "making the folder " + name, .problem = std::strerror(errno)});
-    path_ = name;
-  }
-  ~SessionFolder() {
-    std::error_code ignored;  // what cannot be removed stays in the folder for temporary files
-    std::filesystem::remove_all(path_, ignored);
-  }
-  SessionFolder(const SessionFolder&) = delete;
-  SessionFolder& operator=(const SessionFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string lua_text(const std::string& text) {
   std::string quoted = "\"";
@@ -71,12 +52,11 @@ constexpr const char* k_results_file = "series.json";
 std::string shown_output(const nlohmann::json& outputs) {
   std::string surface;
   for (const nlohmann::json& output : outputs) {
-    try {
-      const io::Format& format = io::format_of(output.get<std::string>());
-      if (format.read_volume) return output;
-      if (format.read_surface && surface.empty()) surface = output;
-    } catch (const Error&) {  // of no format
-    }
+    const std::string name = output.get<std::string>();
+    if (!io::is_known_format(name)) continue;
+    const io::Format& format = io::format_of(name);
+    if (format.read_volume) return name;
+    if (format.read_surface && surface.empty()) surface = name;
   }
   return surface;
 }
@@ -171,7 +151,7 @@ int execute(const ViewCommand& command, const CommandContext& context) {
                  .problem = "this build has no page: there was no npm, or it could not get the page's libraries",
                  .hint = "install npm and run cmake again"});
   require_input(command.input);
-  const SessionFolder session;
+  const io::ScratchFolder session("view");
   const bool is_script = command.input.extension() == ".lua";
   const std::filesystem::path script = is_script ? command.input : session.path() / "view.lua";
   if (!is_script) io::write_whole(script, std::filesystem::is_directory(command.input) ? series_script(command.input) : reading_script(command.input));

@@ -1,23 +1,9 @@
 #include "scripting/view/view_page.h"
 
+#include "scripting/report/embedded_text.h"
+
 #ifdef STERNA_VIEW_PAGE
-
-// As in report_page.cpp.
-asm(".pushsection .rodata\n"
-    "k_sterna_view_page_begin:\n"
-    ".incbin \"" STERNA_VIEW_PAGE
-    "\"\n"
-    "k_sterna_view_page_end:\n"
-    ".byte 0\n"
-    ".popsection\n"
-    ".globl k_sterna_view_page_begin\n"
-    ".globl k_sterna_view_page_end\n");
-
-extern "C" {
-extern const char k_sterna_view_page_begin[];
-extern const char k_sterna_view_page_end[];
-}
-
+STERNA_EMBED_TEXT(k_sterna_view_page_begin, k_sterna_view_page_end, STERNA_VIEW_PAGE)
 #endif
 
 namespace sterna::scripting {

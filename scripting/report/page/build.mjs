@@ -32,13 +32,13 @@ function inlined(text, element) {
   return text.replaceAll(new RegExp(`</${element}`, "gi"), `<\\/${element}`);
 }
 
-/** Bundles an entry and its style into its template; `markers` must each be in the page once. */
-async function make_page(output, folder, markers) {
-  const template = await readFile(path.join(here, folder, "template.html"), "utf8");
+/** Bundles an entry and its style into the template, whose marks get `texts`; `markers` must each be in the page once. */
+async function make_page(output, folder, texts, markers) {
+  let page = await readFile(path.join(here, "src/template.html"), "utf8");
   const script = inlined(await bundle(`${folder}/main.js`), "script");
   const style = inlined(await bundle(`${folder}/style.css`), "style");
-  // Functions, because "$&" in a replacement text would be a pattern.
-  const page = template.replace("/*STYLE*/", () => style).replace("/*SCRIPT*/", () => script);
+  // Functions, because "$&" in a replacement text would be a pattern. The bundle comes last: nothing is looked for in it.
+  for (const [mark, text] of Object.entries({ ...texts, STYLE: style, SCRIPT: script })) page = page.replace(`/*${mark}*/`, () => text);
   for (const marker of markers) {
     const n_found = page.split(marker).length - 1;
     if (n_found !== 1) throw new Error(`the page holds the marker ${marker} ${n_found} times instead of once`);
@@ -49,5 +49,22 @@ async function make_page(output, folder, markers) {
   console.log(`${output}: ${(page.length / 1e3).toFixed(0)} kB`);
 }
 
-await make_page(output, "src", ["<!--STERNA_JSON-->", "<!--STERNA_BLOB-->"]);
-await make_page(view_output, "src/workbench", []);
+await make_page(
+  output,
+  "src",
+  {
+    CONNECT: "",
+    ICON: "%232f6db3",
+    TITLE: "sterna report",
+    LOADING: "Unpacking the report &hellip;",
+    SUBJECT: "This report",
+    DATA: '<script id="sterna-json" type="application/json"><!--STERNA_JSON--></script>\n<script id="sterna-blob" type="text/plain"><!--STERNA_BLOB--></script>\n',
+  },
+  ["<!--STERNA_JSON-->", "<!--STERNA_BLOB-->"],
+);
+await make_page(
+  view_output,
+  "src/workbench",
+  { CONNECT: " connect-src 'self';", ICON: "%233c9a4e", TITLE: "sterna view", LOADING: "Opening the workbench &hellip;", SUBJECT: "The workbench", DATA: "" },
+  [],
+);

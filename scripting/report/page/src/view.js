@@ -222,7 +222,6 @@ export class View {
 
   set_cut(set, base) {
     this.cut.show(set, base ? this.local(base) : new Vector3());
-    if (set) this.cut.uniforms.id_offset.value = this.surface.set?.n ?? 0;
     this.request();
   }
 
@@ -349,13 +348,20 @@ export class View {
 
   // ---- what is under the pointer
 
-  /** {layer: "surface" | "cut", item, at} at pixels of the canvas, or null. */
-  pick(x, y) {
+  /** {index, triangle, item, at, point} of what is first at pixels of the canvas, of layers[index]; or null. Drawn once more, one pixel, each triangle in a colour of its own. */
+  hit(layers, x, y) {
     const size = this.renderer.getSize(new Vector2());
     this.camera.apply();
     this.lens.setViewOffset(size.x, size.y, Math.floor(x), Math.floor(y), 1, 1);
-    const layers = [this.surface, this.cut].filter((layer) => layer.mesh);
-    for (const layer of layers) layer.mesh.material = [layer.pick];
+    const first = [];
+    let n = 0;
+    for (const layer of layers) {
+      first.push(n);
+      if (!layer.mesh) continue;
+      layer.uniforms.id_offset.value = n;
+      layer.mesh.material = [layer.pick];
+      n += layer.set.n;
+    }
     if (this.markers) this.markers.visible = false;
     const clear = this.renderer.getClearColor(new Color());
     this.renderer.setClearColor(0x000000, 0);
@@ -366,19 +372,23 @@ export class View {
     this.renderer.readRenderTargetPixels(this.pick_target, 0, 0, 1, 1, bytes);
     this.renderer.setRenderTarget(null);
     this.renderer.setClearColor(clear, 1);
-    for (const layer of layers) layer.mesh.material = [layer.draw];
+    for (const layer of layers) if (layer.mesh) layer.mesh.material = [layer.draw];
     if (this.markers) this.markers.visible = true;
     this.lens.clearViewOffset();
     this.lens.updateProjectionMatrix();
     const id = bytes[0] + bytes[1] * 256 + bytes[2] * 65536 + bytes[3] * 16777216 - 1;
-    if (id < 0) return null;
-    const n_surface = this.surface.set?.n ?? 0;
-    const layer = id < n_surface ? this.surface : this.cut;
-    const t = id < n_surface ? id : id - n_surface;
-    if (!layer.set || t >= layer.set.n) return null;
+    const index = id < 0 ? -1 : layers.findIndex((layer, k) => layer.mesh && id >= first[k] && id < first[k] + layer.set.n);
+    if (index < 0) return null;
+    const layer = layers[index], triangle = id - first[index];
     const direction = new Vector3((2 * (Math.floor(x) + 0.5)) / size.x - 1, 1 - (2 * (Math.floor(y) + 0.5)) / size.y, 0.5).unproject(this.lens).sub(this.lens.position).normalize();
-    const point = point_on(layer.set, t, this.lens.position.clone().sub(layer.mesh.position), direction).add(layer.mesh.position);
-    return { layer: layer === this.surface ? "surface" : "cut", item: layer.set.item[t], at: this.absolute(point), point };
+    const point = point_on(layer.set, triangle, this.lens.position.clone().sub(layer.mesh.position), direction).add(layer.mesh.position);
+    return { index, triangle, item: layer.set.item[triangle], at: this.absolute(point), point };
+  }
+
+  /** {layer: "surface" | "cut", item, at} at pixels of the canvas, or null. */
+  pick(x, y) {
+    const found = this.hit([this.surface, this.cut], x, y);
+    return found && { layer: found.index === 0 ? "surface" : "cut", item: found.item, at: found.at, point: found.point };
   }
 
   /** Index of the marker at pixels of the canvas, or -1. */

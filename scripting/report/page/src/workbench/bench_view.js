@@ -1,6 +1,6 @@
 // The picture of several objects, each with its own triangles and origin; what is chosen among them is the view's surface.
-import { Color, Sphere, Vector2, Vector3 } from "three";
-import { box_of, point_on, surface_set } from "../triangles.js";
+import { Sphere, Vector3 } from "three";
+import { box_of, surface_set } from "../triangles.js";
 import { Layer, View } from "../view.js";
 
 const k_most_framed = 30000; // points: enough to frame any body
@@ -205,37 +205,10 @@ export class BenchView extends View {
 
   /** {key, item, at, point} of an object, {layer: "cut", item, at}, or null. */
   pick(x, y) {
-    const size = this.renderer.getSize(new Vector2());
-    this.camera.apply();
-    this.lens.setViewOffset(size.x, size.y, Math.floor(x), Math.floor(y), 1, 1);
-    const entries = [...(this.objects?.values() ?? [])].map((object) => ({ key: object.key, layer: object.layer })).concat([{ key: null, layer: this.cut }]).filter(({ layer }) => layer.mesh);
-    let first = 0;
-    for (const entry of entries) {
-      entry.first = first;
-      entry.layer.uniforms.id_offset.value = first;
-      entry.layer.mesh.material = [entry.layer.pick];
-      first += entry.layer.set.n;
-    }
-    if (this.markers) this.markers.visible = false;
-    const clear = this.renderer.getClearColor(new Color());
-    this.renderer.setClearColor(0x000000, 0);
-    this.renderer.setRenderTarget(this.pick_target);
-    this.renderer.clear();
-    this.renderer.render(this.scene, this.lens);
-    const bytes = new Uint8Array(4);
-    this.renderer.readRenderTargetPixels(this.pick_target, 0, 0, 1, 1, bytes);
-    this.renderer.setRenderTarget(null);
-    this.renderer.setClearColor(clear, 1);
-    for (const { layer } of entries) layer.mesh.material = [layer.draw];
-    if (this.markers) this.markers.visible = true;
-    this.lens.clearViewOffset();
-    this.lens.updateProjectionMatrix();
-    const id = bytes[0] + bytes[1] * 256 + bytes[2] * 65536 + bytes[3] * 16777216 - 1;
-    const entry = id < 0 ? null : entries.find(({ first: from, layer }) => id >= from && id < from + layer.set.n);
-    if (!entry) return null;
-    const { layer } = entry, t = id - entry.first;
-    const direction = new Vector3((2 * (Math.floor(x) + 0.5)) / size.x - 1, 1 - (2 * (Math.floor(y) + 0.5)) / size.y, 0.5).unproject(this.lens).sub(this.lens.position).normalize();
-    const point = point_on(layer.set, t, this.lens.position.clone().sub(layer.mesh.position), direction).add(layer.mesh.position);
-    return { layer: entry.key === null ? "cut" : "surface", key: entry.key, triangle: t, item: layer.set.item[t], at: this.absolute(point), point };
+    const objects = [...(this.objects?.values() ?? [])];
+    const found = this.hit([...objects.map((object) => object.layer), this.cut], x, y);
+    if (!found) return null;
+    const key = objects[found.index]?.key ?? null;
+    return { layer: key === null ? "cut" : "surface", key, triangle: found.triangle, item: found.item, at: found.at, point: found.point };
   }
 }

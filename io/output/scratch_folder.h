@@ -1,0 +1,26 @@
+// Folders for what a run needs and nobody keeps.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace sterna::io {
+
+/// A new folder below that of temporary files (TMPDIR); removed with all that is in it when the object goes, unless it is kept.
+class ScratchFolder {
+ public:
+  /// \p purpose: part of its name, "view" of sterna-view-a1b2c3
+  /// \throws Error(write_failed)
+  explicit ScratchFolder(std::string_view purpose);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  void keep() { is_kept_ = true; }
+
+ private:
+  std::filesystem::path path_;
+  bool is_kept_ = false;
+};
+
+}  // namespace sterna::io
