@@ -28,7 +28,7 @@ constexpr int k_last_port = 65535;
 std::string lua_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
+    if (c == '"' || c == '\\' || c == '\n') quoted += '\\';
     quoted += c == '\n' ? 'n' : c;
   }
   return quoted + '"';
@@ -86,12 +86,19 @@ std::string series_script(const std::filesystem::path& folder) {
                  .problem = "no case of this series has a mesh or a surface",
                  .hint = "let its function write one: mesh:write(p.name .. \".su2\")"});
   const std::string count = std::to_string(n);
-  return "local choice = args{ case = number{ 1, min = 1, max = " + (n > 1 ? count : "2") + ", step = 1 } }\nlocal cases = {\n" + entries +
-         "}\nlocal shown = cases[math.min(math.max(math.floor(choice.case + 0.5), 1), #cases)]\nprint(\"case \" .. math.floor(choice.case + 0.5) .. \" of " +
+  const std::string choice = n == 1 ? "{ case = 1 }" : "args{ case = number{ 1, min = 1, max = " + count + ", step = 1 } }";
+  return "local choice = " + choice + "\nlocal cases = {\n" + entries +
+         "}\n"
+         "local i = math.floor(choice.case + 0.5)\n"
+         "print(\"case \" .. i .. \" of " +
          count +
-         ", \" .. shown[2])\nlocal surface\nlocal mesh = read_mesh{ shown[1] }\nif mesh.cells == 0 then\n  mesh = nil\n  surface = read_surface{ shown[1], "
-         "allow_open = "
-         "true }\nend\n";
+         ", \" .. cases[i][2])\n"
+         "local surface\n"
+         "local mesh = read_mesh{ cases[i][1] }\n"
+         "if mesh.cells == 0 then\n"
+         "  mesh = nil\n"
+         "  surface = read_surface{ cases[i][1], allow_open = true }\n"
+         "end\n";
 }
 
 void require_input(const std::filesystem::path& input) {
