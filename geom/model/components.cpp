@@ -1,9 +1,11 @@
 #include "geom/model/components.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "geom/base/error.h"
+#include "geom/base/parallel.h"
 #include "geom/model/deflection.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
@@ -79,29 +81,32 @@ void check_wings(const Aircraft& aircraft) {
 
 Model make_components(const Aircraft& aircraft, const RunContext& context) {
   check_wings(aircraft);
-  Model model;
   const std::map<std::string, BodyEnds> ends = engine_ends(aircraft.engines);
+  // In the order of the model; each is made by itself.
+  std::vector<std::function<Model()>> makers;
   for (const Body& body : aircraft.bodies) {
-    context.check_stop();
     const auto found = ends.find(body.name);
     const ComponentKind kind = body.lip ? ComponentKind::nacelle : body.kind;
-    append(model, make_body(body, kind, found == ends.end() ? BodyEnds{} : found->second));
-    if (body.has_mirror_image) append(model, make_body(image_of(body), kind, {}, mirror()));
+    makers.emplace_back([&body, kind, of = found == ends.end() ? BodyEnds{} : found->second] { return make_body(body, kind, of); });
+    if (body.has_mirror_image) makers.emplace_back([&body, kind] { return make_body(image_of(body), kind, {}, mirror()); });
   }
   for (const Wing& wing : aircraft.wings) {
-    context.check_stop();
-    const std::vector<Deflection> deflections = deflections_of(aircraft, wing);
-    append(model, make_wing(deflected(wing, deflections)));
-    if (wing.has_mirror_image) {
-      const Wing image = image_of(wing);
-      append(model, make_wing(deflected(image, images_of(deflections, image.name)), mirror()));
-    }
+    makers.emplace_back([&] { return make_wing(deflected(wing, deflections_of(aircraft, wing))); });
+    if (wing.has_mirror_image)
+      makers.emplace_back([&] {
+        const Wing image = image_of(wing);
+        return make_wing(deflected(image, images_of(deflections_of(aircraft, wing), image.name)), mirror());
+      });
   }
   for (const CowlNacelle& nacelle : aircraft.nacelles) {
-    context.check_stop();
-    append(model, make_nacelle(nacelle));
-    if (nacelle.has_mirror_image) append(model, make_nacelle(image_of(nacelle), mirror()));
+    makers.emplace_back([&] { return make_nacelle(nacelle); });
+    if (nacelle.has_mirror_image) makers.emplace_back([&] { return make_nacelle(image_of(nacelle), mirror()); });
   }
+  std::vector<Model> parts(makers.size());
+  parallel_for(
+      context, makers.size(), [&](std::size_t i) { parts[i] = makers[i](); }, 1);
+  Model model;
+  for (const Model& part : parts) append(model, part);
   return model;
 }
 

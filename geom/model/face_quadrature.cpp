@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 namespace sterna {
 namespace {
@@ -18,6 +19,9 @@ constexpr std::array<double, 6> k_nodes = {0.033765242898423975, 0.1693953067668
                                            0.61930959304159849,  0.83060469323313224, 0.96623475710157603};
 constexpr std::array<double, 6> k_weights = {0.085662246189585178, 0.18038078652406929, 0.23395696728634552,
                                              0.23395696728634552,  0.18038078652406929, 0.085662246189585178};
+/// The same to degree 3, for a first look.
+constexpr std::array<double, 2> k_few_nodes = {0.21132486540518713, 0.78867513459481287};
+constexpr std::array<double, 2> k_few_weights = {0.5, 0.5};
 /// Pieces of a direction without knots: sines and cosines over a full turn are integrated to rounding by so many.
 constexpr int k_plain_pieces = 12;
 /// Parts of an interval between knots where the pieces are no polynomials of degree 3 or less.
@@ -78,8 +82,8 @@ struct BorderPiece {
 
 class FaceIntegral {
  public:
-  FaceIntegral(const Model& model, FaceId face, const Point& about, int refinement)
-      : model_(model), face_(model.faces[face]), surface_(*face_.surface), about_(about), refinement_(refinement) {}
+  FaceIntegral(const Model& model, FaceId face, const Point& about, int refinement, std::span<const double> nodes, std::span<const double> weights)
+      : model_(model), face_(model.faces[face]), surface_(*face_.surface), about_(about), refinement_(refinement), nodes_(nodes), weights_(weights) {}
 
   FaceQuadrature run() {
     find_used_box();
@@ -136,9 +140,9 @@ class FaceIntegral {
 
   FaceSums over_box(double u0, double u1, double v0, double v1) const {
     FaceSums sum;
-    for (std::size_t i = 0; i < k_nodes.size(); ++i)
-      for (std::size_t j = 0; j < k_nodes.size(); ++j)
-        sum.add(k_weights[i] * k_weights[j] * (u1 - u0) * (v1 - v0), integrand({u0 + k_nodes[i] * (u1 - u0), v0 + k_nodes[j] * (v1 - v0)}));
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      for (std::size_t j = 0; j < nodes_.size(); ++j)
+        sum.add(weights_[i] * weights_[j] * (u1 - u0) * (v1 - v0), integrand({u0 + nodes_[i] * (u1 - u0), v0 + nodes_[j] * (v1 - v0)}));
     return sum;
   }
 
@@ -210,11 +214,11 @@ class FaceIntegral {
   void add_piece(const BorderPiece& piece) {
     add_sample(piece.start);
     const double base = u_[piece.column], length = piece.to - piece.from;
-    for (std::size_t k = 0; k < k_nodes.size(); ++k) {
-      const ParameterCurveDerivatives p = piece.curve->derivatives(piece.from + k_nodes[k] * length);
-      const double weight = k_weights[k] * length * p.first.v, width = p.point.u - base;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const ParameterCurveDerivatives p = piece.curve->derivatives(piece.from + nodes_[k] * length);
+      const double weight = weights_[k] * length * p.first.v, width = p.point.u - base;
       if (weight == 0.0 || width == 0.0) continue;
-      for (std::size_t i = 0; i < k_nodes.size(); ++i) total_.add(weight * k_weights[i] * width, integrand({base + k_nodes[i] * width, p.point.v}));
+      for (std::size_t i = 0; i < nodes_.size(); ++i) total_.add(weight * weights_[i] * width, integrand({base + nodes_[i] * width, p.point.v}));
     }
     add_sample(piece.curve->point(piece.from + 0.5 * length));
   }
@@ -251,6 +255,7 @@ class FaceIntegral {
   const Surface& surface_;
   Point about_;
   int refinement_;
+  std::span<const double> nodes_, weights_;  ///< in each direction
   ParameterBox used_;
   std::vector<double> u_, v_;
   std::map<std::size_t, std::vector<FaceSums>> columns_;
@@ -262,10 +267,14 @@ class FaceIntegral {
 
 }  // namespace
 
+FaceQuadrature integrate_face_roughly(const Model& model, FaceId face, const Point& about) {
+  return FaceIntegral(model, face, about, 1, k_few_nodes, k_few_weights).run();
+}
+
 FaceQuadrature integrate_face(const Model& model, FaceId face, const Point& about) {
-  FaceQuadrature last = FaceIntegral(model, face, about, 1).run();
+  FaceQuadrature last = FaceIntegral(model, face, about, 1, k_nodes, k_weights).run();
   for (int k = 1; k < k_tries; ++k) {
-    const FaceQuadrature next = FaceIntegral(model, face, about, 1 << k).run();
+    const FaceQuadrature next = FaceIntegral(model, face, about, 1 << k, k_nodes, k_weights).run();
     const double reach = std::max(distance(next.low, about), distance(next.high, about));
     const double change = std::max(std::abs(next.sums.area - last.sums.area), std::abs(next.sums.volume - last.sums.volume) / reach);
     last = next;

@@ -7,6 +7,7 @@
 #include "geom/base/error.h"
 #include "geom/model/analytic_surfaces.h"
 #include "geom/model/curves.h"
+#include "geom/model/face_quadrature.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/nurbs_curve.h"
 #include "geom/model/nurbs_tools.h"
@@ -208,6 +209,37 @@ Model ModelBuilder::closed_solid(const std::string& name) {
   return std::move(model_);
 }
 
+namespace {
+
+/// Least volume, as a share of area times reach, of which few samples tell the sign. They err by 8e-4 at worst among the aircraft of the tests (a pylon with
+/// kinks, 1e-5 mostly); bodies have some hundredths, slender wings 7e-3. What has less is integrated to rounding.
+constexpr double k_plain_share = 5e-3;
+
+/// Volume of a solid whose faces are oriented alike; right in its sign, and to rounding only where the sign is in doubt.
+double signed_volume(const Model& model, const ModelSolid& solid) {
+  Vec3 corners;
+  std::size_t n_corners = 0;
+  for (const FaceId f : solid.faces)
+    for (const Border& border : model.faces[f].borders)
+      for (const EdgeUse& u : border) {
+        corners += model.corners[model.edges[u.edge].start].point - Point{};
+        ++n_corners;
+      }
+  const Point about = Point{} + corners / static_cast<double>(n_corners);
+  double volume = 0.0, scale = 0.0;
+  for (const FaceId f : solid.faces) {
+    const FaceQuadrature q = integrate_face_roughly(model, f, about);
+    volume += model.faces[f].is_reversed ? -q.sums.volume : q.sums.volume;
+    scale += q.sums.area * std::max(distance(q.low, about), distance(q.high, about));
+  }
+  if (std::abs(volume) > k_plain_share * scale) return volume;
+  volume = 0.0;
+  for (const FaceId f : solid.faces) volume += face_measures(model, f).volume;
+  return volume;
+}
+
+}  // namespace
+
 void orient_outwards(Model& model, SolidId solid_id) {
   const ModelSolid& solid = model.solids[solid_id];
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
@@ -246,11 +278,9 @@ void orient_outwards(Model& model, SolidId solid_id) {
         }
       }
   }
-  double volume = 0.0;
-  for (const FaceId f : solid.faces) {
+  for (const FaceId f : solid.faces)
     if (!is_done[f]) refuse_model(ErrorCode::internal, "solid '" + solid.name + "' is not in one piece: face '" + model.faces[f].name + "' has no neighbour");
-    volume += face_measures(model, f).volume;
-  }
+  const double volume = signed_volume(model, solid);
   if (volume == 0.0) refuse_model(ErrorCode::internal, "solid '" + solid.name + "' has no volume");
   if (volume < 0.0)
     for (const FaceId f : solid.faces) model.faces[f].is_reversed = !model.faces[f].is_reversed;
