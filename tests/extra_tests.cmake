@@ -115,3 +115,13 @@ target_link_libraries(spline_bench PRIVATE ${STERNA_OCCT})
 add_custom_target(torn_long COMMAND ${CMAKE_COMMAND} -E env STERNA_TORN=200 $<TARGET_FILE:test_surfmesh_wrap> --gtest_filter=WrapTorn.Shapes* USES_TERMINAL)
 # Peers of remeshing: CGAL's and Gmsh's.
 target_link_libraries(remesh_peers PRIVATE CGAL::CGAL gmsh gmp mpfr)
+
+# Random cases (docs/soak.md): their judge tells good from bad, and twenty of them are not wrong. The audit shares no code with the program.
+add_executable(soak_mesh_audit soak/mesh_audit_main.cpp)
+add_test(NAME soak_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/soak/soak_test.py $<TARGET_FILE:sterna> $<TARGET_FILE:soak_mesh_audit> ${CMAKE_BINARY_DIR}/scratch/soak_self_test)
+add_test(NAME soak COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --cases 20 --seed 1 --jobs 2 --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak)
+set_tests_properties(soak soak_self_test PROPERTIES TIMEOUT 900 COST 100)
+
+# What machines do to programs (docs/soak.md): full disks, kills, little memory, damaged files, two at once.
+add_test(NAME faults COMMAND ${CMAKE_SOURCE_DIR}/tools/faults --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/faults)
+set_tests_properties(faults PROPERTIES TIMEOUT 900 COST 100)

@@ -30,6 +30,7 @@
 #include "scripting/cli/shell_help.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/interpreter/script_manual.h"
+#include "scripting/lua/foreign_error.h"
 #include "scripting/report/report_command.h"
 #include "scripting/terminal/console.h"
 #include "scripting/terminal/exit_status.h"
@@ -634,10 +635,10 @@ int run_command_line(int argc, const char* const* argv) noexcept {
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return exit_status_of(error.code());
-  } catch (const std::bad_alloc&) {
-    std::fputs("error: not enough memory\n", stderr);
+  } catch (const std::bad_alloc&) {  // no string is made here
+    std::fputs("error: not enough memory\n  try: a larger limit (ulimit -v, the job's memory)\n", stderr);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s (please report this)\n", error.what());
+    std::fprintf(stderr, "error: %s\n", Error(foreign_error(error, "sterna")).what());
   }
   return k_exit_failed;
 }

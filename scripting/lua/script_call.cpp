@@ -2,9 +2,9 @@
 
 #include <lua.hpp>
 
-#include <new>
 #include <span>
 
+#include "scripting/lua/foreign_error.h"
 #include "scripting/lua/quantity.h"
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/script_function.h"
@@ -187,10 +187,8 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
     ErrorHandle of_user = placed(error, call);
     if (goes_on(state, verb, call, of_user)) return true;
     session.value = std::move(of_user);
-  } catch (const std::bad_alloc&) {
-    session.value = make_error({.code = ErrorCode::overflow, .attempted = call.attempted(), .problem = "not enough memory"});
   } catch (const std::exception& error) {
-    session.value = make_error({.code = ErrorCode::internal, .attempted = call.attempted(), .problem = error.what()});
+    session.value = make_error(foreign_error(error, call.attempted()));
   }
   return false;
 }
