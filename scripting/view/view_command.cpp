@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "geom/base/child_process.h"
@@ -15,7 +13,9 @@
 #include "scripting/interpreter/script_args.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/models.h"
+#include "scripting/view/lua_text.h"
 #include "scripting/view/page_server.h"
+#include "scripting/view/series_cases.h"
 #include "scripting/view/view_page.h"
 #include "scripting/view/view_worker.h"
 #include "scripting/view/workbench.h"
@@ -25,18 +25,9 @@ namespace {
 
 constexpr int k_last_port = 65535;
 
-std::string lua_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\' || c == '\n') quoted += '\\';
-    quoted += c == '\n' ? 'n' : c;
-  }
-  return quoted + '"';
-}
-
 /// A script that reads the file: what is shown of a script's results is shown of the file.
 std::string reading_script(const std::filesystem::path& input) {
-  const std::string name = lua_text(std::filesystem::absolute(input).string());
+  const std::string name = quoted_for_lua(std::filesystem::absolute(input).string());
   if (is_model_file(input)) {
     const std::string extension = input.extension().string();
     return "local model = " + std::string(extension == ".smx" ? "read_smx" : extension == ".xml" ? "read_cpacs" : "read_cad") + "{ " + name + " }\n";
@@ -46,66 +37,11 @@ std::string reading_script(const std::filesystem::path& input) {
   return "local surface\nlocal mesh = read_mesh{ " + name + " }\nif mesh.cells == 0 then\n  mesh = nil\n  surface = " + as_surface + "end\n";
 }
 
-constexpr const char* k_results_file = "series.json";
-
-/// The first of a case's files that holds a volume mesh, else a surface; empty: none does.
-std::string shown_output(const nlohmann::json& outputs) {
-  std::string surface;
-  for (const nlohmann::json& output : outputs) {
-    const std::string name = output.get<std::string>();
-    if (!io::is_known_format(name)) continue;
-    const io::Format& format = io::format_of(name);
-    if (format.read_volume) return name;
-    if (format.read_surface && surface.empty()) surface = name;
-  }
-  return surface;
-}
-
-/// A script whose argument `case` goes through the meshes of a series, one at a time.
-/// \throws Error(file_malformed) for a table that cannot be read; (file_not_found) where no case has a mesh
-std::string series_script(const std::filesystem::path& folder) {
-  std::ifstream file(folder / k_results_file, std::ios::binary);
-  const nlohmann::json results = nlohmann::json::parse(file, nullptr, false);
-  if (!results.is_object() || !results.contains("cases"))
-    throw Error({.code = ErrorCode::file_malformed,
-                 .attempted = "showing " + folder.string(),
-                 .problem = std::string(k_results_file) + " in it is no table of a series"});
-  std::string entries;
-  std::size_t n = 0;
-  for (const nlohmann::json& entry : results["cases"]) {
-    const std::string name = entry.value("name", "");
-    const std::string output = shown_output(entry.value("outputs", nlohmann::json::array()));
-    if (output.empty()) continue;
-    const std::string told = name + ": " + entry.value("verdict", entry.value("status", "")) + ", " + entry.value("quality", "");
-    entries += "  { " + lua_text(std::filesystem::absolute(folder / name / output).string()) + ", " + lua_text(told) + " },\n";
-    ++n;
-  }
-  if (n == 0)
-    throw Error({.code = ErrorCode::file_not_found,
-                 .attempted = "showing " + folder.string(),
-                 .problem = "no case of this series has a mesh or a surface",
-                 .hint = "let its function write one: mesh:write(p.name .. \".su2\")"});
-  const std::string count = std::to_string(n);
-  const std::string choice = n == 1 ? "{ case = 1 }" : "args{ case = number{ 1, min = 1, max = " + count + ", step = 1 } }";
-  return "local choice = " + choice + "\nlocal cases = {\n" + entries +
-         "}\n"
-         "local i = math.floor(choice.case + 0.5)\n"
-         "print(\"case \" .. i .. \" of " +
-         count +
-         ", \" .. cases[i][2])\n"
-         "local surface\n"
-         "local mesh = read_mesh{ cases[i][1] }\n"
-         "if mesh.cells == 0 then\n"
-         "  mesh = nil\n"
-         "  surface = read_surface{ cases[i][1], allow_open = true }\n"
-         "end\n";
-}
-
 void require_input(const std::filesystem::path& input) {
-  if (std::filesystem::is_directory(input) && !std::filesystem::exists(input / k_results_file))
+  if (std::filesystem::is_directory(input) && !is_series_folder(input))
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "showing " + input.string(),
-                 .problem = "it is a folder without " + std::string(k_results_file) + ", so of no series that has run",
+                 .problem = "it is a folder without series.json, so of no series that has run",
                  .hint = "name a file in it"});
   if (!std::filesystem::exists(input))
     throw Error({.code = ErrorCode::file_not_found, .attempted = "showing " + input.string(), .problem = "there is no such file"});
@@ -161,7 +97,9 @@ int execute(const ViewCommand& command, const CommandContext& context) {
   const io::ScratchFolder session("view");
   const bool is_script = command.input.extension() == ".lua";
   const std::filesystem::path script = is_script ? command.input : session.path() / "view.lua";
-  if (!is_script) io::write_whole(script, std::filesystem::is_directory(command.input) ? series_script(command.input) : reading_script(command.input));
+  SeriesCases series;
+  if (std::filesystem::is_directory(command.input)) series = read_series_cases(command.input);
+  if (!is_script) io::write_whole(script, series.script.empty() ? reading_script(command.input) : series.script);
   const std::filesystem::path cache = command.cache.empty() ? session.path() / "cache" : command.cache;
   std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                     "view",
@@ -173,8 +111,14 @@ int execute(const ViewCommand& command, const CommandContext& context) {
                                     "--cache=" + cache.string(),
                                     "--cache-limit=" + std::to_string(command.cache_limit)};
   for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
-  Workbench bench(
-      {.input = command.input, .script = script, .is_made_script = !is_script, .arguments = command.arguments, .words = std::move(words), .page = view_page()});
+  Workbench bench({.input = command.input,
+                   .script = script,
+                   .is_made_script = !is_script,
+                   .arguments = command.arguments,
+                   .words = std::move(words),
+                   .page = view_page(),
+                   .cases = std::move(series.json),
+                   .pictures = std::move(series.pictures)});
   const PageServer server(command.port, [&](const PageRequest& request) { return bench.answer(request); });
   context.console.print(server.address());
   context.run.info("shows " + command.input.string() + "; Ctrl-C ends it");

@@ -78,9 +78,17 @@ void add_model_facts(SceneJson& scene, const ModelValue& value, const RunContext
   scene["components"] = std::move(components);
 }
 
+/// Of the model's longest side; a sketch is four times as rough, with half the triangles.
+constexpr double k_sketch_tolerance = 8e-4;
+
+surfmesh::FacetOptions facet_options(const SceneOptions& options) {
+  if (options.is_quick) return {.tolerance = k_sketch_tolerance};
+  return {.with_curvature = true};
+}
+
 std::string model_scene(const ModelValue& value, const SceneOptions& options, const RunContext& context) {
   const Model& model = value.model;
-  surfmesh::ModelFacets facets = surfmesh::facets_of(model, {.with_curvature = !options.is_quick}, context);
+  surfmesh::ModelFacets facets = surfmesh::facets_of(model, facet_options(options), context);
   // One patch for each name within a component, as meshes have them; in the order of names, so that a sketch has the colours of the united model.
   const auto key_of = [&](const ModelFace& face) {
     return std::pair(face.component.is_valid() ? model.components[face.component].name : std::string(), face.name);

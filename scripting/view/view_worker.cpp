@@ -53,6 +53,7 @@ struct MadeObject {
   std::string verb, where;  ///< "wing", "case.lua:12"
   std::string name;         ///< of a variable; empty: none
   bool is_of_script = false;
+  bool is_sent = false;  ///< the page has it, as it is
 };
 
 /// "case.lua:12: " -> {"case.lua", 12}
@@ -126,6 +127,7 @@ class Worker {
     for (const auto& [name, text] : arguments.items()) arguments_.emplace_back(name, text.get<std::string>());
     wanted_ = job.value("wanted", std::vector<std::string>{});
     unwanted_ = job.value("unwanted", std::vector<std::string>{});
+    kept_ = job.value("kept", std::vector<std::string>{});
     const std::string mode = job.value("mode", "geometry");
     if (mode == "mesh") {
       pass(Mode::mesh);
@@ -246,10 +248,15 @@ class Worker {
   }
 
   /// What is shown unless the user says otherwise: the last thing made, of the script's own variables where there are some; components only where nothing is
-  /// made of them.
+  /// made of them. Of a script that breaks half way, what was shown before: its last thing so far is a part that nobody chose.
   std::vector<bool> shown() const {
     const auto is_component = [](const MadeObject& object) { return std::holds_alternative<ComponentHandle>(object.value); };
     std::vector<bool> list(objects_.size(), false);
+    if (!problems_.empty() && mode_ != Mode::mesh && !kept_.empty()) {
+      const std::vector<std::string> names = keys();
+      for (std::size_t i = 0; i < list.size(); ++i) list[i] = std::ranges::find(kept_, names[i]) != kept_.end();
+      return list;
+    }
     std::size_t last = objects_.size();
     for (const bool must_be_named : {false, true})
       for (std::size_t i = 0; i < objects_.size(); ++i)
@@ -283,6 +290,7 @@ class Worker {
     try {
       const std::string bytes = scene_bytes(objects_[id].value, {.is_quick = is_quick}, *run_);
       answers_.send({{"is", "scene"}, {"run", number_}, {"id", id}, {"is_quick", is_quick}}, bytes);
+      objects_[id].is_sent = !is_quick;
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::write_failed) throw;
       answers_.send({{"is", "failed"}, {"run", number_}, {"id", id}, {"text", error.what()}});
@@ -296,7 +304,7 @@ class Worker {
     const std::vector<bool> is_shown = shown();
     const auto contains = [](const std::vector<std::string>& list, const std::string& name) { return std::ranges::find(list, name) != list.end(); };
     for (std::size_t i = 0; i < objects_.size(); ++i)
-      if (contains(wanted_, names[i]) || (is_shown[i] && !contains(unwanted_, names[i]))) send_scene(i, is_quick);
+      if (!objects_[i].is_sent && (contains(wanted_, names[i]) || (is_shown[i] && !contains(unwanted_, names[i])))) send_scene(i, is_quick);
     answers_.send({{"is", "ended"},
                    {"run", number_},
                    {"mode", mode},
@@ -332,6 +340,7 @@ class Worker {
   TimeLeft left_;
   OptionOverrides arguments_;
   std::vector<std::string> wanted_, unwanted_;  ///< keys that the user shows, hides
+  std::vector<std::string> kept_;               ///< keys that were shown before without his word
   std::optional<RunContext> run_;
   std::vector<MadeObject> objects_;
   WorkerJson problems_ = WorkerJson::array();

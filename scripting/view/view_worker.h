@@ -1,7 +1,7 @@
 // The process of the workbench in which scripts run: a crash or a stop there leaves the page as it is.
 //
 // Jobs come as lines of JSON on stdin, answers go as lines of JSON to a descriptor; "bytes": n says that n bytes follow the line.
-//   {"do": "run", "run": 3, "mode": "sketch" | "geometry" | "mesh", "arguments": {"span": "11"}, "wanted": ["model"]}
+//   {"do": "run", "run": 3, "mode": "sketch" | "geometry" | "mesh", "arguments": {"span": "11"}, "wanted": ["model"], "unwanted": [], "kept": []}
 //     -> parameters, log, print, progress, objects, scene ..., ended
 //   {"do": "scene", "run": 3, "id": 2}                  an object of that run   -> scene, or failed
 //   {"do": "cut", "run": 3, "id": 2, "plane": "x=1.2", "ask": 7}                -> cut, or failed

@@ -8,6 +8,8 @@
 #include <condition_variable>
 #include <csignal>
 #include <deque>
+#include <fstream>
+#include <iterator>
 #include <list>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -33,6 +35,7 @@ constexpr auto k_look_interval = 60ms;      ///< between looks at the files
 constexpr auto k_page_patience = 20s;       ///< an answer that has nothing new to tell is given after this time
 constexpr auto k_cut_patience = 60s;        ///< a page that asked for a cut waits so long for it
 constexpr auto k_sketch_patience = 1500ms;  ///< a sketch is left to its end so long before a newer one takes its place
+constexpr auto k_quick_sketch = 300ms;      ///< what takes longer shows its progress
 constexpr auto k_end_patience = 3s;         ///< a worker that was told to stop is killed after this time
 constexpr std::size_t k_most_lines = 400;   ///< of the log
 
@@ -126,6 +129,8 @@ class Workbench::Parts {
         if (request.name.empty()) return {.type = "text/html; charset=utf-8", .body = page_};
         if (request.name == "state") return state_answer(request);
         if (request.name == "scene") return scene_answer(request);
+        if (request.name == "cases") return cases_answer();
+        if (request.name == "picture") return picture_answer(request);
         if (request.name == "script") return json_answer({{"text", read_script(settings_.script)}});
         return refusal("there is no such page", 404);
       }
@@ -156,6 +161,7 @@ class Workbench::Parts {
     for (const ShownObject& object : state_.objects) {
       BenchJson entry = object.about;
       entry["scene"] = object.scene;
+      entry["scene_run"] = object.scene_run;
       entry["is_quick"] = object.is_quick;
       entry["is_old"] = object.scene_run < state_.run || object.run < state_.run;
       if (object.bytes) entry["bytes"] = object.bytes->size();
@@ -171,6 +177,7 @@ class Workbench::Parts {
     return json_answer({{"version", state_.version},
                         {"file", settings_.input.filename().string()},
                         {"has_script", !settings_.is_made_script},
+                        {"has_cases", !settings_.cases.empty()},
                         {"is_over", is_over_},
                         {"run",
                          {{"number", state_.run},
@@ -194,6 +201,20 @@ class Workbench::Parts {
     for (const ShownObject& object : state_.objects)
       if (object.scene == scene && object.bytes) return {.type = "application/octet-stream", .body = object.bytes};
     return refusal("this picture is gone", 410);
+  }
+
+  PageAnswer cases_answer() const {
+    if (settings_.cases.empty()) return refusal("this is no series", 404);
+    return {.type = "application/json", .body = std::make_shared<const std::string>(settings_.cases)};
+  }
+
+  PageAnswer picture_answer(const PageRequest& request) const {
+    const std::string text = request.value("picture");
+    const std::uint64_t picture = number_in(text);
+    if (text.empty() || picture >= settings_.pictures.size()) return refusal("there is no such picture", 404);
+    std::ifstream file(settings_.pictures[picture], std::ios::binary);
+    if (!file) return refusal("this picture is gone", 410);
+    return {.type = "image/png", .body = std::make_shared<const std::string>(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>())};
   }
 
   PageAnswer set_values(const BenchJson& body) {
@@ -325,8 +346,16 @@ class Workbench::Parts {
     worker_->mode = state_.mode;
     worker_->since = state_.started;
     held_run_ = state_.run;
-    send_job(
-        {{"do", "run"}, {"run", state_.run}, {"mode", state_.mode}, {"arguments", state_.values}, {"wanted", state_.wanted}, {"unwanted", state_.unwanted}});
+    std::vector<std::string> kept;
+    for (const ShownObject& object : state_.objects)
+      if (object.about.value("is_shown", false)) kept.push_back(object.key());
+    send_job({{"do", "run"},
+              {"run", state_.run},
+              {"mode", state_.mode},
+              {"arguments", state_.values},
+              {"wanted", state_.wanted},
+              {"unwanted", state_.unwanted},
+              {"kept", kept}});
     tell_change();
   }
 
@@ -476,7 +505,10 @@ class Workbench::Parts {
     else if (is == "cut") state_.cuts[line.value("ask", 0)] = std::move(bytes);
     else if (is == "failed") note_failure(line);
     else if (is == "ended") note_end(worker, line);
-    tell_change();
+    // A sketch is told of once, when it is there: while a slider moves the page has no time for its steps.
+    const bool is_step_of_sketch =
+        is != "ended" && is != "cut" && worker.mode == "sketch" && worker.is_busy && BenchClock::now() - worker.since < k_quick_sketch;
+    if (!is_step_of_sketch) tell_change();
   }
 
   void note_line(const BenchJson& line) {

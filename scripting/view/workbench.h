@@ -19,6 +19,8 @@ struct WorkbenchSettings {
   OptionOverrides arguments;       ///< NAME=VALUE that it starts with
   std::vector<std::string> words;  ///< command line of a worker behind the program's name
   std::string_view page;           ///< HTML
+  std::string cases;               ///< of a series that has run, its JSON list (series_cases.h); empty: it is none
+  std::vector<std::filesystem::path> pictures;
 };
 
 class Workbench {

@@ -160,9 +160,9 @@ async function use_picking(page) {
   await settled(page, "iso");
 }
 
-/** Moves a slider as a hand does; ms from each movement to its picture. */
+/** Moves a slider as a hand does; ms from each movement until its picture is in the page, and until it is drawn (here without a graphics card). */
 async function drag(page, name, values, key, is_there) {
-  const latencies = [];
+  const latencies = [], drawn = [];
   for (const value of values) {
     const before = (await state_of(page)).times.scene;
     const begun = await page.evaluate(([id, v]) => {
@@ -172,11 +172,13 @@ async function drag(page, name, values, key, is_there) {
       slider.dispatchEvent(new Event("input", { bubbles: true }));
       return now;
     }, [`slider_${name}`, String(value)]);
+    await page.waitForFunction((t) => window.sterna.times().scene > t && window.sterna.times().drawn > window.sterna.times().scene, before, { polling: 5, timeout: k_patience });
     const state = await wait_for(page, is_there, { value, before, key }, `${name} = ${value} while dragging`);
     latencies.push(state.times.scene - begun);
+    drawn.push(state.times.drawn - begun);
   }
   await page.evaluate((id) => document.getElementById(id).dispatchEvent(new Event("change", { bubbles: true })), `slider_${name}`);
-  return latencies.map((x) => Math.round(x));
+  return { page: latencies.map((x) => Math.round(x)), drawn: drawn.map((x) => Math.round(x)) };
 }
 
 async function replace(file, from, to) {
@@ -184,6 +186,83 @@ async function replace(file, from, to) {
   require_that(text.includes(from), `${file} has no ${from}`);
   await writeFile(`${file}.new`, text.replace(from, () => to));
   await rename(`${file}.new`, file);
+}
+
+/** Both pictures from one camera: what is picked at the left is of the run before. */
+async function use_both_sides(page) {
+  await page.click("#side_by_side");
+  let state = await state_of(page);
+  require_that(state.is_split && !state.is_before && state.before.some(({ key, drawn }) => key === "model" && drawn > 0), "the run before stands beside this one");
+  await page.click("#view_top");
+  await settled(page, "both from above");
+  await require_picture(page, "both");
+  await pick_at(page, 0.25, 0.5);
+  await pick_at(page, 0.75, 0.5);
+  const { picks } = await state_of(page);
+  require_equal(picks.map(({ picture }) => picture), [0, 1], "pictures of the picks");
+  require_near(picks[0].at, picks[1].at, 0.2, "the same place at both sides");
+  await shot(page, "both_sides");
+  await page.locator(".view_canvas").focus();
+  await page.keyboard.press("Escape");
+  await page.click("#view_iso");
+  await settled(page, "both");
+  await shot(page, "side_by_side");
+  await page.locator(".view_canvas").focus();
+  await page.keyboard.press("s");
+  state = await state_of(page);
+  require_that(!state.is_split && state.before.length === 0, "one picture again");
+}
+
+const k_series = `series{ "twist", over = { twist = { -4, 0, 4, 99 } }, case = function(p)
+  if p.twist > 90 then error "no such wing" end
+  local model = wing{ name = "wing", symmetric = true, position = { 0, 0, 0 }, sections = {
+    { y = 0, chord = 1, airfoil = "naca0012", twist = p.twist*deg }, { y = 2, chord = 0.6 } } }
+  local mesh = volume_mesh{ surface_mesh{ aircraft{ model }, max_edge = 0.3, curvature_angle = 30*deg }, layers = 3, first_height = 2e-3, farfield = sphere{ radius = 8 } }
+  if p.twist == 0 then draw{ mesh, "wing.png" } end
+  return mesh:write(p.name .. ".su2") end }
+`;
+
+/** A series that has run: pictures, table, a click to the case, two cases side by side. */
+async function use_series(context) {
+  const folder = path.join(work, "series");
+  await mkdir(folder);
+  await writeFile(path.join(folder, "series.lua"), k_series);
+  const run = spawn(sterna, ["run", "series.lua", "--threads", "2"], { cwd: folder, stdio: "ignore" });
+  await new Promise((resolve) => run.on("exit", resolve));
+  const program = await start(folder, ["twist"]);
+  const page = await open(context, program.address);
+  let state = await settled(page, "the series");
+  require_equal([state.is_in_cases, state.cases.n, state.cases.current], [true, 4, 1], "cases");
+  require_equal(await page.$$eval(".case_card", (list) => list.filter((card) => card.disabled).length), 1, "cases without a mesh");
+  state = await wait_for(page, (s) => s.run.status === "done", null, "the first case");
+  require_equal(state.cases.pictures, 1, "pictures that the cases have written");
+  await page.click("#take_pictures");
+  await wait_for(page, (s) => s.cases.pictures === 3, null, "pictures of the cases");
+  await page.waitForFunction(() => !document.querySelector("#take_pictures").disabled, null, { timeout: k_patience });
+  await page.click('#case_table [data-key="p_twist"]');
+  await page.click('#case_table [data-key="p_twist"]');
+  require_that((await page.textContent("#case_table tbody tr .case_name")).includes("99"), "sorted downwards");
+  require_that((await page.$$eval("#case_table tbody tr:nth-child(2) .chip", (list) => list.length)) > 5, "gates of a case");
+  await shot(page, "cases");
+  await page.click('.case_card[data-case="twist=0"]');
+  state = await wait_for(page, (s) => s.cases.current === 2 && s.run.status === "done" && !s.is_in_cases, null, "a case by one click");
+  await page.locator(".view_canvas").focus();
+  await page.keyboard.press("c");
+  require_equal((await state_of(page)).is_in_cases, true, "key C");
+  await page.click('#case_table [data-case="twist=4"] .link');
+  await wait_for(page, (s) => s.cases.current === 3 && s.run.status === "done" && !s.is_in_cases, null, "a case of the table");
+  await settled(page, "the third case");
+  await page.click("#tab_compare");
+  await page.click("#side_by_side");
+  state = await wait_for(page, (s) => s.before.some(({ drawn }) => drawn > 0), null, "two cases side by side");
+  require_that((await page.$$eval("#compare tbody tr", (list) => list.length)) > 10, "gates of both cases");
+  require_that((await page.$$eval("#compare tr.changed", (list) => list.length)) > 0, "what differs between the cases");
+  await shot(page, "cases_side_by_side");
+  await page.click("#show_cases");
+  await page.click("#cases_close");
+  require_no_complaints(page, "the series");
+  await program.end();
+  await page.close();
 }
 
 async function use_airliner(context) {
@@ -247,6 +326,7 @@ async function use_airliner(context) {
   require_that((await page.$$eval("#compare tbody tr td:nth-child(2)", (list) => list.map((cell) => cell.textContent))).every((text) => text !== "\u2013"), "both runs have measures");
   await shot(page, "compare");
   await page.click("#flick");
+  await use_both_sides(page);
   await replace(file, "chord = p.tip_chord", "cord = p.tip_chord");
   state = await wait_for(page, (s) => s.run.status === "failed" && s.old, null, "the broken line");
   require_that(state.problems.some((problem) => problem.line > 0 && /did you mean "?chord/.test(problem.text)), JSON.stringify(state.problems));
@@ -293,7 +373,11 @@ mesh:write "case.vtu"
   require_that((await stat(path.join(folder, "case.vtu"))).size > 0, "the file that the script writes");
   await page.click("#tab_mesh");
   require_that((await page.$$eval("#mesh_tab .gate", (list) => list.length)) > 5, "gates");
-  await page.locator('[data-key="mesh"] [data-patch="farfield"] input').click();
+  require_equal(shown_of(await state_of(page), "mesh").hidden, ["farfield"], "a farfield is hidden at first");
+  for (const names of [[], ["farfield"]]) {
+    await page.locator('[data-key="mesh"] [data-patch="farfield"] input').click();
+    require_equal(shown_of(await state_of(page), "mesh").hidden, names, "the farfield");
+  }
   await page.click("#view_fit");
   await page.click("#place_0");
   state = await settled(page, "a place");
@@ -368,6 +452,7 @@ try {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce", permissions: ["clipboard-read", "clipboard-write"] });
   await use_airliner(context);
   await use_cpacs(context);
+  await use_series(context);
   const dark = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce", colorScheme: "dark" });
   const program = await start(path.join(work, "airliner"), ["03_airliner.lua"]);
   const page = await open(dark, program.address);

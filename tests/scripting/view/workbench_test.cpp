@@ -169,6 +169,15 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(now["run"]["status"], "failed");
   EXPECT_NE(now["problems"].dump().find("did you mean"), std::string::npos) << now["problems"].dump();
   EXPECT_EQ(now["problems"][0]["line"], 3) << now["problems"].dump();
+  // What the script had made before it broke is not shown by itself; what was shown is, old.
+  broken.replace(broken.find("local model"), 11, "local block = box{ { 0, 0, 0 }, { 1, 1, 1 } }\nlocal model");
+  write(broken);
+  now = wait_for_end(now["run"]["number"]);
+  EXPECT_EQ(now["run"]["status"], "failed");
+  ASSERT_TRUE(object(now, "block").is_object()) << now.dump();
+  EXPECT_EQ(object(now, "block")["is_shown"], false);
+  EXPECT_EQ(object(now, "model")["is_shown"], true);
+  EXPECT_EQ(object(now, "model")["is_old"], true);
   write(k_case);
   now = wait_for_end(now["run"]["number"]);
   EXPECT_EQ(now["run"]["status"], "done");

@@ -41,6 +41,8 @@ export class Camera {
     this.limits = { least: 1e-9, greatest: 1e9 };
     this.flight = null;
     this.pointers = new Map();
+    this.height = 1; // of the picture, pixels of the page
+    this.n_pictures = 1; // side by side, all from this camera
     this.listen();
   }
 
@@ -74,7 +76,7 @@ export class Camera {
 
   /** Metres at the target that a pixel shows. */
   pixel_size() {
-    return (2 * this.distance * Math.tan(((k_field_of_view / 2) * Math.PI) / 180)) / Math.max(1, this.element.clientHeight);
+    return (2 * this.distance * Math.tan(((k_field_of_view / 2) * Math.PI) / 180)) / this.height;
   }
 
   apply() {
@@ -175,7 +177,8 @@ export class Camera {
         event.preventDefault();
         const box = element.getBoundingClientRect();
         const delta = event.deltaY * (event.deltaMode === 1 ? 30 : 1);
-        this.zoom(k_zoom_per_notch ** Math.max(-400, Math.min(400, delta)), event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2);
+        const width = box.width / this.n_pictures;
+        this.zoom(k_zoom_per_notch ** Math.max(-400, Math.min(400, delta)), ((event.clientX - box.left) % width) - width / 2, event.clientY - box.top - box.height / 2);
       },
       { passive: false },
     );

@@ -15,7 +15,7 @@ export async function start_page(open) {
   try {
     const app = open();
     // Read-only, for tests and for the curious.
-    window.sterna = Object.freeze({ state: () => app.test_state(), pixels: () => app.view?.pixels() ?? null });
+    window.sterna = Object.freeze({ state: () => app.test_state(), pixels: () => app.view?.pixels() ?? null, times: () => ({ ...app.times }) });
     await app.start(root);
     document.body.dataset.ready = "true";
   } catch (error) {

@@ -29,12 +29,26 @@ export class TriangleSet {
     this.data_attribute.needsUpdate = true;
   }
 
+  /** Draws these ranges of triangles only; neighbours are joined, so that few calls are made. Returns them joined. */
+  show_ranges(ranges) {
+    const joined = [];
+    for (const [from, to] of ranges) {
+      if (to <= from) continue;
+      if (joined.length && joined[joined.length - 1][1] === from) joined[joined.length - 1][1] = to;
+      else joined.push([from, to]);
+    }
+    this.geometry.clearGroups();
+    for (const [from, to] of joined) this.geometry.addGroup(3 * from, 3 * (to - from), 0);
+    return joined;
+  }
+
   corners(t) {
     return [0, 1, 2].map((c) => new Vector3().fromArray(this.positions, 9 * t + 3 * c));
   }
 
   dispose() {
     this.geometry.dispose();
+    this.thin?.dispose();
   }
 }
 
@@ -102,6 +116,53 @@ export function surface_set(surface, patches) {
   set.outward = outward_of(positions, flags);
   set.boxes = ranges.map(([from, to]) => box_of(positions, 9 * from, 9 * to));
   return set;
+}
+
+const k_thin_cells = 300; // of a thin set's grid along the longest side of the bodies
+const k_thin_cells_around = 60; // the same of what is around them, a farfield
+const k_most_cells = 1 << 17; // along one axis: three such numbers fit into one number
+
+/** The surface with the points of each cell of a grid drawn into their middle: a hundred thousand triangles whatever it has, sorted by patch as surface_set's.
+ *  Tones are by item of the surface. */
+export function thin_set(surface, patches, set) {
+  const { n, points, triangles, patch } = surface;
+  const bodies = new Box3();
+  set.boxes.forEach((box, p) => patches[p].is_of_body && bodies.union(box));
+  const longest = (box) => Math.max(...box.getSize(new Vector3()).toArray(), 1e-12);
+  const cell_of = set.boxes.map((box, p) => (patches[p].is_of_body && !bodies.isEmpty() ? longest(bodies) / k_thin_cells : box.isEmpty() ? 1 : longest(box) / k_thin_cells_around));
+  // A point belongs to the grid of the first patch that uses it, so that patches stay joined.
+  const cluster = new Int32Array(points.length / 3).fill(-1);
+  const known = new Map();
+  const sums = []; // x, y, z, number of each cluster
+  for (let t = 0; t < n; ++t) {
+    const size = cell_of[patch[t]];
+    for (let c = 3 * t; c < 3 * t + 3; ++c) {
+      const v = triangles[c];
+      if (cluster[v] >= 0) continue;
+      const at = [0, 1, 2].map((axis) => ((Math.floor(points[3 * v + axis] / size) % k_most_cells) + k_most_cells) % k_most_cells);
+      const key = (at[0] * k_most_cells + at[1]) * k_most_cells + at[2];
+      let id = known.get(key);
+      if (id === undefined) {
+        known.set(key, (id = sums.length / 4));
+        sums.push(0, 0, 0, 0);
+      }
+      cluster[v] = id;
+      for (let axis = 0; axis < 3; ++axis) sums[4 * id + axis] += points[3 * v + axis];
+      sums[4 * id + 3] += 1;
+    }
+  }
+  const middles = new Float32Array((3 * sums.length) / 4);
+  for (let id = 0; 4 * id < sums.length; ++id) for (let axis = 0; axis < 3; ++axis) middles[3 * id + axis] = sums[4 * id + axis] / sums[4 * id + 3];
+  const source = [], corners = [];
+  for (let t = 0; t < n; ++t) {
+    const a = cluster[triangles[3 * t]], b = cluster[triangles[3 * t + 1]], c = cluster[triangles[3 * t + 2]];
+    if (a === b || b === c || c === a) continue;
+    source.push(t);
+    corners.push(a, b, c);
+  }
+  const thin = surface_set({ n: source.length, points: middles, triangles: corners, patch: source.map((t) => patch[t]), edges: new Uint8Array(source.length) }, patches);
+  for (let t = 0; t < thin.n; ++t) thin.item[t] = source[thin.item[t]];
+  return thin;
 }
 
 /** Polygons of a cut as fans (a plane through a convex cell gives a convex polygon); inner edges of a fan are no edges. */

@@ -26,6 +26,7 @@ export class Layer {
     this.pick = pick_material(this.uniforms);
     this.scene = scene;
     this.set = null;
+    this.thin = null; // the same with fewer triangles, for frames that have to be quick
     this.mesh = null;
   }
 
@@ -33,6 +34,7 @@ export class Layer {
     if (this.mesh) this.scene.remove(this.mesh);
     if (this.set && this.set !== set) this.set.dispose();
     this.set = set;
+    this.thin = null;
     this.mesh = null;
     if (!set) return;
     this.mesh = new Mesh(set.geometry, [this.draw]);
@@ -43,23 +45,22 @@ export class Layer {
     this.scene.add(this.mesh);
   }
 
-  /** Draws these ranges of triangles only; neighbours are joined, so that few calls are made. */
-  show_ranges(ranges) {
-    const joined = [];
-    for (const [from, to] of ranges) {
-      if (to <= from) continue;
-      if (joined.length && joined[joined.length - 1][1] === from) joined[joined.length - 1][1] = to;
-      else joined.push([from, to]);
-    }
-    this.ranges = joined;
-    this.set.geometry.clearGroups();
-    for (const [from, to] of joined) this.set.geometry.addGroup(3 * from, 3 * (to - from), 0);
+  /** Draws these ranges of triangles only (of the thin set: thin_ranges). */
+  show_ranges(ranges, thin_ranges = []) {
+    this.ranges = this.set.show_ranges(ranges);
+    this.thin?.show_ranges(thin_ranges);
+  }
+
+  /** Whether the thin set is drawn, where there is one. */
+  use_thin(is_thin) {
+    if (this.mesh) this.mesh.geometry = (is_thin && this.thin ? this.thin : this.set).geometry;
   }
 
   paint(tones, palette) {
     this.uniforms.palette.value?.dispose();
     this.uniforms.palette.value = palette_texture(palette);
     this.set.set_tones(tones);
+    this.thin?.set_tones(tones);
   }
 
   n_drawn() {
@@ -88,6 +89,7 @@ export class View {
         this.framed = null;
         handlers.moved?.();
       }
+      this.moves();
       this.request();
     });
     this.surface = new Layer(this.scene);
@@ -127,11 +129,16 @@ export class View {
   resize() {
     const width = Math.max(1, this.container.clientWidth), height = Math.max(1, this.container.clientHeight);
     this.renderer.setSize(width, height, false);
-    const is_other = this.lens.aspect !== width / height;
-    this.lens.aspect = width / height;
+    this.camera.height = height; // asking the page for it in every frame would have it laid out each time
+    const aspect = width / this.camera.n_pictures / height;
+    const is_other = this.lens.aspect !== aspect;
+    this.lens.aspect = aspect;
     if (is_other && this.framed) this.fit(this.framed, false);
     this.request();
   }
+
+  /** The camera moves: for those who draw otherwise then. */
+  moves() {}
 
   local(position) {
     return new Vector3(...position).sub(this.origin);
@@ -145,7 +152,10 @@ export class View {
     if (this.waiting) return;
     this.waiting = requestAnimationFrame((now) => {
       this.waiting = 0;
-      if (this.camera.step(now)) this.request();
+      if (this.camera.step(now)) {
+        this.moves();
+        this.request();
+      }
       this.draw();
     });
   }
@@ -170,16 +180,19 @@ export class View {
     if (at) this.pin_element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
   }
 
-  /** Pixels of an absolute position; null behind the camera or outside of the picture. */
-  on_screen(position) {
+  /** Pixels of an absolute position, in one of the pictures side by side; null behind the camera or outside of the picture. */
+  on_screen(position, picture = this.camera.n_pictures - 1) {
     const point = this.local(position).applyMatrix4(this.lens.matrixWorldInverse);
     if (point.z >= 0) return null;
     point.applyMatrix4(this.lens.projectionMatrix);
     if (Math.abs(point.x) > 1 || Math.abs(point.y) > 1) return null;
-    return [((point.x + 1) / 2) * this.canvas.clientWidth, ((1 - point.y) / 2) * this.canvas.clientHeight];
+    const width = this.canvas.clientWidth / this.camera.n_pictures;
+    return [((point.x + 1) / 2 + picture) * width, ((1 - point.y) / 2) * this.canvas.clientHeight];
   }
 
   draw_axes() {
+    if (this.drawn_axes?.equals(this.camera.orientation)) return;
+    this.drawn_axes = this.camera.orientation.clone();
     const inverse = this.camera.orientation.clone().invert();
     const arms = [["x", "#d0453a"], ["y", "#3c9a4e"], ["z", "#3f78c9"]].map(([name, colour], k) => ({ name, colour, v: new Vector3().setComponent(k, 1).applyQuaternion(inverse) }));
     arms.sort((a, b) => a.v.z - b.v.z);
@@ -351,6 +364,8 @@ export class View {
   /** {index, triangle, item, at, point} of what is first at pixels of the canvas, of layers[index]; or null. Drawn once more, one pixel, each triangle in a colour of its own. */
   hit(layers, x, y) {
     const size = this.renderer.getSize(new Vector2());
+    size.x /= this.camera.n_pictures;
+    x %= size.x;
     this.camera.apply();
     this.lens.setViewOffset(size.x, size.y, Math.floor(x), Math.floor(y), 1, 1);
     const first = [];
@@ -358,6 +373,7 @@ export class View {
     for (const layer of layers) {
       first.push(n);
       if (!layer.mesh) continue;
+      layer.use_thin(false);
       layer.uniforms.id_offset.value = n;
       layer.mesh.material = [layer.pick];
       n += layer.set.n;

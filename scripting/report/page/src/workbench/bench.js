@@ -9,6 +9,7 @@ import { Tabs } from "../tabs.js";
 import { cut_set } from "../triangles.js";
 import { paint_kinds } from "../painting.js";
 import { BenchView } from "./bench_view.js";
+import { CasesPanel } from "./cases_panel.js";
 import { compare_tab } from "./compare_tab.js";
 import { cuts_tab } from "./cuts_tab.js";
 import { log_tab } from "./log_tab.js";
@@ -29,12 +30,12 @@ const k_error_colour = [204, 64, 52];
 export class Bench {
   constructor() {
     // news: what the program said last; the rest is the user's.
-    this.state = new State({ news: null, chosen: null, color: "patch", map: "viridis", edges: true, tab: "object", cut: null, around: "clip", cut_color: "kind", place: -1, is_before: false, version: 0, shown: 0 });
+    this.state = new State({ news: null, chosen: null, color: "patch", map: "viridis", edges: true, tab: "object", cut: null, around: "clip", cut_color: "kind", place: -1, is_before: false, is_split: false, is_in_cases: false, version: 0, shown: 0 });
     this.loading = new Map(); // key -> number of the scene that is being loaded
     this.loaded = new Map(); // key -> number of the scene in the picture
     this.lines = [];
     this.n_lines = 0;
-    this.times = { news: 0, scene: 0 }; // for tests: when the last came
+    this.times = { news: 0, scene: 0, drawn: 0 }; // for tests: when the last came, and was drawn
     this.is_framed = false;
   }
 
@@ -44,7 +45,7 @@ export class Bench {
     this.legends = h("div.legends");
     this.info = h("div.info", { "aria-live": "polite", hidden: true });
     this.kept = h("div.info.kept", { hidden: true, id: "picked" });
-    this.view_box = h("div.view", null, h("div.view_top", null, this.toolbar(), this.old_mark, this.kept, this.info), this.legends, this.message);
+    this.view_box = h("div.view", null, h("div.view_top", null, this.toolbar(), this.old_mark, this.kept, this.info), this.legends, this.message, h("div.split_names", { "aria-hidden": "true" }, h("span", null, "before"), h("span", null, "now")));
     this.tabs = new Tabs(
       [
         { name: "object", title: "Object", make: () => object_tab(this) },
@@ -66,12 +67,21 @@ export class Bench {
       clicked: (found) => this.picking.show(found, true),
       marker_clicked: (k) => this.fly_to_marker(k),
       lost: (text) => this.say(text),
-      drawn: () => this.picking?.draw(),
+      drawn: () => {
+        this.picking?.draw();
+        this.times.drawn = performance.now();
+      },
     });
     this.picking = new Picking(this);
     this.view.set_edges(true, true);
     this.state.on(["color", "map", "is_before"], () => this.paint());
     this.state.on(["edges"], ({ edges }) => this.view.set_edges(edges, true));
+    this.state.on(["is_split"], ({ is_split }) => {
+      if (is_split) this.state.set({ is_before: false });
+      this.view.split(is_split);
+      this.paint();
+      this.clip();
+    });
     this.state.on(["cut", "cut_color", "map"], () => this.paint_cut());
     this.state.on(["cut", "around"], () => this.clip());
     this.state.on(["chosen"], ({ chosen }) => {
@@ -79,8 +89,39 @@ export class Bench {
       this.paint();
     });
     document.addEventListener("keydown", (event) => this.key(event));
-    await this.take_news(await get_state(0, 0));
+    const news = await get_state(0, 0);
+    if (news.has_cases) await this.open_cases();
+    await this.take_news(news);
     this.listen(); // for as long as the page is there
+  }
+
+  /** The page is about a series: its cases come first. */
+  async open_cases() {
+    this.cases = new CasesPanel(this);
+    this.view_box.append(this.cases.element);
+    this.state.set({ is_in_cases: true });
+    await this.cases.load();
+  }
+
+  /** Waits until news say so and all that is shown is in the picture. \throws ReportError after `patience` ms */
+  async is_shown_as(is_so, patience) {
+    const is_there = () => is_so(this.state.get("news")) && this.objects().every((object) => !this.is_shown(object) || !object.scene || this.loaded.get(object.key) === object.scene);
+    for (const end = performance.now() + patience; performance.now() < end; await new Promise((resolve) => setTimeout(resolve, 30))) if (is_there()) return;
+    throw new ReportError("It takes too long.");
+  }
+
+  /** Calls after changes of these names while that tab is shown; what a hidden one has missed, when it is shown again. */
+  on_in_tab(tab, names, call) {
+    let has_missed = false;
+    this.state.on(names, (values) => {
+      has_missed = values.tab !== tab;
+      if (!has_missed) call(values);
+    });
+    this.state.on(["tab"], (values) => {
+      if (values.tab !== tab || !has_missed) return;
+      has_missed = false;
+      call(values);
+    });
   }
 
   // ---- What the program says
@@ -117,16 +158,16 @@ export class Bench {
     for (const object of this.objects()) {
       if (!object.scene || this.loaded.get(object.key) === object.scene || this.loading.get(object.key) === object.scene || !this.is_shown(object)) continue;
       this.loading.set(object.key, object.scene);
-      this.load(object.key, object.scene);
+      this.load(object.key, object.scene, object.scene_run);
     }
   }
 
-  async load(key, number) {
+  async load(key, number, run) {
     try {
       const scene = await get_scene(number);
       if (this.loading.get(key) !== number) return; // a newer one is on its way
       this.loaded.set(key, number);
-      this.view.take(key, scene);
+      this.view.take(key, { ...scene, run });
       this.times.scene = performance.now();
       this.take_scene();
     } catch (error) {
@@ -239,11 +280,20 @@ export class Bench {
       const painting = field ? paint_field(field, { range, map, by_limits: false }) : paint_patches(shown.drawn.scene.surface, shown.drawn.scene.patches);
       shown.layer.paint(painting.tones, painting.palette);
       legend ??= painting.legend;
+      if (shown.before.set) this.paint_before(shown, color, range, map);
     }
     const chosen = this.chosen();
     this.surface_legend = legend ?? (chosen?.drawn ? patches_legend(chosen.drawn.scene.patches, chosen.shown_patches()) : null);
     fill(this.legends, this.cut_legend, this.surface_legend);
     this.view.request();
+  }
+
+  /** The run before beside this one: by the same figure, with this one's colours. */
+  paint_before(shown, color, range, map) {
+    const { scene } = shown.previous;
+    const field = scene.surface.fields.find((entry) => entry.name === color);
+    const painting = field ? paint_field(field, { range, map, by_limits: false }) : paint_patches(scene.surface, scene.patches);
+    shown.before.paint(painting.tones, painting.palette);
   }
 
   // ---- Cuts
@@ -278,8 +328,7 @@ export class Bench {
   clip() {
     const { cut, around } = this.state.values;
     this.view.set_clip(cut && around === "clip" ? cut : null);
-    for (const shown of this.view.objects.values()) if (shown.layer.mesh) shown.layer.mesh.visible = !(cut && around === "hide");
-    this.view.request();
+    this.view.hide_surfaces(Boolean(cut && around === "hide"));
   }
 
   // ---- Places
@@ -370,6 +419,8 @@ export class Bench {
     else if (event.key === "m") this.mesh_now();
     else if (event.key === "h") this.picking.hide_patch();
     else if (event.key === "a") this.show_all_patches();
+    else if (event.key === "s") this.state.set({ is_split: !this.state.get("is_split") });
+    else if (event.key === "c" && this.cases) this.cases.show(!this.state.get("is_in_cases"));
     else if (event.key === "b") this.state.set({ is_before: !this.state.get("is_before") });
     else if (event.key === "Escape") this.picking.clear();
     else return;
@@ -407,12 +458,20 @@ export class Bench {
       times: { ...this.times },
       message: this.message?.hidden ? "" : this.message?.textContent,
       old: this.old_mark?.hidden ? "" : this.old_mark?.textContent,
-      picks: this.picking?.picks.map(({ key, patch, at }) => ({ key, patch, at })),
+      picks: this.picking?.picks.map(({ key, patch, at, picture }) => ({ key, patch, at, picture })),
       pin: this.view?.pin ? { at: this.view.pin.at } : null,
+      cases: this.cases ? { n: this.cases.cases.length, pictures: this.cases.pictures.size, current: this.cases.current() } : null,
+      before: shown_before(this.view),
+      pace: this.view ? { is_moving: this.view.pace.is_moving, costs: [...this.view.pace.costs], thin: [...this.view.objects.values()].reduce((sum, object) => sum + (object.drawn?.set.thin?.n ?? 0), 0) } : null,
       is_flying: Boolean(this.view?.camera.flight),
       camera: this.view ? { distance: this.view.camera.distance, orientation: this.view.camera.orientation.toArray() } : null,
     };
   }
+}
+
+/** Triangles of the run before that stand beside this one, by object. */
+function shown_before(view) {
+  return [...(view?.objects.values() ?? [])].filter((object) => object.before.set).map((object) => ({ key: object.key, drawn: object.before.ranges.reduce((sum, [from, to]) => sum + to - from, 0) }));
 }
 
 function extent_of(positions, origin) {

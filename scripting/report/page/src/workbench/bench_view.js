@@ -1,8 +1,10 @@
 // The picture of several objects, each with its own triangles and origin; what is chosen among them is the view's surface.
-import { Sphere, Vector3 } from "three";
-import { box_of, surface_set } from "../triangles.js";
+import { Box3, Sphere, Vector3 } from "three";
+import { surface_set, thin_set } from "../triangles.js";
 import { Layer, View } from "../view.js";
+import { k_levels, Pace } from "./pace.js";
 
+const k_thin_from = 200000; // triangles from which on a surface has a thin set for movements
 const k_most_framed = 30000; // points: enough to frame any body
 
 /** An object in the picture. */
@@ -16,25 +18,44 @@ class Shown {
     this.is_visible = true;
     this.hidden = new Set(); // names of patches
     this.previous = null; // {scene, set} of the run before
+    this.before = new Layer(view.scene); // it, where both are side by side
     this.last = null; // the same while sketches are shown: what will be the one before
   }
 
   take(scene) {
     if (this.scene?.is_quick) this.set.dispose(); // a sketch is no run that one compares with
+    else if (this.scene?.run === scene.run) this.set?.dispose();
     else if (this.scene && !scene.is_quick) this.keep({ scene: this.scene, set: this.set });
     else if (this.scene) this.last = { scene: this.scene, set: this.set };
     if (!scene.is_quick && this.last) {
       this.keep(this.last);
       this.last = null;
     }
+    // A farfield would hide the body within: it is there to be ticked in the tree.
+    if (!this.scene && scene.kind === "volume" && scene.patches.some((patch) => patch.is_of_body))
+      for (const patch of scene.patches) if (!patch.is_of_body) this.hidden.add(patch.name);
     this.scene = scene;
     this.set = surface_set(scene.surface, scene.patches);
+    if (scene.surface.n >= k_thin_from) this.set.thin = thin_set(scene.surface, scene.patches, this.set);
     this.show({ scene: this.scene, set: this.set });
   }
 
   keep(previous) {
     if (this.previous && this.previous.set !== previous.set) this.previous.set.dispose();
     this.previous = previous;
+    this.show_before();
+  }
+
+  /** The run before gets a layer of its own while both are side by side. */
+  show_before() {
+    const { previous } = this.view.is_split ? this : { previous: null };
+    if (this.before.set === (previous?.set ?? null)) return;
+    this.before.set = null; // not thrown away: it is kept here
+    this.before.show(previous?.set ?? null, previous ? new Vector3(...previous.scene.origin).sub(this.view.origin) : null);
+    if (!previous) return;
+    this.before.thin = previous.set.thin ?? null;
+    this.before.uniforms.outward.value = previous.set.outward;
+    this.refresh();
   }
 
   /** Shows that one: the current, or the one before. */
@@ -42,32 +63,36 @@ class Shown {
     this.drawn = { scene, set };
     this.layer.set = null; // the layer would throw away what it showed; the one before is kept here
     this.layer.show(set, new Vector3(...scene.origin).sub(this.view.origin));
+    this.layer.thin = set.thin ?? null;
     this.layer.uniforms.outward.value = set.outward;
     this.refresh();
   }
 
   /** Ranges of the patches that are shown. */
-  ranges() {
-    const { scene, set } = this.drawn;
+  ranges(set = this.drawn.set, scene = this.drawn.scene) {
     return set.ranges.filter((_, p) => !this.hidden.has(scene.patches[p].name));
   }
 
-  shown_patches() {
-    const { scene } = this.drawn;
+  shown_patches(scene = this.drawn.scene) {
     return new Set(scene.patches.map((_, p) => p).filter((p) => !this.hidden.has(scene.patches[p].name)));
   }
 
   refresh() {
     if (!this.drawn) return;
-    this.layer.show_ranges(this.is_visible ? this.ranges() : []);
+    const { thin } = this.drawn.set;
+    this.layer.show_ranges(this.is_visible ? this.ranges() : [], this.is_visible && thin ? this.ranges(thin) : []);
+    if (!this.before.set) return;
+    const { set, scene } = this.previous;
+    this.before.show_ranges(this.is_visible ? this.ranges(set, scene) : [], this.is_visible && set.thin ? this.ranges(set.thin, scene) : []);
   }
 
   place() {
     if (this.drawn && this.layer.mesh) this.layer.mesh.position.copy(new Vector3(...this.drawn.scene.origin).sub(this.view.origin));
+    if (this.before.mesh) this.before.mesh.position.copy(new Vector3(...this.previous.scene.origin).sub(this.view.origin));
   }
 
   leave() {
-    if (this.layer.mesh) this.view.scene.remove(this.layer.mesh);
+    for (const { mesh } of [this.layer, this.before]) if (mesh) this.view.scene.remove(mesh);
     this.set?.dispose();
     this.previous?.set.dispose();
     this.last?.set.dispose();
@@ -80,12 +105,43 @@ export class BenchView extends View {
     this.objects = new Map();
     this.nothing = this.surface; // a layer without triangles
     this.chosen = null;
+    this.is_split = false; // the run before at the left, this one at the right
+    this.has_hidden_surfaces = false;
     this.has_origin = false;
+    this.pace = new Pace(this.renderer.getContext(), () => this.request());
+    this.full_ratio = this.renderer.getPixelRatio();
     this.restyle(); // the first time was before there were objects
   }
 
   layers() {
-    return [...(this.objects?.values() ?? [])].map((object) => object.layer);
+    return [...(this.objects?.values() ?? [])].flatMap((object) => (object.before.set ? [object.layer, object.before] : [object.layer]));
+  }
+
+  /** The run before beside this one, from one camera. */
+  split(is_split) {
+    this.is_split = is_split;
+    this.camera.n_pictures = is_split ? 2 : 1;
+    this.container.classList.toggle("split_view", is_split);
+    for (const object of this.objects.values()) object.show_before();
+    this.style_layers();
+    this.resize();
+  }
+
+  /** Whether surfaces are left out, so that a cut is seen alone. */
+  hide_surfaces(are_hidden) {
+    this.has_hidden_surfaces = are_hidden;
+    this.show_side(1);
+    this.request();
+  }
+
+  /** What belongs to the picture of the run before (0), of this one (1). */
+  show_side(side) {
+    for (const object of this.objects.values()) {
+      if (object.layer.mesh) object.layer.mesh.visible = side === 1 && !this.has_hidden_surfaces;
+      if (object.before.mesh) object.before.mesh.visible = side === 0 && !this.has_hidden_surfaces;
+    }
+    if (this.cut.mesh) this.cut.mesh.visible = side === 1;
+    if (this.markers) this.markers.visible = side === 1;
   }
 
   take(key, scene) {
@@ -97,6 +153,7 @@ export class BenchView extends View {
     const object = this.objects.get(key);
     object.take(scene);
     if (this.chosen === key) this.choose(key);
+    if (scene.is_quick) this.moves();
     this.style_layers();
     this.measure_scene();
     this.request();
@@ -151,7 +208,7 @@ export class BenchView extends View {
     const sphere = new Sphere(new Vector3(), -1);
     for (const object of this.objects.values()) {
       if (!object.drawn) continue;
-      const own = box_of(object.drawn.set.positions).getBoundingSphere(new Sphere());
+      const own = object.drawn.set.boxes.reduce((all, box) => all.union(box), new Box3()).getBoundingSphere(new Sphere());
       own.center.add(object.layer.mesh.position);
       sphere.isEmpty() ? sphere.copy(own) : sphere.union(own);
     }
@@ -177,10 +234,12 @@ export class BenchView extends View {
   }
 
   set_clip(plane) {
+    const clip = (layer, { scene }) => {
+      layer.uniforms.clip.value = plane ? [...plane.normal, new Vector3(...plane.normal).dot(new Vector3(...plane.origin).sub(new Vector3(...scene.origin)))] : [0, 0, 0, 1];
+    };
     for (const object of this.objects.values()) {
-      const clip = object.layer.uniforms.clip;
-      if (!plane) clip.value = [0, 0, 0, 1];
-      else clip.value = [...plane.normal, new Vector3(...plane.normal).dot(new Vector3(...plane.origin).sub(new Vector3(...(object.drawn ?? object).scene.origin)))];
+      clip(object.layer, object.drawn ?? object);
+      if (object.previous) clip(object.before, object.previous);
     }
     this.request();
   }
@@ -196,19 +255,73 @@ export class BenchView extends View {
       layer.uniforms.near.value = this.lens.near;
       layer.uniforms.far.value = this.lens.far;
     }
-    this.renderer.render(this.scene, this.lens);
+    const level = this.use_level();
+    if (this.is_split) this.render_both();
+    else this.renderer.render(this.scene, this.lens);
+    this.pace?.measure(level);
     this.draw_pin();
     this.draw_axes();
     this.draw_scale_bar();
     this.handlers.drawn?.();
   }
 
-  /** {key, item, at, point} of an object, {layer: "cut", item, at}, or null. */
+  render_both() {
+    const { renderer } = this;
+    const width = this.container.clientWidth / 2, height = this.container.clientHeight;
+    renderer.setScissorTest(true);
+    for (const side of [0, 1]) {
+      this.show_side(side);
+      renderer.setViewport(side * width, 0, width, height);
+      renderer.setScissor(side * width, 0, width, height);
+      renderer.render(this.scene, this.lens);
+    }
+    renderer.setScissorTest(false);
+    renderer.setViewport(0, 0, 2 * width, height);
+  }
+
+  moves() {
+    this.pace?.move();
+  }
+
+  /** Makes the frame's level of drawing so; returns it. */
+  use_level() {
+    if (!this.pace) return 0;
+    const level = this.pace.level(this.layers().reduce((sum, layer) => sum + layer.n_drawn(), 0) + this.cut.n_drawn());
+    for (const layer of this.layers()) layer.use_thin(k_levels[level].is_thin);
+    const ratio = this.full_ratio * k_levels[level].share;
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    return level;
+  }
+
+  /** The drawing, `width` pixels wide, as the address of a picture. */
+  async thumbnail(width) {
+    this.pace.rest();
+    this.draw(); // in the same task: afterwards the canvas is empty
+    const small = document.createElement("canvas");
+    small.width = width;
+    small.height = Math.round((width * this.canvas.height) / this.canvas.width);
+    small.getContext("2d").drawImage(this.canvas, 0, 0, small.width, small.height);
+    return small.toDataURL("image/png");
+  }
+
+  picture(elements) {
+    this.pace.rest();
+    return super.picture(elements);
+  }
+
+  pixels() {
+    this.pace.rest();
+    return super.pixels();
+  }
+
+  /** {key, item, at, point, picture} of an object, {layer: "cut", item, at, picture}, or null. */
   pick(x, y) {
     const objects = [...(this.objects?.values() ?? [])];
-    const found = this.hit([...objects.map((object) => object.layer), this.cut], x, y);
+    const side = this.is_split && x < this.container.clientWidth / 2 ? 0 : 1;
+    if (this.is_split) this.show_side(side);
+    const found = this.hit([...objects.map((object) => (side === 0 ? object.before : object.layer)), this.cut], x, y);
     if (!found) return null;
     const key = objects[found.index]?.key ?? null;
-    return { layer: key === null ? "cut" : "surface", key, triangle: found.triangle, item: found.item, at: found.at, point: found.point };
+    return { layer: key === null ? "cut" : "surface", key, triangle: found.triangle, item: found.item, at: found.at, point: found.point, picture: this.is_split ? side : 0 };
   }
 }

@@ -65,7 +65,7 @@ export function cuts_tab(bench) {
     fill(colours, cut ? select_of("Colour of the cells", "cut_color", [["kind", "by kind of cell"], ...cut.fields.map((field) => [field.name, field.unit ? `${field.title} [${field.unit}]` : field.title])], state.get("cut_color"), (name) => state.set({ cut_color: name })) : null);
     cells.textContent = cut ? `${count_text(cut.n)}${cut.total > cut.n ? ` of ${count_text(cut.total)}` : ""} cells` : "";
   };
-  state.on(["shown", "chosen", "cut"], refresh);
+  bench.on_in_tab("cuts", ["shown", "chosen", "cut"], refresh);
   refresh();
   return [h("h2", null, "Cut through the cells"), note, form];
 }

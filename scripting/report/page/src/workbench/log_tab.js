@@ -13,7 +13,7 @@ export function log_tab(bench) {
     fill(list, bench.lines.slice(-k_most).map(({ run, warns, text }) => h(`div.log_line${warns ? ".warns" : ""}`, null, h("small", null, `${run} `), text)));
     if (is_at_end) list.lastChild?.scrollIntoView({ block: "end" });
   };
-  bench.state.on(["news"], refresh);
+  bench.on_in_tab("log", ["news"], refresh);
   refresh();
   return list;
 }

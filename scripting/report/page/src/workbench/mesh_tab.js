@@ -37,7 +37,7 @@ export function mesh_tab(bench) {
       ),
     );
   };
-  bench.state.on(["shown", "chosen"], refresh);
+  bench.on_in_tab("mesh", ["shown", "chosen"], refresh);
   refresh();
   return body;
 }

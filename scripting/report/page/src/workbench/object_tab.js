@@ -24,7 +24,7 @@ export function object_tab(bench) {
       h("table.list", null, h("thead", null, h("tr", null, h("th", null, "patch"), h("th", null, "kind"), h("th.number", null, "area m\u00b2"), scene.kind === "model" ? null : h("th.number", null, "triangles"))), h("tbody", null, patches.map((patch) => h("tr", null, h("td", null, patch.name), h("td", null, patch.kind), h("td.number", null, number_text(patch.area)), scene.kind === "model" ? null : h("td.number", null, count_text(patch.triangles)))))),
     );
   };
-  bench.state.on(["shown", "chosen"], refresh);
+  bench.on_in_tab("object", ["shown", "chosen"], refresh);
   refresh();
   return body;
 }

@@ -39,9 +39,9 @@ export class Picking {
 
   describe(found) {
     const shown = this.bench.view.objects.get(found.key);
-    const { scene, set } = shown.drawn;
+    const { scene, set } = found.picture === 0 && this.bench.view.is_split ? shown.previous : shown.drawn;
     const patch = scene.patches[scene.surface.patch[found.item]];
-    return { key: found.key, at: found.at, item: found.item, kind: scene.kind, patch: patch.name, component: patch.component, role: patch.role, patch_kind: patch.kind, area: patch.area, edges: edge_lengths(set, found.triangle), fields: scene.surface.fields.map((field) => [field, field.values[found.item]]) };
+    return { key: found.key, at: found.at, picture: found.picture, item: found.item, kind: scene.kind, patch: patch.name, component: patch.component, role: patch.role, patch_kind: patch.kind, area: patch.area, edges: edge_lengths(set, found.triangle), fields: scene.surface.fields.map((field) => [field, field.values[found.item]]) };
   }
 
   lines(pick, is_kept) {
@@ -71,7 +71,7 @@ export class Picking {
 
   /** Rings at the picks and the line between them follow the camera. */
   draw() {
-    const at = this.picks.map((pick) => this.bench.view.on_screen(pick.at));
+    const at = this.picks.map((pick) => this.bench.view.on_screen(pick.at, pick.picture));
     this.rings.forEach((ring, k) => {
       ring.hidden = !at[k];
       if (at[k]) ring.style.transform = `translate(${at[k][0].toFixed(1)}px, ${at[k][1].toFixed(1)}px)`;

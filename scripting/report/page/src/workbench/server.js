@@ -32,6 +32,16 @@ export async function get_script() {
   return (await (await get("script", {})).json()).text;
 }
 
+/** Cases of the series that the page is about. */
+export async function get_cases() {
+  return (await get("cases", {})).json();
+}
+
+/** Address within the page of a picture that a case has written. */
+export async function get_picture(picture) {
+  return URL.createObjectURL(await (await get("picture", { picture })).blob());
+}
+
 /** JSON and arrays of a block: {json, arrays}. \throws ReportError */
 function read_block(buffer) {
   if (buffer.byteLength < 8) throw new ReportError("The picture is cut off.");

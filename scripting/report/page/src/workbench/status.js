@@ -14,11 +14,15 @@ export function status_line(bench) {
   const mesh = button("Mesh now", () => bench.mesh_now(), { title: "Run the whole script: meshes are made, files are written (key M)", id: "mesh_now" });
   const stop = button("Stop", () => post("stop", {}).catch((error) => bench.say_for_a_while(sentence_of(error))), { title: "Stop the run", id: "stop" });
   const again = button("Again", () => post("run", { mode: "geometry" }).catch((error) => bench.say_for_a_while(sentence_of(error))), { title: "Run the script again, geometry only", id: "run_again" });
+  const cases = button("Cases", () => bench.cases?.show(!bench.state.get("is_in_cases")), { title: "Pictures and table of the series' cases (key C)", id: "show_cases", pressed: false });
+  cases.hidden = true;
+  bench.state.on(["is_in_cases"], ({ is_in_cases }) => cases.setAttribute("aria-pressed", String(is_in_cases)));
   const refresh = ({ news }) => {
     if (!news) return;
     const { run } = news;
     const is_running = run.status === "running";
     title.textContent = news.file;
+    cases.hidden = !news.has_cases;
     stop.hidden = !is_running;
     again.hidden = is_running;
     bar.hidden = !is_running;
@@ -30,7 +34,7 @@ export function status_line(bench) {
     fill(words, h(`span.chip.${{ pass: "pass", fail: "fail", warn: "warn" }[k_states[run.status]] ?? "unknown"}`, null, run.status), ` ${k_modes[run.mode] ?? ""}${is_running ? ": " : ""}`, rest);
   };
   bench.state.on(["news"], refresh);
-  return h("header.banner", null, h("div.banner_title", null, title, h("span.program", null, "sterna view")), h("div.status_box", null, words, bar), h("div.buttons", null, stop, again, mesh));
+  return h("header.banner", null, h("div.banner_title", null, title, h("span.program", null, "sterna view")), h("div.status_box", null, words, bar), h("div.buttons", null, cases, stop, again, mesh));
 }
 
 export { chip };

@@ -42,7 +42,17 @@ function group_rows(bench, key, name, patches, shown) {
 export function tree_panel(bench) {
   const list = h("div.tree_list", { id: "tree" });
   const open = new Set(); // components that are folded out
+  let drawn = "";
+  /** All that the tree says, but for areas while sketches come: the rest of it stays while a slider moves. */
+  const signature = () => {
+    const chosen = bench.chosen();
+    const patches = chosen?.scene?.patches.map((patch) => [patch.name, patch.component, chosen.hidden.has(patch.name), chosen.scene.is_quick ? 0 : patch.area]);
+    return JSON.stringify([bench.objects().map((object) => [object.key, object.kind, object.line, bench.is_shown(object), object.is_old && object.scene > 0 && !chosen?.scene?.is_quick, object.failure]), bench.state.get("chosen"), patches]);
+  };
   const refresh = () => {
+    const now = signature();
+    if (now === drawn) return;
+    drawn = now;
     for (const details of list.querySelectorAll("details.component")) details.open ? open.add(details.dataset.component) : open.delete(details.dataset.component);
     const rows = bench.objects().map((object) => {
       const shown = bench.view?.objects.get(object.key);
