@@ -15,6 +15,7 @@
 #include "scripting/report/page_surface.h"
 #include "scripting/report/report_gates.h"
 #include "scripting/values/aircraft_model.h"
+#include "scripting/values/inspect_surface.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/stages.h"
@@ -59,6 +60,55 @@ void add_surface(SceneJson& scene, std::span<const Point> points, const PageTria
 SurfaceField curvature_field(std::vector<double> values) {
   return {{.name = "curvature", .title = "curvature", .unit = "1/m", .is_log = true, .is_low_bad = false, .limits = k_without_limits, .is_of_layer = false},
           std::move(values)};
+}
+
+SceneJson place_of(const Point& p) { return SceneJson::array({p.x, p.y, p.z}); }
+
+/// Section of a wing: its leading edge, chord, angles, airfoil; one that is given as a loop has the chord of that.
+SceneJson section_json(const WingSection& section, const Transform& map, std::size_t number) {
+  constexpr double k_degrees = 180.0 / std::numbers::pi;
+  SceneJson entry = {{"name", section.name.empty() ? "section " + std::to_string(number) : section.name}};
+  if (section.loop.empty()) {
+    entry["at"] = place_of(map.point(section.leading_edge));
+    entry["chord"] = section.chord;
+    entry["twist"] = section.twist * k_degrees;
+    entry["airfoil"] = section.airfoil;
+    return entry;
+  }
+  const Point leading = map.point(section.loop[section.loop.size() / 2]);
+  entry["at"] = place_of(leading);
+  entry["chord"] = distance(leading, map.point(section.loop.front() + 0.5 * (section.loop.back() - section.loop.front())));
+  return entry;
+}
+
+/// Sections of wings from the root outwards, frames of bodies, and control surfaces, by the name of the component.
+SceneJson parts_json(const Aircraft& aircraft) {
+  constexpr double k_degrees = 180.0 / std::numbers::pi;
+  SceneJson parts = SceneJson::object();
+  for (const Wing& wing : aircraft.wings) {
+    const Transform map = transform_of(wing.placement);
+    SceneJson& list = parts[wing.name]["sections"] = SceneJson::array();
+    for (std::size_t i = wing.sections.size(); i-- > 0;) list.push_back(section_json(wing.sections[i], map, wing.sections.size() - i));
+  }
+  for (const Body& body : aircraft.bodies) {
+    const Transform map = transform_of(body.placement);
+    SceneJson& list = parts[body.name]["sections"] = SceneJson::array();
+    for (std::size_t i = 0; i < body.frames.size(); ++i) {
+      const BodyFrame& frame = body.frames[i];
+      list.push_back({{"name", frame.name.empty() ? "frame " + std::to_string(i + 1) : frame.name},
+                      {"at", place_of(map.point(frame.center))},
+                      {"width", frame.width},
+                      {"height", frame.height}});
+    }
+  }
+  const auto add_control = [&](const ControlSurface& surface, double angle) {
+    parts[surface.wing]["controls"].push_back({{"name", surface.name}, {"angle", angle * k_degrees}});
+  };
+  for (const Deflection& deflection : aircraft.deflections) add_control(deflection.surface, deflection.angle);
+  for (const ControlSurface& surface : aircraft.control_surfaces)
+    if (std::ranges::none_of(aircraft.deflections, [&](const Deflection& d) { return d.surface.wing == surface.wing && d.surface.name == surface.name; }))
+      add_control(surface, 0.0);
+  return parts;
 }
 
 void add_model_facts(SceneJson& scene, const ModelValue& value, const RunContext& context) {
@@ -121,7 +171,10 @@ std::string model_scene(const ModelValue& value, const SceneOptions& options, co
     scene["patches"][p]["role"] = to_string(face.role);
   }
   scene["is_quick"] = options.is_quick;
-  if (!options.is_quick) add_model_facts(scene, value, context);
+  if (!options.is_quick) {
+    add_model_facts(scene, value, context);
+    if (value.description) scene["parts"] = parts_json(*value.description);
+  }
   if (!facets.untrimmed.empty()) add_fact(scene, "drawn roughly", std::to_string(facets.untrimmed.size()) + " faces whose borders cross themselves");
   return block_of(scene, arrays);
 }
@@ -230,6 +283,16 @@ std::string scene_bytes(const ScriptValue& value, const SceneOptions& options, c
   if (const auto* tetrahedra = std::get_if<TetrahedraHandle>(&value)) return surface_scene(*(*tetrahedra)->wall, options, context);
   if (const auto* mesh = std::get_if<MeshHandle>(&value)) return mesh_scene(**mesh, options, context);
   throw Error({.code = ErrorCode::bad_argument, .attempted = "drawing " + std::string(type_text(value)), .problem = "there is nothing to draw"});
+}
+
+std::string inspection_json(const ScriptValue& value, const RunContext& context) {
+  const auto* surface = std::get_if<SurfaceHandle>(&value);
+  if (!surface)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "inspecting " + std::string(type_text(value)),
+                 .problem = "only surfaces are inspected",
+                 .hint = "choose one in the tree"});
+  return json_of(inspect_surface(**surface, {}, context), "surface");
 }
 
 std::string cut_bytes(const ScriptValue& value, const std::string& plane_text, std::size_t max_polygons, const RunContext& context) {

@@ -23,6 +23,10 @@ struct SceneOptions {
 /// \pre is_drawable(value) \throws Error of making a component's model, of check
 std::string scene_bytes(const ScriptValue& value, const SceneOptions& options, const RunContext& context);
 
+/// JSON of what inspect{} says of a surface without layers (schema sterna-inspect-1: findings with places and advice).
+/// \throws Error(bad_argument) for another object than a surface
+std::string inspection_json(const ScriptValue& value, const RunContext& context);
+
 /// JSON of a cut through a volume mesh and its arrays, in the same form. `plane` as `--cut` takes it: "x=1.2", "point=0,0,0 normal=0,1,0"
 /// \throws Error(bad_argument) for another text, or another object than a volume mesh
 std::string cut_bytes(const ScriptValue& value, const std::string& plane, std::size_t max_polygons, const RunContext& context);

@@ -109,7 +109,7 @@ class Worker {
         const WorkerJson job = WorkerJson::parse(text.substr(0, end));
         const std::string what = job.value("do", "");
         if (what == "run") run(job);
-        else if (what == "scene" || what == "cut") send_asked(job, what);
+        else if (what == "scene" || what == "cut" || what == "inspect") send_asked(job, what);
         context_.run.check_stop();
       }
       if (!read_some(STDIN_FILENO, text)) return k_exit_success;
@@ -313,7 +313,7 @@ class Worker {
                    {"problems", is_quick ? WorkerJson::array() : problems_}});
   }
 
-  /// An object's scene or a cut through it, of the run that is held.
+  /// An object's scene, a cut through it, what an inspection finds: of the run that is held.
   void send_asked(const WorkerJson& job, const std::string& what) {
     const auto id = job.value("id", std::size_t{0});
     const auto ask = job.value("ask", 0);
@@ -321,8 +321,9 @@ class Worker {
       return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", ask}, {"text", "the run that made it is over"}});
     if (what == "scene") return send_scene(id, false);
     try {
-      const std::string bytes = cut_bytes(objects_[id].value, job.value("plane", ""), k_most_cut_polygons, *run_);
-      answers_.send({{"is", "cut"}, {"run", number_}, {"id", id}, {"ask", ask}}, bytes);
+      const ScriptValue& value = objects_[id].value;
+      const std::string bytes = what == "inspect" ? inspection_json(value, *run_) : cut_bytes(value, job.value("plane", ""), k_most_cut_polygons, *run_);
+      answers_.send({{"is", "asked"}, {"run", number_}, {"id", id}, {"ask", ask}}, bytes);
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::write_failed) throw;
       answers_.send({{"is", "failed"}, {"run", number_}, {"id", id}, {"ask", ask}, {"text", error.what()}});

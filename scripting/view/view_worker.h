@@ -4,7 +4,8 @@
 //   {"do": "run", "run": 3, "mode": "sketch" | "geometry" | "mesh", "arguments": {"span": "11"}, "wanted": ["model"], "unwanted": [], "kept": []}
 //     -> parameters, log, print, progress, objects, scene ..., ended
 //   {"do": "scene", "run": 3, "id": 2}                  an object of that run   -> scene, or failed
-//   {"do": "cut", "run": 3, "id": 2, "plane": "x=1.2", "ask": 7}                -> cut, or failed
+//   {"do": "cut", "run": 3, "id": 2, "plane": "x=1.2", "ask": 7}                -> asked, or failed
+//   {"do": "inspect", "run": 3, "id": 2, "ask": 8}                              -> asked, or failed
 // A sketch leaves solids side by side that the script unites, and shows shapes only; "geometry" makes models and reads surfaces, without meshing or writing
 // anything; "mesh" runs the script as `sterna run` does.
 #pragma once

@@ -33,7 +33,7 @@ using namespace std::chrono_literals;
 
 constexpr auto k_look_interval = 60ms;      ///< between looks at the files
 constexpr auto k_page_patience = 20s;       ///< an answer that has nothing new to tell is given after this time
-constexpr auto k_cut_patience = 60s;        ///< a page that asked for a cut waits so long for it
+constexpr auto k_ask_patience = 60s;        ///< a page that asked for a cut or an inspection waits so long for it
 constexpr auto k_sketch_patience = 1500ms;  ///< a sketch is left to its end so long before a newer one takes its place
 constexpr auto k_quick_sketch = 300ms;      ///< what takes longer shows its progress
 constexpr auto k_end_patience = 3s;         ///< a worker that was told to stop is killed after this time
@@ -68,8 +68,8 @@ struct State {
   std::vector<std::string> wanted, unwanted;  ///< keys
   std::deque<BenchJson> lines;                ///< of the log
   std::uint64_t n_lines = 0;
-  std::map<int, std::shared_ptr<const std::string>> cuts;  ///< by number of the question
-  std::map<int, std::string> refused_cuts;
+  std::map<int, std::shared_ptr<const std::string>> asked;  ///< answers by number of the question
+  std::map<int, std::string> refused;
   int n_asked = 0;
 };
 
@@ -140,7 +140,8 @@ class Workbench::Parts {
       if (request.name == "run") return run_asked(body);
       if (request.name == "stop") return stop_asked();
       if (request.name == "show") return show_asked(body);
-      if (request.name == "cut") return cut_asked(body);
+      if (request.name == "cut") return asked_of_object("cut", body, "application/octet-stream");
+      if (request.name == "inspect") return asked_of_object("inspect", body, "application/json");
       if (request.name == "save") return save_values();
       return refusal("there is no such page", 404);
     } catch (const BenchJson::exception& error) {
@@ -268,23 +269,25 @@ class Workbench::Parts {
     return json_answer({{"ok", true}});
   }
 
-  PageAnswer cut_asked(const BenchJson& body) {
+  /// A cut through an object, or what an inspection finds: the worker is asked, and waited for.
+  PageAnswer asked_of_object(const char* what, const BenchJson& body, std::string_view type) {
     const std::string key = body.value("key", "");
     std::unique_lock lock(mutex_);
     const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
     if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
-    if (!worker_ || worker_->is_busy || worker_->is_gone || found->run != held_run_) return refusal("the mesh is not at hand: mesh again");
+    if (!worker_ || worker_->is_busy || worker_->is_gone || found->run != held_run_)
+      return refusal(std::string(body.contains("plane") ? "the mesh" : "the surface") + " is not at hand: mesh again");
     const int ask = ++state_.n_asked;
-    send_job({{"do", "cut"}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", ask}});
-    const auto is_there = [&] { return is_over_ || state_.cuts.contains(ask) || state_.refused_cuts.contains(ask); };
-    changed_.wait_for(lock, k_cut_patience, is_there);
-    if (const auto cut = state_.cuts.find(ask); cut != state_.cuts.end()) {
-      const PageAnswer result{.type = "application/octet-stream", .body = cut->second};
-      state_.cuts.erase(cut);
+    send_job({{"do", what}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", ask}});
+    const auto is_there = [&] { return is_over_ || state_.asked.contains(ask) || state_.refused.contains(ask); };
+    changed_.wait_for(lock, k_ask_patience, is_there);
+    if (const auto answer = state_.asked.find(ask); answer != state_.asked.end()) {
+      const PageAnswer result{.type = type, .body = answer->second};
+      state_.asked.erase(answer);
       return result;
     }
-    const auto refused = state_.refused_cuts.find(ask);
-    return refusal(refused == state_.refused_cuts.end() ? "the cut takes too long" : refused->second);
+    const auto refused = state_.refused.find(ask);
+    return refusal(refused == state_.refused.end() ? "it takes too long" : refused->second);
   }
 
   PageAnswer save_values() {
@@ -502,12 +505,12 @@ class Workbench::Parts {
     } else if (is == "parameters") note_parameters(line["list"]);
     else if (is == "objects") note_objects(line);
     else if (is == "scene") note_scene(line, std::move(bytes));
-    else if (is == "cut") state_.cuts[line.value("ask", 0)] = std::move(bytes);
+    else if (is == "asked") state_.asked[line.value("ask", 0)] = std::move(bytes);
     else if (is == "failed") note_failure(line);
     else if (is == "ended") note_end(worker, line);
     // A sketch is told of once, when it is there: while a slider moves the page has no time for its steps.
     const bool is_step_of_sketch =
-        is != "ended" && is != "cut" && worker.mode == "sketch" && worker.is_busy && BenchClock::now() - worker.since < k_quick_sketch;
+        is != "ended" && is != "asked" && worker.mode == "sketch" && worker.is_busy && BenchClock::now() - worker.since < k_quick_sketch;
     if (!is_step_of_sketch) tell_change();
   }
 
@@ -553,7 +556,7 @@ class Workbench::Parts {
 
   void note_failure(const BenchJson& line) {
     if (const int ask = line.value("ask", 0); ask > 0) {
-      state_.refused_cuts[ask] = line.value("text", "");
+      state_.refused[ask] = line.value("text", "");
       return;
     }
     for (ShownObject& object : state_.objects)

@@ -114,12 +114,22 @@ async function use_tree(page, key, component) {
   now = shown_of(await state_of(page), key);
   require_that(now.drawn > 0 && now.drawn < before.drawn, `only ${component}`);
   await page.locator(`[data-key="${key}"] [data-component="${component}"] > summary`).click({ position: { x: 6, y: 12 } });
+  const sections = `[data-key="${key}"] [data-component="${component} sections"]`;
+  await page.click(`${sections} > summary`);
+  require_that((await page.$$eval(`${sections} [data-section]`, (list) => list.length)) === 3 && (await page.$$eval(`${sections} [data-control]`, (list) => list.length)) === 2, `sections and control surfaces of ${component}`);
+  require_that(/chord 6\.6 m/.test(await page.textContent(`${sections} [data-section]`)), "the root's chord");
+  await page.click(`${sections} [data-section] .link`);
+  require_that((await settled(page, "a section")).pin !== null, "a section is marked");
+  await shot(page, "sections");
   const patch = page.locator(`[data-key="${key}"] [data-component="${component}"] [data-patch]`).first();
   await patch.locator("input").click();
   require_that(shown_of(await state_of(page), key).drawn < now.drawn, "a patch is hidden");
   await page.locator(".view_canvas").focus();
   await page.keyboard.press("a");
   require_equal(shown_of(await state_of(page), key).drawn, before.drawn, "all patches again");
+  await page.keyboard.press("Escape");
+  await page.click("#view_iso");
+  await settled(page, "iso after the tree");
 }
 
 async function use_objects(page, key, other) {
@@ -335,7 +345,7 @@ async function use_airliner(context) {
   await shot(page, "broken");
   await replace(file, "cord = p.tip_chord", "chord = p.tip_chord");
   await wait_for(page, (s) => s.run.status === "done" && !s.old, null, "the mended line");
-  for (const tab of ["object", "mesh", "cuts", "log", "script"]) {
+  for (const tab of ["object", "mesh", "inspect", "cuts", "log", "script"]) {
     await page.click(`#tab_${tab}`);
     await page.waitForSelector(`#body_${tab}:not([hidden])`);
   }
@@ -417,8 +427,30 @@ mesh:write "case.vtu"
   await page.click("#cut_look");
   await settled(page, "the cut");
   await shot(page, "cut");
+  await pick_at(page, 0.5, 0.2);
+  await pick_at(page, 0.3, 0.3);
+  const { picks } = await state_of(page);
+  require_equal(picks.map(({ kind }) => kind), ["cell", "cell"], "picks of cells");
+  const wanted = Math.hypot(...picks[0].at.map((x, c) => x - picks[1].at[c]));
+  require_that(wanted > 0 && Math.abs(parseFloat(await page.textContent("#distance b")) - wanted) < 0.001 * wanted, "the distance of two cells");
+  await shot(page, "cut_distance");
+  await page.keyboard.press("Escape");
   await page.click("#cut_none");
   require_equal((await state_of(page)).cut, null, "no cut");
+
+  // What an inspection finds on the surface, with places to fly to.
+  await page.locator('[data-key="surface"] > .tree_row input').click();
+  await wait_for(page, (s) => s.shown.some((x) => x.key === "surface" && x.drawn > 0), null, "the surface");
+  await page.click("#tab_inspect");
+  await page.click("#inspect_start");
+  await page.waitForSelector("#inspect_tab h2 .chip", { timeout: k_patience });
+  const places = await page.$$("#inspect_tab .place");
+  if (places.length) {
+    await places[0].click();
+    require_that((await settled(page, "a finding")).pin !== null, "a finding is marked");
+  }
+  await shot(page, "inspect");
+  await page.locator('[data-key="surface"] > .tree_row input').click();
 
   // Another number of layers: the mesh of before stays, old, until the new one; then both are compared. A run is stopped.
   await page.fill("#value_layers", "4");

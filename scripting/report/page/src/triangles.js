@@ -118,11 +118,11 @@ export function surface_set(surface, patches) {
   return set;
 }
 
-const k_thin_cells = 300; // of a thin set's grid along the longest side of the bodies
+const k_thin_cells = 220; // of a thin set's grid along the longest side of the bodies
 const k_thin_cells_around = 60; // the same of what is around them, a farfield
 const k_most_cells = 1 << 17; // along one axis: three such numbers fit into one number
 
-/** The surface with the points of each cell of a grid drawn into their middle: a hundred thousand triangles whatever it has, sorted by patch as surface_set's.
+/** The surface with the points of each cell of a grid drawn into their middle: some ten thousand triangles whatever it has, sorted by patch as surface_set's.
  *  Tones are by item of the surface. */
 export function thin_set(surface, patches, set) {
   const { n, points, triangles, patch } = surface;

@@ -63,6 +63,12 @@ export class Layer {
     this.thin?.set_tones(tones);
   }
 
+  /** The same where the thin set is drawn. */
+  n_drawn_thin() {
+    if (!this.thin) return this.n_drawn();
+    return this.mesh?.visible ? this.thin.n : 0;
+  }
+
   n_drawn() {
     return this.mesh?.visible ? this.ranges.reduce((sum, [from, to]) => sum + to - from, 0) : 0;
   }

@@ -12,6 +12,7 @@ import { BenchView } from "./bench_view.js";
 import { CasesPanel } from "./cases_panel.js";
 import { compare_tab } from "./compare_tab.js";
 import { cuts_tab } from "./cuts_tab.js";
+import { inspect_tab } from "./inspect_tab.js";
 import { log_tab } from "./log_tab.js";
 import { mesh_tab } from "./mesh_tab.js";
 import { object_tab } from "./object_tab.js";
@@ -43,13 +44,15 @@ export class Bench {
     this.message = h("div.view_message", { role: "status", hidden: true });
     this.old_mark = h("div.old_mark", { role: "status", hidden: true });
     this.legends = h("div.legends");
+    this.thin_note = h("div.thin_note", { hidden: true, title: "All of it is drawn where a graphics card is fast enough, and into saved pictures" }, "thinned: all triangles would take too long here");
     this.info = h("div.info", { "aria-live": "polite", hidden: true });
     this.kept = h("div.info.kept", { hidden: true, id: "picked" });
-    this.view_box = h("div.view", null, h("div.view_top", null, this.toolbar(), this.old_mark, this.kept, this.info), this.legends, this.message, h("div.split_names", { "aria-hidden": "true" }, h("span", null, "before"), h("span", null, "now")));
+    this.view_box = h("div.view", null, h("div.view_top", null, this.toolbar(), this.old_mark, this.kept, this.info), this.legends, this.message, this.thin_note, h("div.split_names", { "aria-hidden": "true" }, h("span", null, "before"), h("span", null, "now")));
     this.tabs = new Tabs(
       [
         { name: "object", title: "Object", make: () => object_tab(this) },
         { name: "mesh", title: "Mesh", make: () => mesh_tab(this) },
+        { name: "inspect", title: "Inspect", make: () => inspect_tab(this) },
         { name: "cuts", title: "Cuts", make: () => cuts_tab(this) },
         { name: "compare", title: "Compare", make: () => compare_tab(this) },
         { name: "script", title: "Script", make: () => script_tab(this) },
@@ -70,6 +73,7 @@ export class Bench {
       drawn: () => {
         this.picking?.draw();
         this.times.drawn = performance.now();
+        this.thin_note.hidden = !this.view || this.view.level === 0 || this.view.pace.is_moving;
       },
     });
     this.picking = new Picking(this);
@@ -146,7 +150,9 @@ export class Bench {
     this.lines.push(...news.lines);
     if (this.lines.length > 1000) this.lines.splice(0, this.lines.length - 1000);
     document.title = `${news.file} \u2013 sterna view`;
-    for (const key of [...this.loaded.keys()]) if (!news.objects.some((object) => object.key === key)) this.forget(key);
+    const is_gone = (key) => !news.objects.some((object) => object.key === key);
+    for (const key of [...this.loading.keys()].filter(is_gone)) this.loading.delete(key);
+    for (const key of [...this.loaded.keys()].filter(is_gone)) this.forget(key);
     this.state.set({ news, version: news.version });
     this.show_old();
     this.show_markers();
@@ -458,11 +464,11 @@ export class Bench {
       times: { ...this.times },
       message: this.message?.hidden ? "" : this.message?.textContent,
       old: this.old_mark?.hidden ? "" : this.old_mark?.textContent,
-      picks: this.picking?.picks.map(({ key, patch, at, picture }) => ({ key, patch, at, picture })),
+      picks: this.picking?.picks.map(({ key, kind, patch, at, picture }) => ({ key, kind, patch, at, picture })),
       pin: this.view?.pin ? { at: this.view.pin.at } : null,
       cases: this.cases ? { n: this.cases.cases.length, pictures: this.cases.pictures.size, current: this.cases.current() } : null,
       before: shown_before(this.view),
-      pace: this.view ? { is_moving: this.view.pace.is_moving, costs: [...this.view.pace.costs], thin: [...this.view.objects.values()].reduce((sum, object) => sum + (object.drawn?.set.thin?.n ?? 0), 0) } : null,
+      pace: this.view ? { level: this.view.level, is_moving: this.view.pace.is_moving, costs: [...this.view.pace.costs], thin: [...this.view.objects.values()].reduce((sum, object) => sum + (object.drawn?.set.thin?.n ?? 0), 0) } : null,
       is_flying: Boolean(this.view?.camera.flight),
       camera: this.view ? { distance: this.view.camera.distance, orientation: this.view.camera.orientation.toArray() } : null,
     };

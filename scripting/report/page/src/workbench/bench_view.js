@@ -286,7 +286,9 @@ export class BenchView extends View {
   /** Makes the frame's level of drawing so; returns it. */
   use_level() {
     if (!this.pace) return 0;
-    const level = this.pace.level(this.layers().reduce((sum, layer) => sum + layer.n_drawn(), 0) + this.cut.n_drawn());
+    const layers = [...this.layers(), this.cut];
+    const level = this.pace.level(layers.reduce((sum, layer) => sum + layer.n_drawn(), 0), layers.reduce((sum, layer) => sum + layer.n_drawn_thin(), 0));
+    this.level = level;
     for (const layer of this.layers()) layer.use_thin(k_levels[level].is_thin);
     const ratio = this.full_ratio * k_levels[level].share;
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);

@@ -27,29 +27,36 @@ export class Picking {
 
   show(found, is_click) {
     const { bench } = this;
-    if (is_click && found?.layer === "surface") {
+    if (is_click && found) {
       this.picks = [...this.picks.slice(-1), this.describe(found)];
       fill(bench.kept, this.lines(this.picks.at(-1), true));
       bench.kept.hidden = false;
-    } else if (is_click && !found) return this.clear();
+    } else if (is_click) return this.clear();
     bench.info.hidden = !found || is_click;
-    if (!bench.info.hidden) fill(bench.info, found.layer === "cut" ? this.cut_lines(found) : this.lines(this.describe(found), false));
+    if (!bench.info.hidden) fill(bench.info, this.lines(this.describe(found), false));
     if (is_click) bench.view.request();
   }
 
   describe(found) {
+    if (found.layer === "cut") return this.describe_cell(found);
     const shown = this.bench.view.objects.get(found.key);
     const { scene, set } = found.picture === 0 && this.bench.view.is_split ? shown.previous : shown.drawn;
     const patch = scene.patches[scene.surface.patch[found.item]];
     return { key: found.key, at: found.at, picture: found.picture, item: found.item, kind: scene.kind, patch: patch.name, component: patch.component, role: patch.role, patch_kind: patch.kind, area: patch.area, edges: edge_lengths(set, found.triangle), fields: scene.surface.fields.map((field) => [field, field.values[found.item]]) };
   }
 
+  /** A cell of the cut: the place is on its plane. */
+  describe_cell({ item, at, picture }) {
+    const { cut } = this.bench.state.values;
+    return { key: null, at, item, picture, kind: "cell", name: k_kinds[cut.kind[item]]?.one ?? "cell", fields: cut.fields.map((field) => [field, field.values[item]]) };
+  }
+
   lines(pick, is_kept) {
+    if (pick.kind === "cell") return this.cell_lines(pick, is_kept);
     const of = [pick.component && pick.component !== pick.patch ? pick.component : null, pick.role && pick.role !== "unknown" ? pick.role.replaceAll("_", " ") : null, pick.patch_kind].filter(Boolean).join(", ");
     const edges = pick.kind === "model" ? null : h("span", null, h("small", null, "edges"), pick.edges.map((length) => number_text(length, 3)).join(", "), " m");
-    const [one, other] = this.picks;
-    const measured = is_kept && other ? this.distance_line(one, other) : null;
-    const buttons = is_kept ? h("div.buttons.pick_buttons", null, button("Copy as Lua", () => this.copy(lua_of(pick)), { title: lua_of(pick), kind: ".small", id: "copy_lua" }), button("Copy place", () => this.copy(`{ ${pick.at.map((x) => Number(x.toPrecision(7))).join(", ")} }`), { kind: ".small", id: "copy_place" }), button("Hide", () => this.hide_patch(), { title: "Hide this patch (key H)", kind: ".small", id: "hide_patch" })) : null;
+    const measured = is_kept ? this.measured() : null;
+    const buttons = is_kept ? h("div.buttons.pick_buttons", null, button("Copy as Lua", () => this.copy(lua_of(pick)), { title: lua_of(pick), kind: ".small", id: "copy_lua" }), this.place_button(pick), button("Hide", () => this.hide_patch(), { title: "Hide this patch (key H)", kind: ".small", id: "hide_patch" })) : null;
     return [
       h("div", null, h("b", null, pick.patch), h("small", null, ` ${of} \u00b7 ${pick.key} \u00b7 ${pick.kind === "model" ? "" : `triangle ${count_text(pick.item)} \u00b7 `}at ${position_text(pick.at)} m`)),
       h("div.info_values", null, edges, pick.fields.filter(([, value]) => Number.isFinite(value)).map(([field, value]) => h("span", null, h("small", null, field.title), quantity_text(value, field.unit)))),
@@ -63,10 +70,19 @@ export class Picking {
     return h("div.distance", { id: "distance" }, h("b", null, `${number_text(Math.hypot(...d), 5)} m`), h("small", null, ` from pick 1 to 2: \u0394 ${position_text(d)} m`));
   }
 
-  cut_lines({ item, at }) {
-    const { cut } = this.bench.state.values;
-    const fields = cut.fields.map((field) => h("span", null, h("small", null, field.title), quantity_text(field.values[item], field.unit)));
-    return [h("div", null, h("b", null, k_kinds[cut.kind[item]]?.one ?? "cell"), h("small", null, ` at ${position_text(at)} m`)), h("div.info_values", null, fields)];
+  cell_lines(pick, is_kept) {
+    const fields = pick.fields.filter(([, value]) => Number.isFinite(value)).map(([field, value]) => h("span", null, h("small", null, field.title), quantity_text(value, field.unit)));
+    return [h("div", null, h("b", null, pick.name), h("small", null, ` at ${position_text(pick.at)} m`)), h("div.info_values", null, fields), is_kept ? [this.measured(), h("div.buttons.pick_buttons", null, this.place_button(pick))] : null];
+  }
+
+  /** The distance, once there are two picks: of surfaces, of cells, of one of each. */
+  measured() {
+    const [one, other] = this.picks;
+    return other ? this.distance_line(one, other) : null;
+  }
+
+  place_button(pick) {
+    return button("Copy place", () => this.copy(`{ ${pick.at.map((x) => Number(x.toPrecision(7))).join(", ")} }`), { kind: ".small", id: "copy_place" });
   }
 
   /** Rings at the picks and the line between them follow the camera. */
@@ -95,7 +111,7 @@ export class Picking {
 
   hide_patch() {
     const pick = this.picks.at(-1);
-    if (!pick) return;
+    if (!pick?.key) return;
     this.bench.show_patches(pick.key, [pick.patch], false);
     this.clear();
   }

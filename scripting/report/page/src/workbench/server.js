@@ -32,6 +32,11 @@ export async function get_script() {
   return (await (await get("script", {})).json()).text;
 }
 
+/** What inspect{} finds on the surface of that key. */
+export async function get_inspection(key) {
+  return (await post("inspect", { key })).json();
+}
+
 /** Cases of the series that the page is about. */
 export async function get_cases() {
   return (await get("cases", {})).json();
