@@ -120,7 +120,9 @@ target_link_libraries(remesh_peers PRIVATE CGAL::CGAL gmsh gmp mpfr)
 add_executable(soak_mesh_audit soak/mesh_audit_main.cpp)
 add_test(NAME soak_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/soak/soak_test.py $<TARGET_FILE:sterna> $<TARGET_FILE:soak_mesh_audit> ${CMAKE_BINARY_DIR}/scratch/soak_self_test)
 add_test(NAME soak COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --cases 20 --seed 1 --jobs 2 --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak)
-set_tests_properties(soak soak_self_test PROPERTIES TIMEOUT 900 COST 100)
+file(GLOB soak_cases CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/data/soak/*.json)
+add_test(NAME soak_again COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --again ${soak_cases} --no-reduce --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak_again)
+set_tests_properties(soak soak_again soak_self_test PROPERTIES TIMEOUT 900 COST 100)
 
 # What machines do to programs (docs/soak.md): full disks, kills, little memory, damaged files, two at once.
 add_test(NAME faults COMMAND ${CMAKE_SOURCE_DIR}/tools/faults --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/faults)

@@ -77,7 +77,8 @@ void add_face(Skin& skin, FaceId id, const TopoDS_Face& face) {
     throw Error({.code = ErrorCode::geometry_failed,
                  .attempted = "looking at the contacts of \"" + part_name(*skin.model) + "\"",
                  .problem = "OpenCASCADE cannot triangulate a face",
-                 .places = {{at, "\"" + from.name + "\""}}});
+                 .places = {{at, "\"" + from.name + "\""}},
+                 .hint = "draw the face anew there, or leave its part out of the union; more memory where little is allowed (ulimit -v)"});
   }
   const auto first = static_cast<std::uint64_t>(skin.mesh.points.size());
   for (int i = 1; i <= triangles->NbNodes(); ++i) {

@@ -7,6 +7,7 @@
 #include <Message_ProgressScope.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <TCollection_AsciiString.hxx>
 
 #include <chrono>
@@ -79,11 +80,11 @@ std::mutex& occt_mutex() {
   return mutex;
 }
 
-[[noreturn]] void fail(const OcctTask& task, const std::string& problem, const std::string& complaints) {
+[[noreturn]] void fail(const OcctTask& task, const std::string& problem, const std::string& complaints, const char* otherwise) {
   throw Error({.code = ErrorCode::geometry_failed,
                .attempted = task.attempted,
                .problem = problem + (complaints.empty() ? "" : "; OpenCASCADE says: " + complaints),
-               .hint = task.hint});
+               .hint = task.hint.empty() ? otherwise : task.hint});
 }
 
 }  // namespace
@@ -95,18 +96,22 @@ void run_occt(const OcctTask& task, const RunContext& context, const std::functi
   const Handle(StopIndicator) indicator = new StopIndicator(context, task.time_limit);
   const auto refuse_when_late = [&] {
     context.check_stop();
-    if (indicator->is_late()) fail(task, "took longer than the limit of " + std::to_string(static_cast<int>(task.time_limit)) + " s", {});
+    if (indicator->is_late())
+      fail(task, "took longer than the limit of " + std::to_string(static_cast<int>(task.time_limit)) + " s", {}, "a larger time_limit, or simpler geometry");
   };
   try {
     work(indicator->Start());
   } catch (const Error&) {  // a translator that was stopped half way looks like one that failed
     refuse_when_late();
     throw;
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     const std::string name = failure.DynamicType()->Name();
     const std::string text = failure.GetMessageString() ? failure.GetMessageString() : "";
     context.check_stop();
-    fail(task, "OpenCASCADE gave up with " + name + (text.empty() ? "" : " (" + text + ")"), messenger.words());
+    fail(task, "OpenCASCADE gave up with " + name + (text.empty() ? "" : " (" + text + ")"), messenger.words(),
+         "another tolerance, or fewer parts at once, which shows the one that it is about");
   }
   refuse_when_late();
 }

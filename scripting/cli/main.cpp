@@ -1,3 +1,44 @@
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstring>
+
 #include "scripting/cli/cli.h"
 
-int main(int argc, char** argv) { return sterna::scripting::run_command_line(argc, argv); }
+namespace {
+
+/// The last words of a process that crashes, in this program or in a library of it; it still ends by the signal, so that whoever waits for it sees that.
+extern "C" void say_that_it_crashed(int signal) {
+  const char* words =
+      "\nerror: sterna crashed; what it was writing does not appear under its name\n"
+      "  try: a larger limit where memory is limited (ulimit -v, the job's memory: libraries crash without); else please report this with the script and its "
+      "inputs\n";
+  [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, words, std::strlen(words));
+  std::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+/// On a stack of its own, because the stack may be what ran out. Left alone where something else looks after crashes (sanitizers).
+void watch_for_crashes() {
+  static std::array<char, 65536> stack;
+  stack_t other{};
+  other.ss_sp = stack.data();
+  other.ss_size = stack.size();
+  ::sigaltstack(&other, nullptr);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
+    struct sigaction action {};
+    action.sa_handler = say_that_it_crashed;
+    action.sa_flags = SA_ONSTACK | SA_RESETHAND | SA_NODEFER;
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  watch_for_crashes();
+  return sterna::scripting::run_command_line(argc, argv);
+}

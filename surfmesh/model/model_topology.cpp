@@ -30,8 +30,19 @@ double limit_of(const ModelEdge& edge, const std::vector<EdgeUsePlace>& uses, co
   return std::max(k_shortest * shortest, edge.tolerance);
 }
 
+bool is_rim(const std::vector<EdgeUsePlace>& uses) { return uses.size() == 1; }
+
+/// Of corners, whether an edge of one face only ends there: in a half model they lie in the plane of symmetry, and have to stay.
+Column<CornerId, std::uint8_t> corners_on_rims(const Model& model, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses) {
+  Column<CornerId, std::uint8_t> on_rim(model.corners.size(), 0);
+  for (const EdgeId e : model.edges.ids())
+    if (is_rim(uses[e]) && !model.edges[e].is_degenerate()) on_rim[model.edges[e].start] = on_rim[model.edges[e].end] = 1;
+  return on_rim;
+}
+
 void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses,
                         const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+  const Column<CornerId, std::uint8_t> on_rim = corners_on_rims(model, uses);
   for (const EdgeId e : model.edges.ids()) {
     const ModelEdge& edge = model.edges[e];
     bool is_point = edge.is_degenerate();
@@ -46,7 +57,8 @@ void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& e
     if (!is_point) continue;
     topology.is_point[e] = 1;
     const CornerId a = find(topology.corner, edge.start), b = find(topology.corner, edge.end);
-    topology.corner[std::max(a, b)] = std::min(a, b);
+    const bool keeps_first = on_rim[a] != on_rim[b] ? on_rim[a] != 0 : a < b;
+    (keeps_first ? topology.corner[b] : topology.corner[a]) = keeps_first ? a : b;
   }
   for (const CornerId c : model.corners.ids()) topology.corner[c] = find(topology.corner, c);
 }
@@ -113,7 +125,8 @@ void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges,
     const double width = std::max(distance_of(edges[a.edge], edges[b.edge], limit), distance_of(edges[b.edge], edges[a.edge], limit));
     if (width > limit) continue;
     topology.is_absorbed[f] = 1;
-    const EdgeId kept = std::min(a.edge, b.edge), other = std::max(a.edge, b.edge);
+    const bool keeps_a = is_rim(uses[a.edge]) != is_rim(uses[b.edge]) ? is_rim(uses[a.edge]) : a.edge < b.edge;
+    const EdgeId kept = keeps_a ? a.edge : b.edge, other = keeps_a ? b.edge : a.edge;
     topology.same_as[other] = {kept, is_against};
     absorbed.push_back({"narrow face " + model.faces[f].name, edges[kept].samples[edges[kept].samples.size() / 2].point, width});
   }

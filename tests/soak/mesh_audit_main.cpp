@@ -379,7 +379,8 @@ void look_at_boundary(const Mesh& mesh, const std::vector<BoundaryFace>& boundar
   const Real difference = all > total ? all - total : total - all;
   if (!(difference <= total * Real(1e-9)))
     findings.add("volume_is_not_the_boundarys", std::to_string(static_cast<double>(total)) + " against " + std::to_string(static_cast<double>(all)));
-  const auto n_outer = std::count_if(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.second > 0; });
+  const auto n_outer =
+      std::count_if(pieces.begin(), pieces.end(), [&](const auto& piece) { return piece.second > total * Real(1e-15); });  // both sides of a disc hold nothing
   if (n_outer != 1) findings.add("outer_boundaries", std::to_string(n_outer) + " pieces of boundary that hold fluid");
 }
 
