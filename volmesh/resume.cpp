@@ -5,7 +5,6 @@
 
 #include "geom/base/error.h"
 #include "volmesh/domain/disc_sheets.h"
-#include "volmesh/layer/close_fans.h"
 #include "volmesh/layer/lay_out.h"
 #include "volmesh/rims/slits.h"
 #include "volmesh/stages.h"
@@ -71,7 +70,12 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
     for_engines.has_sheets = !options.discs.empty();
     judge(preflight(for_engines, {}, context), for_engines, context);
   }
-  LayerProof proof = prove_layer(filled.layers, context);
+  if (domain.is_opened()) {
+    knowledge.boundary = boundary_of(filled.layers);
+    knowledge.closed = filled.layers;
+    close_opened(domain, *knowledge.closed, knowledge.boundary);
+  }
+  LayerProof proof = prove_layer(knowledge.closed ? *knowledge.closed : filled.layers, context);
   require_proved_cells(proof.cells, knowledge.certificate);
   knowledge.check.emplace(std::move(proof.check));
   return knowledge;
@@ -79,27 +83,27 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
 
 }  // namespace
 
+void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage) {
+  require_same(stage.envelope.height.size(), base.wall.n_vertices(), "vertices of the envelope");
+}
+
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context) {
   MeshingSite site(wall, options, context);
   return make_envelope(site, makers, context);
 }
 
-FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& user_options, const Makers& makers,
+FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers,
                             const RunContext& context) {
-  MeshCase options = user_options;
-  options.envelope.feature_angle = envelope.feature_angle;
-  MeshingSite site(surface, options, context);
-  require_same(envelope.envelope.height.size(), site.base.wall.n_vertices(), "vertices of the envelope");
   LayerKnowledge knowledge;
-  return make_tetrahedra(site, envelope, makers, knowledge, context);
+  return make_filled(surface, options, makers, {}, envelope, knowledge, context);
 }
 
 VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const MeshCase& user_options, const RunContext& context) {
-  const MeshCase options = validated(surface, user_options, context);
+  const ClosedFans& closed = filled.envelope.closed;
+  const MeshCase options = validated(surface, with_closed_fans(user_options, closed), context);
   Domain domain;
   if (filled.split_wall) domain.wall = *filled.split_wall;
-  else domain = domain_around(surface, options, context);
-  if (!domain.ridges.is_empty() || has_fans(filled.layers)) boundary_of(filled.layers);  // throws: its cells are no columns
+  else domain = domain_around(surface, options, context, closed.feet);
   require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
   require_layers_on(domain, filled.layers);
   if (!domain.has_rims()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);

@@ -113,7 +113,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
   // Where layers end on other patches, sides are periodic, ridges are opened and wakes have sheets, the boundary stays as it is.
-  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty() && site.domain.ridges.is_empty() && site.domain.sheets.is_empty();
+  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
@@ -155,7 +155,6 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 
 constexpr int k_slide_rounds = 4;
 constexpr double k_slides_begin = 0.75;  ///< share of the time
-constexpr int k_fan_rounds = 5;          ///< then all ridges stay closed
 
 /// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them. \p slid gets these
 /// lines, ascending.
@@ -197,32 +196,6 @@ std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<V
   return feet;
 }
 
-/// The first two steps. Where fans of opened ridges have no valid cells, they stay closed and both are done again, without what else is known of the envelope.
-FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, LayerKnowledge& knowledge,
-                        const RunContext& context) {
-  std::vector<VertexId> closed;
-  for (int round = 0;; ++round) {
-    MeshCase now = options;
-    if (round == k_fan_rounds && !closed.empty()) {
-      context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some fans still had no valid cells");
-      now.ridges.open_ridges = "never";
-      for (PatchRule& rule : now.patches) rule.open_ridges = "never";
-    }
-    MeshingSite site(wall, now, context, closed);
-    try {
-      const auto make = [&] { return make_envelope(site, makers, context); };
-      EnvelopeStage envelope = watch.envelope && round == 0 ? watch.envelope(make) : make();
-      if (watch.enveloped) watch.enveloped(envelope);
-      return make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
-    } catch (const FanError& error) {
-      const std::vector<VertexId> more = with_feet_beside(site.domain.ridges, error.feet(), 1 << round);
-      context.warn("ridges stay closed at " + std::to_string(more.size()) + " vertices of the wall: " + error.info().problem +
-                   (error.info().places.empty() ? "" : ", the first at " + format_point(error.info().places.front().position)));
-      closed.insert(closed.end(), more.begin(), more.end());
-    }
-  }
-}
-
 void require_valid(const CheckReport& report) {
   if (report.is_valid()) return;
   ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = "checking the finished mesh", .hint = "report this surface"};
@@ -240,16 +213,48 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const
 
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context) {
   LayerKnowledge knowledge;
-  FilledStage filled = make_filled(wall, options, makers, watch, knowledge, context);
+  FilledStage filled = make_filled(wall, options, makers, watch, {}, knowledge, context);
   if (watch.filled) watch.filled(filled);
   return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);
+}
+
+MeshCase with_closed_fans(MeshCase options, const ClosedFans& closed) {
+  if (closed.n_rounds < k_fan_rounds) return options;
+  options.ridges.open_ridges = "never";
+  for (PatchRule& rule : options.patches) rule.open_ridges = "never";
+  return options;
+}
+
+FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, std::optional<EnvelopeStage> made,
+                        LayerKnowledge& knowledge, const RunContext& context) {
+  ClosedFans closed = made ? made->closed : ClosedFans{};
+  for (;;) {
+    MeshCase now = with_closed_fans(options, closed);
+    if (made) now.envelope.feature_angle = made->feature_angle;
+    MeshingSite site(wall, now, context, closed.feet);
+    try {
+      const auto make = [&] { return make_envelope(site, makers, context); };
+      EnvelopeStage envelope = made ? std::move(*made) : watch.envelope && closed.n_rounds == 0 ? watch.envelope(make) : make();
+      made.reset();  // of this round's wall
+      envelope.closed = closed;
+      if (watch.enveloped) watch.enveloped(envelope);
+      return make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
+    } catch (const FanError& error) {
+      const std::vector<VertexId> more = with_feet_beside(site.domain.ridges, error.feet(), 1 << closed.n_rounds);
+      context.warn("ridges stay closed at " + std::to_string(more.size()) + " vertices of the wall: " + error.info().problem +
+                   (error.info().places.empty() ? "" : ", the first at " + format_point(error.info().places.front().position)));
+      closed.feet.insert(closed.feet.end(), more.begin(), more.end());
+      if (++closed.n_rounds == k_fan_rounds)
+        context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some fans still had no valid cells");
+    }
+  }
 }
 
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
   tell_needles(site.domain.needles, site.options.needles, context);
-  const std::vector<WholePart> parts = site.domain.slits.empty() && site.domain.ridges.is_empty() && site.domain.sheets.is_empty()
+  const std::vector<WholePart> parts = site.domain.slits.empty() && !site.domain.is_opened()
                                            ? whole_parts(site.domain, site.options.parts, context)
                                            : std::vector<WholePart>{};  // cut and opened walls are no parts' any more
   const auto of_wall = [&] {
@@ -262,6 +267,7 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
 }
 
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context) {
+  require_envelope_of(site.base, stage);
   const StepEnds ends = step_ends(context.threads());
   LaidLayer layer = lay_out(site, stage.envelope, context.part("prisms", ends.envelope, ends.prisms));
   std::vector<std::string> told;
@@ -294,10 +300,14 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   tell_warnings();  // of a layer that is not the first one any more
   require_proved_cells(filling.proof->cells, layer.certificate);
 
-  knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}};
-  if (has_fans(layer.mesh)) knowledge.boundary = std::move(layer.boundary);
+  knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};
   filled.envelope = std::move(stage);
-  filled.layers = std::move(layer.mesh);
+  filled.is_opened = layer.opened.has_value();
+  if (filled.is_opened) {
+    knowledge.closed = std::move(layer.mesh);
+    knowledge.boundary = std::move(layer.boundary);
+  }
+  filled.layers = filled.is_opened ? std::move(*layer.opened) : std::move(layer.mesh);
   filled.curving_shares = layer.curving_shares;
   filled.tets = std::move(filling.tets);
   filled.tetra_failures.insert(filled.tetra_failures.end(), filled.tets.failures.begin(), filled.tets.failures.end());
@@ -308,7 +318,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   const StepEnds ends = step_ends(context.threads());
   VolumeMeshResult result;
   TetraResult& tets = filled.tets;
-  result.mesh = std::move(filled.layers);
+  result.mesh = std::move(knowledge.closed ? *knowledge.closed : filled.layers);
   result.layer = std::move(knowledge.report);
   result.certificate = knowledge.certificate;
   result.tetra_engine = tets.engine + (tets.is_two_pass ? " in two passes" : "");
@@ -318,7 +328,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
-  FillBoundary boundary = has_fans(result.mesh) ? std::move(knowledge.boundary) : boundary_of(result.mesh);
+  FillBoundary boundary = knowledge.closed ? std::move(knowledge.boundary) : boundary_of(result.mesh);
   std::vector<std::uint32_t> slid;
   {
     const StageTimer timer(context, "improve");

@@ -18,7 +18,7 @@ enum class NumberType : std::uint8_t { u8 = 1, u32 = 2, i64 = 3, f64 = 4 };
 std::size_t size_of(NumberType type);
 
 /// Latest version that is read. A writer marks a file with the first version whose readers understand all that must not be passed over in it.
-inline constexpr std::uint32_t k_chunked_version = 3;
+inline constexpr std::uint32_t k_chunked_version = 4;
 inline constexpr std::uint32_t k_first_chunked_version = 1;
 /// Values of a chunk take this many bytes at most: enough to pack well, few enough for the cache of a core, and 64 buffers with three times as much fit into
 /// 100 MB.

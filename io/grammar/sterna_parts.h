@@ -34,6 +34,10 @@ inline constexpr std::string_view k_request = "mesh/request/first_height_max_gro
                                   k_request_reason = "mesh/request/reason", k_request_reasons = "mesh/request/reasons",
                                   k_request_first_height = "mesh/request/first_height", k_request_max_growth = "mesh/request/max_growth",
                                   k_request_layers = "mesh/request/layers";
+/// Before the names of a mesh: the layer that its tetrahedra were made around, where ridges are opened or wakes have sheets.
+inline constexpr std::string_view k_opened = "opened/";
+/// Version of files with it: readers that do not know it would take the layers of the mesh for that.
+inline constexpr std::uint32_t k_opened_version = 4;
 inline constexpr std::string_view k_manifest = "manifest", k_certificate = "certificate", k_quality = "quality";
 
 inline constexpr std::array k_patch_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,

@@ -43,7 +43,8 @@ struct SternaParts {
   const TriMesh* farfield = nullptr;         ///< the surface that the user gave to end the fluid
   const StoredEnvelope* envelope = nullptr;  ///< of `surface`
   const StoredTetrahedra* tetrahedra = nullptr;
-  const HybridMesh* mesh = nullptr;  ///< its layers stay columns
+  const HybridMesh* mesh = nullptr;    ///< its layers stay columns
+  const HybridMesh* opened = nullptr;  ///< the layer around which `tetrahedra` were made, where `mesh` has made explicit cells of its columns
   std::string_view manifest = {};    ///< options
   std::string_view certificate = {};
   std::string_view quality = {};
@@ -54,7 +55,7 @@ struct SternaContent {
   std::optional<TriMesh> farfield;
   std::optional<StoredEnvelope> envelope;
   std::optional<StoredTetrahedra> tetrahedra;
-  std::optional<HybridMesh> mesh;
+  std::optional<HybridMesh> mesh, opened;
   std::string manifest, certificate, quality;
 
   /// "surface, mesh, manifest", or "nothing".

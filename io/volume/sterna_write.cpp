@@ -91,10 +91,19 @@ class PartWriter {
     if (!mesh.periodic.empty()) add_periodic(mesh.periodic);
   }
 
-  void text(std::string_view name, std::string_view value) { writer_.add_memory(name, NumberType::u8, 1, value.size(), value.data(), context_); }
+  void add_opened(const HybridMesh& layers) {
+    version_ = std::max(version_, part::k_opened_version);
+    prefix_ = part::k_opened;
+    add_mesh(layers);
+    prefix_.clear();
+  }
+
+  void text(std::string_view name, std::string_view value) { writer_.add_memory(named(name), NumberType::u8, 1, value.size(), value.data(), context_); }
   void finish() { writer_.finish(version_); }
 
  private:
+  std::string named(std::string_view name) const { return prefix_ + std::string(name); }
+
   void add_periodic(const std::vector<PeriodicSides>& periodic) {
     std::vector<std::array<PatchId, 2>> patches;
     std::vector<Vec3> translations;
@@ -116,12 +125,12 @@ class PartWriter {
     if (!layers.is_uniform()) {
       require_size(layers.line_layers.size(), layers.n_lines(), "numbers of layers of lines");
       ids(part::k_line_layers, 1, std::vector<std::uint32_t>(layers.line_layers.begin(), layers.line_layers.end()));
-      version_ = is_truncated(layers) ? part::k_truncated_version : part::k_line_layers_version;
+      version_ = std::max(version_, is_truncated(layers) ? part::k_truncated_version : part::k_line_layers_version);
     }
     const LayerRequest& request = mesh.request;
     if (!request.is_known()) return;
     const std::array<double, 2> numbers = {request.first_height, request.max_growth};
-    writer_.add_memory(part::k_request, NumberType::f64, 1, numbers.size(), numbers.data(), context_);
+    writer_.add_memory(named(part::k_request), NumberType::f64, 1, numbers.size(), numbers.data(), context_);
     reals(part::k_request_target, 1, request.target_height);
     bytes(part::k_request_reason, request.reason);
     text(part::k_request_reasons, joined(request.reasons));
@@ -145,29 +154,29 @@ class PartWriter {
   template <class T>
   void reals(std::string_view name, std::uint32_t n_components, const std::vector<T>& values) {
     static_assert(sizeof(T) % sizeof(double) == 0);
-    writer_.add_memory(name, NumberType::f64, n_components, values.size() * (sizeof(T) / sizeof(double)), values.data(), context_);
+    writer_.add_memory(named(name), NumberType::f64, n_components, values.size() * (sizeof(T) / sizeof(double)), values.data(), context_);
   }
   template <class T>
   void ids(std::string_view name, std::uint32_t n_components, const std::vector<T>& values) {
     static_assert(sizeof(T) % sizeof(std::uint32_t) == 0);
-    writer_.add_memory(name, NumberType::u32, n_components, values.size() * (sizeof(T) / sizeof(std::uint32_t)), values.data(), context_);
+    writer_.add_memory(named(name), NumberType::u32, n_components, values.size() * (sizeof(T) / sizeof(std::uint32_t)), values.data(), context_);
   }
   void bytes(std::string_view name, const std::vector<std::uint8_t>& values) {
-    writer_.add_memory(name, NumberType::u8, 1, values.size(), values.data(), context_);
+    writer_.add_memory(named(name), NumberType::u8, 1, values.size(), values.data(), context_);
   }
-  void integer(std::string_view name, std::int64_t value) { writer_.add_memory(name, NumberType::i64, 1, 1, &value, context_); }
+  void integer(std::string_view name, std::int64_t value) { writer_.add_memory(named(name), NumberType::i64, 1, 1, &value, context_); }
 
   template <class Face>
   void faces(std::string_view nodes_name, std::string_view patch_name, const std::vector<Face>& faces) {
     constexpr std::size_t k_n = std::tuple_size_v<decltype(Face{}.nodes)>;
     writer_.add(
-        nodes_name, NumberType::u32, k_n, k_n * faces.size(),
+        named(nodes_name), NumberType::u32, k_n, k_n * faces.size(),
         [&faces](std::uint64_t begin, std::uint64_t end, char* out) {
           for (std::uint64_t i = begin; i < end; ++i) out = put_bytes(out, faces[i / k_n].nodes[i % k_n].value(), std::endian::little);
         },
         context_);
     writer_.add(
-        patch_name, NumberType::u32, 1, faces.size(),
+        named(patch_name), NumberType::u32, 1, faces.size(),
         [&faces](std::uint64_t begin, std::uint64_t end, char* out) {
           for (std::uint64_t i = begin; i < end; ++i) out = put_bytes(out, faces[i].patch.value(), std::endian::little);
         },
@@ -187,6 +196,7 @@ class PartWriter {
   }
 
   ChunkedWriter writer_;
+  std::string prefix_;  ///< of all names
   std::uint32_t version_ = k_first_chunked_version;
   RunContext context_;
 };
@@ -203,6 +213,7 @@ void write_sterna(const SternaParts& parts, const std::filesystem::path& path, c
   if (parts.envelope) writer.add_envelope(*parts.envelope, *parts.surface);
   if (parts.tetrahedra) writer.add_tetrahedra(*parts.tetrahedra);
   if (parts.mesh) writer.add_mesh(*parts.mesh);
+  if (parts.opened) writer.add_opened(*parts.opened);
   if (!parts.manifest.empty()) writer.text(part::k_manifest, parts.manifest);
   if (!parts.certificate.empty()) writer.text(part::k_certificate, parts.certificate);
   if (!parts.quality.empty()) writer.text(part::k_quality, parts.quality);

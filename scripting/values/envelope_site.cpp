@@ -14,11 +14,11 @@ using volmesh::MeshCase;
 using volmesh::MeshingSite;
 
 std::unique_ptr<MeshingSite> envelope_site(const EnvelopeValue& value, const RunContext& context) {
-  MeshCase options = with_wall_facts(*value.wall, value.options);
+  MeshCase options = volmesh::with_closed_fans(with_wall_facts(*value.wall, value.options), value.stage.closed);
   // Classes are of the wall alone, but a site wants to know of a layer: any will do.
   if (value.step == EnvelopeStep::classified && is_automatic(options.envelope.first_height)) options.envelope.first_height = 1.0;
   options.envelope.feature_angle = value.stage.feature_angle;
-  return std::make_unique<MeshingSite>(value.wall->mesh, options, context);
+  return std::make_unique<MeshingSite>(value.wall->mesh, options, context, value.stage.closed.feet);
 }
 
 void require_ready(const EnvelopeValue& envelope, const MeshCase& options, const RunContext& context) {

@@ -91,7 +91,12 @@ HybridMesh layers_of(HybridMesh mesh, const io::StoredTetrahedra& tetrahedra, co
 // ---- The rest is JSON ----------------------------------------------------------------------------------------------------------------------
 
 Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_triangles) {
-  return {{"feature_angle", envelope.feature_angle}, {"wall_triangles", n_wall_triangles}};
+  Json json = {{"feature_angle", envelope.feature_angle}, {"wall_triangles", n_wall_triangles}};
+  if (const volmesh::ClosedFans& closed = envelope.closed; closed.n_rounds > 0) {
+    json["closed_fans"] = {{"rounds", closed.n_rounds}, {"vertices", Json::array()}};
+    for (const VertexId v : closed.feet) json["closed_fans"]["vertices"].push_back(v.value());
+  }
+  return json;
 }
 
 Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangles) {
@@ -103,6 +108,7 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
   json["curving_shares"] = filled.curving_shares;
   json["boundary_triangles_added_by_splits"] = filled.n_split_triangles;
   json["needles"] = Json::parse(needles_json(filled.needles));
+  if (filled.is_opened) json["is_opened"] = true;
   return json;
 }
 
@@ -248,6 +254,18 @@ class StageJson {
             .first_left = {first[0], first[1], first[2]}};
   }
 
+  /// Only in files of runs that had to close some.
+  volmesh::ClosedFans closed_fans() const {
+    volmesh::ClosedFans closed;
+    if (!json_.contains(Json::json_pointer("/stage/closed_fans"))) return closed;
+    closed.n_rounds = get<int>("/stage/closed_fans/rounds");
+    if (closed.n_rounds < 0) refuse(file_, "fans were closed in " + std::to_string(closed.n_rounds) + " rounds");
+    for (const auto v : get<std::vector<std::uint32_t>>("/stage/closed_fans/vertices")) closed.feet.emplace_back(v);
+    return closed;
+  }
+
+  bool is_opened() const { return json_.contains(Json::json_pointer("/stage/is_opened")) && get<bool>("/stage/is_opened"); }
+
   /// Finished runs list them, the others count them.
   std::size_t n_sources() const {
     const auto found = json_.find("sources");
@@ -262,7 +280,8 @@ class StageJson {
 volmesh::FilledStage filled_of(const StageJson& json, volmesh::EnvelopeStage envelope, io::SternaContent& content, const InputPath& file) {
   volmesh::FilledStage filled;
   filled.envelope = std::move(envelope);
-  filled.layers = layers_of(*content.mesh, *content.tetrahedra, file);
+  filled.is_opened = json.is_opened();
+  filled.layers = layers_of(content.opened ? std::move(*content.opened) : *content.mesh, *content.tetrahedra, file);
   filled.tets.new_points = std::move(content.tetrahedra->new_points);
   filled.tets.tetrahedra = std::move(content.tetrahedra->tetrahedra);
   filled.tets.engine = json.get<std::string>("/stage/engine");
@@ -348,7 +367,8 @@ struct FinishedParts {
   std::optional<TriMesh> split_wall;
   io::StoredEnvelope envelope;
   io::StoredTetrahedra tetrahedra;
-  std::vector<Point> layer_points;  ///< m, of the stage's layer
+  std::vector<Point> layer_points;   ///< m, of the stage's layer, where it is the mesh's
+  std::optional<HybridMesh> opened;  ///< the stage's layer, where it is not
   Json json;
 };
 
@@ -373,6 +393,7 @@ void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const 
                     .envelope = &parts.envelope,
                     .tetrahedra = &tetrahedra,
                     .mesh = &mesh.mesh,
+                    .opened = parts.opened ? &*parts.opened : nullptr,
                     .manifest = manifest.dump(2) + "\n",
                     .certificate = certificate_json(mesh.origin->certificate),
                     .quality = to_json(*mesh.check)},
@@ -450,7 +471,8 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& op
             parts = {.split_wall = stage.split_wall,
                      .envelope = stored(stage.envelope.envelope, stage.split_wall ? *stage.split_wall : wall.mesh, options.first_heights.get()),
                      .tetrahedra = stored(stage),
-                     .layer_points = stage.layers.points.raw(),
+                     .layer_points = stage.is_opened ? std::vector<Point>() : stage.layers.points.raw(),
+                     .opened = stage.is_opened ? std::optional(stage.layers) : std::nullopt,
                      .json = stage_json(stage, n_triangles(wall))};
           }};
   MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, with_wall_facts(wall, options), watch, reuse, context));
@@ -482,7 +504,9 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     wall->smooth_angle = json.smooth_angle();
     wall->changes = json.changes();
     result.surface = wall;
-    volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
+    volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file),
+                                    .feature_angle = json.get<double>("/stage/feature_angle"),
+                                    .closed = json.closed_fans()};
     result.envelope = std::make_shared<const EnvelopeValue>(
         EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
     if (content.tetrahedra && content.mesh)

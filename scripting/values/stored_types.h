@@ -135,7 +135,9 @@ inline constexpr std::size_t k_members<volmesh::NeedleReport> = 7;
 template <>
 inline constexpr std::size_t k_members<volmesh::VolumeMeshResult> = 12;
 template <>
-inline constexpr std::size_t k_members<volmesh::EnvelopeStage> = 2;
+inline constexpr std::size_t k_members<volmesh::ClosedFans> = 2;
+template <>
+inline constexpr std::size_t k_members<volmesh::EnvelopeStage> = 3;
 template <>
 inline constexpr std::size_t k_members<volmesh::BoundarySplits::Origin> = 2;
 template <>
@@ -143,7 +145,7 @@ inline constexpr std::size_t k_members<volmesh::BoundarySplits> = 4;
 template <>
 inline constexpr std::size_t k_members<volmesh::TetraResult> = 9;
 template <>
-inline constexpr std::size_t k_members<volmesh::FilledStage> = 8;
+inline constexpr std::size_t k_members<volmesh::FilledStage> = 9;
 template <>
 inline constexpr std::size_t k_members<volmesh::PartEnvelope> = 2;
 

@@ -88,7 +88,7 @@ ContentKey key_of(const volmesh::FilledStage& stage) {
       .add(tets.is_two_pass)
       .add(tets.failures)
       .add(tets.is_reproducible);
-  return maker.add(stage.tetra_failures).add(stage.curving_shares).add(stage.n_split_triangles).add(stage.needles).key();
+  return maker.add(stage.tetra_failures).add(stage.curving_shares).add(stage.n_split_triangles).add(stage.needles).add(stage.is_opened).key();
 }
 
 std::optional<ContentKey> key_of(const EnvelopeValue& envelope) {

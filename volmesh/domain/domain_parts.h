@@ -74,6 +74,8 @@ struct Domain {
       slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc
   std::vector<std::size_t> vertex2slit;  ///< of each of them: the slit
   TriMesh bodies;                        ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
+  /// Whether vertices of the wall have several lines, so that its layer is not the given wall's yet.
+  bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
   /// Whether the outer boundary is made anew around the layer.
   bool has_rims() const { return !rim.empty() || !slits.empty(); }
 };

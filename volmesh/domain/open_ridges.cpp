@@ -140,7 +140,12 @@ class RidgeOpener {
       for (const VertexId v : pair) is_partner_[v] = 1;
     inner_.resize(wall_.n_vertices());
     for (const VertexId v : wall_.points.ids()) inner_[v] = inner_at(v);
-    for (const VertexId v : closed) inner_[v].reset();
+    for (const VertexId v : closed) {
+      if (v.index() >= wall_.n_vertices())
+        throw_bad_argument("opening ridges", "vertex " + std::to_string(v.value()) + " is to stay closed, the wall has " + std::to_string(wall_.n_vertices()), {},
+                           "surface and envelope must come from one run");
+      inner_[v].reset();
+    }
     // Fans need a fan beside them; what is beside the last one is the chain's end, which has to be free.
     for (bool has_changed = true; has_changed;) {
       has_changed = false;

@@ -17,7 +17,7 @@ namespace sterna::volmesh {
 /// wall, where edges are longer than 1e5 first heights, and at vertices of `closed` (of the given wall). Chains with less than two inner vertices stay closed.
 /// Vertices and triangles of the wall keep their numbers, new ones follow. \pre domain made, no slits
 /// \post wall closed and manifold as before, Domain::ridges says what was done; without ridges nothing has changed
-/// \throws Error(bad_argument) where the first height is too small for the coordinates
+/// \throws Error(bad_argument) where the first height is too small for the coordinates, and for vertices of `closed` that the wall has not
 /// \param is_open of each patch of the wall: ridges between patches that are
 void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t>& is_open, double first_height, std::span<const VertexId> closed,
                  Domain& domain, const RunContext& context);

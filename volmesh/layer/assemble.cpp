@@ -139,9 +139,6 @@ ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches) {
 }
 
 FillBoundary boundary_of(const HybridMesh& layers) {
-  if (!layers.prisms.empty())
-    throw_bad_argument("using a layer with tetrahedra around it", "it has opened ridges or wake sheets, whose cells are no columns", {},
-                       "make the mesh in one run (volume_mesh, sterna mesh without --stages), or leave wakes out and set open_ridges = \"never\"");
   FillBoundary boundary;
   const LayerBlock& block = layers.layers;
   const std::size_t first_node = n_layer_nodes(block), n_columns = block.n_columns();

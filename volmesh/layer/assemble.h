@@ -25,7 +25,7 @@ struct FillBoundary {
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
-/// \throws Error(bad_argument) for a layer with opened ridges (close_fans.h) or wake sheets (close_wakes.h)
+/// \pre all its cells are columns: not behind close_fans() or close_wakes()
 FillBoundary boundary_of(const HybridMesh& layers);
 /// The outer boundary that assemble_layers() got, up to the numbering of its vertices. \p n_wall_patches: how many patches carry layers
 ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);

@@ -217,6 +217,4 @@ void close_fans(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boun
   if (!ridges.is_empty()) FanCloser(ridges, mesh, boundary).close();
 }
 
-bool has_fans(const HybridMesh& layers) { return !layers.hexahedra.empty() || !layers.prisms.empty(); }
-
 }  // namespace sterna::volmesh

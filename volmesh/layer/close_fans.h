@@ -30,8 +30,4 @@ class FanError : public Error {
 /// \throws FanError where a cell is not, and where a line of a fan is collapsed
 void close_fans(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boundary);
 
-/// Whether close_fans() or close_wakes() has made cells of the mesh.
-/// \pre of assemble_layers(), no tetrahedra of an engine added
-bool has_fans(const HybridMesh& layers);
-
 }  // namespace sterna::volmesh

@@ -72,12 +72,18 @@ LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& conte
   laid.mesh = assemble_layers(site.base, std::move(extrusion), outer, layer_sides(site.domain));
   laid.mesh.request = layer_request(site.base, site.options.envelope, envelope, laid.mesh.layers);
   open_slits(site.domain, laid.mesh.request);
-  close_fans(site.domain.ridges, laid.mesh, laid.boundary);
-  close_wakes(site.domain.sheets, laid.mesh, laid.boundary);
   const std::size_t n_wall_patches = site.base.wall.patches.size();
   for (const PeriodicEnds& sides : site.domain.periodic)
     laid.mesh.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});
+  if (!site.domain.is_opened()) return laid;
+  laid.opened = laid.mesh;
+  close_opened(site.domain, laid.mesh, laid.boundary);
   return laid;
+}
+
+void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary) {
+  close_fans(domain.ridges, layers, boundary);
+  close_wakes(domain.sheets, layers, boundary);
 }
 
 LayerProof prove_layer(const HybridMesh& mesh, const RunContext& context) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/check.h"
@@ -20,6 +21,7 @@ namespace sterna::volmesh {
 struct LaidLayer {
   HybridMesh mesh;                               ///< of assemble_layers(): lines of the layer, then the outer boundary; no tetrahedra
   FillBoundary boundary;                         ///< what the tetrahedra fill
+  std::optional<HybridMesh> opened = {};         ///< where ridges are opened or wakes have sheets: the layer before close_opened()
   std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
   LayerReport report;
   EnvelopeCertificate certificate;  ///< of the envelope, proved; its cells are to be counted still
@@ -29,6 +31,10 @@ struct LaidLayer {
 /// \pre, \post envelope valid and clear
 /// \throws Error of the stages; envelope_failed where the certificate fails; FanError where opened ridges get no valid cells
 LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context);
+
+/// Makes the given wall's cells of a layer on a wall with opened ridges, or with wake sheets.
+/// \throws as close_fans() and close_wakes()
+void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary);
 
 /// What can be found out about a layer while an engine makes the tetrahedra.
 struct LayerProof {

@@ -130,7 +130,7 @@ TEST(Sterna, VerbsOfTheFormatTable) {
   test::expect_error(ErrorCode::file_malformed, "found nothing, expected a surface or a mesh", [&] { read_surface_file(folder / "empty.sterna", k_context); });
 }
 
-TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedLaterVersions) {
+TEST(Sterna, OnlyWhatOlderReadersWouldMisreadNeedsLaterVersions) {
   const auto path = test::scratch() / "mesh.sterna";
   const auto version = [&] { return static_cast<int>(test::bytes_of(path)[16]); };
   write_sterna(Everything().parts(), path, k_context);
@@ -163,6 +163,22 @@ TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedLaterVersions) {
   write_sterna({.mesh = &steps}, path, k_context);
   EXPECT_EQ(version(), 3);
   expect_same(*read_sterna(path, k_context).mesh, steps);
+  write_sterna({.mesh = &steps, .opened = &mesh}, path, k_context);
+  EXPECT_EQ(version(), 4);
+}
+
+TEST(Sterna, TheLayerOfAnOpenedWallIsBesideTheMesh) {
+  const auto path = test::scratch() / "run.sterna";
+  const Everything all;
+  const HybridMesh opened = test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}});
+  SternaParts parts = all.parts();
+  parts.opened = &opened;
+  write_sterna(parts, path, k_context);
+  const SternaContent back = read_sterna(path, k_context);
+  EXPECT_EQ(back.names(), "surface, envelope, tetrahedra, mesh, opened layer, manifest, certificate, quality");
+  ASSERT_TRUE(back.mesh && back.opened);
+  expect_same(*back.mesh, all.mesh);
+  expect_same(*back.opened, opened);
 }
 
 TEST(Sterna, DamageIsFound) {
@@ -182,9 +198,9 @@ TEST(Sterna, DamageIsFound) {
     damaged(text);
   }
   std::string later = bytes;
-  later[16] = 4;
+  later[16] = 5;
   std::ofstream(path, std::ios::binary) << later;
-  test::expect_error(ErrorCode::unsupported_format, "version 4 of the container", [&] { read_sterna(path, k_context); });
+  test::expect_error(ErrorCode::unsupported_format, "version 5 of the container", [&] { read_sterna(path, k_context); });
 }
 
 template <class T>

@@ -11,6 +11,7 @@
 #include "tests/support/shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"
+#include "tests/volmesh/driver/continued.h"
 #include "volmesh/domain/open_ridges.h"
 #include "volmesh/envelope/patch_layers.h"
 #include "volmesh/stages.h"
@@ -144,12 +145,15 @@ TEST(Ridges, EqualForAnyNumberOfThreads) {
   }
 }
 
-TEST(Ridges, StepsBehindTheTetrahedraAreRefused) {
+TEST(Ridges, ContinuedMeshesAreTheSame) {
+  const Continued all_open = expect_continued(sharp_wing(30.0, 8), wing_case(true));
+  EXPECT_FALSE(all_open.whole.mesh.hexahedra.empty());
+  EXPECT_EQ(all_open.n_rounds, 0);
+}
+
+TEST(Ridges, WhatIsToStayClosedIsOfTheWall) {
   const TriMesh wall = sharp_wing(30.0, 8);
-  const EnvelopeStage envelope = make_envelope(wall, wing_case(true), {}, k_context);
-  const FilledStage filled = make_tetrahedra(wall, envelope, wing_case(true), {}, k_context);
-  EXPECT_GT(filled.layers.hexahedra.size(), 0u);
-  test::expect_error(ErrorCode::bad_argument, "opened ridges", [&] { finish_mesh(wall, filled, wing_case(true), k_context); });
+  test::expect_error(ErrorCode::bad_argument, "one run", [&] { opened(wall, {.open_ridges = "always"}, {VertexId(wall.n_vertices())}); });
 }
 
 }  // namespace

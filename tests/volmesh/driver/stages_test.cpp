@@ -7,6 +7,7 @@
 #include "tests/support/constants.h"
 #include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
+#include "tests/volmesh/driver/continued.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -19,39 +20,6 @@ MeshCase options_for(const TriMesh& wall) {
   options.envelope.first_height = 1e-4 * body_length(wall);
   options.farfield.farfield_radius = 5.0 * body_length(wall);
   return options;
-}
-
-void expect_same(const VolumeMeshResult& result, const VolumeMeshResult& whole) {
-  EXPECT_EQ(result.mesh.points, whole.mesh.points);
-  EXPECT_EQ(result.mesh.tetrahedra, whole.mesh.tetrahedra);
-  EXPECT_EQ(result.mesh.layers.base, whole.mesh.layers.base);
-  EXPECT_EQ(result.mesh.layers.first_node, whole.mesh.layers.first_node);
-  EXPECT_EQ(result.mesh.layers.is_collapsed, whole.mesh.layers.is_collapsed);
-  EXPECT_EQ(result.mesh.request.target_height, whole.mesh.request.target_height);
-  EXPECT_EQ(result.mesh.request.reason, whole.mesh.request.reason);
-  EXPECT_EQ(to_json(result.check), to_json(whole.check));
-  EXPECT_EQ(to_text(result.certificate), to_text(whole.certificate));
-  EXPECT_EQ(result.layer.coverage, whole.layer.coverage);
-  EXPECT_EQ(result.layer.reduced_curving, whole.layer.reduced_curving);
-  EXPECT_EQ(result.layer.feature_angle, whole.layer.feature_angle);
-  EXPECT_EQ(result.tetra_engine, whole.tetra_engine);
-  EXPECT_EQ(result.n_split_triangles, whole.n_split_triangles);
-}
-
-void expect_continued(const TriMesh& wall, const MeshCase& options) {
-  EnvelopeStage envelope;
-  FilledStage filled;
-  const VolumeMeshResult whole =
-      volume_mesh(wall, options, {},
-                  {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }}, k_context);
-  EXPECT_EQ(filled.split_wall.has_value(), whole.n_split_triangles > 0);
-  expect_same(finish_mesh(wall, filled, options, k_context), whole);
-  const FilledStage again = make_tetrahedra(wall, envelope, options, {}, k_context);
-  EXPECT_EQ(again.tets.tetrahedra, filled.tets.tetrahedra);
-  expect_same(finish_mesh(wall, again, options, k_context), whole);
-  const EnvelopeStage alone = make_envelope(wall, options, {}, k_context);
-  EXPECT_EQ(alone.envelope.height, envelope.envelope.height);
-  EXPECT_EQ(alone.envelope.direction, envelope.envelope.direction);
 }
 
 TEST(Stages, ContinuedMeshesAreTheSame) {

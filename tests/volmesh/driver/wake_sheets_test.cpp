@@ -12,6 +12,7 @@
 #include "tests/support/shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"
+#include "tests/volmesh/driver/continued.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/trailing_edges.h"
 #include "volmesh/domain/wake_sheets.h"
@@ -297,12 +298,11 @@ TEST(WakeSheets, WhatCannotBeIsRefused) {
   refuse("actuator discs", with_disc);
 }
 
-TEST(WakeSheets, StepsBehindTheTetrahedraAreRefused) {
-  const TriMesh wall = sharp_wing(20.0, 8);
-  const MeshCase mesh_case = wake_case({{.length = 0.5}});
-  const EnvelopeStage envelope = make_envelope(wall, mesh_case, {}, k_context);
-  const FilledStage filled = make_tetrahedra(wall, envelope, mesh_case, {}, k_context);
-  test::expect_error(ErrorCode::bad_argument, "wake sheets", [&] { finish_mesh(wall, filled, mesh_case, k_context); });
+TEST(WakeSheets, ContinuedMeshesAreTheSame) {
+  MeshCase mesh_case = wake_case({{.length = 0.5}});
+  EXPECT_FALSE(expect_continued(sharp_wing(20.0, 8), mesh_case).whole.mesh.prisms.empty());
+  mesh_case.prisms.truncate = "auto";
+  expect_continued(half_wing(20.0), mesh_case);
 }
 
 }  // namespace
