@@ -169,7 +169,7 @@ local mesh = volume_mesh{ wall,
     size_max = "automatic",           -- longest edge; automatic: no limit
   },
   sources = {},                        -- smaller tetrahedra: box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }, point, line, sphere, cylinder, wake, size_samples
-  wakes = {},                          -- wake_sheet{ wing = "main*", length = 2, growth = 1.2, height_growth = 1.2, direction = {1, 0, 0.05} }, or "auto"
+  wakes = {},                          -- wake_sheet{ wing = "main*", length = 2, growth = 1.2, height_growth = 1.2, alpha = 2*deg }, or "auto"
   interfaces = {},                     -- actuator_disc{ name = "prop", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }
   tetrahedra = {
     engine = "automatic",           -- or "sterna", "hxt", "tetgen"

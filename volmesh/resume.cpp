@@ -92,8 +92,7 @@ EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const 
   return make_envelope(site, makers, context);
 }
 
-FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers,
-                            const RunContext& context) {
+FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context) {
   LayerKnowledge knowledge;
   return make_filled(surface, options, makers, {}, envelope, knowledge, context);
 }

@@ -40,8 +40,8 @@ struct FilledStage {
   std::vector<std::string> tetra_failures;
   std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
   std::int64_t n_split_triangles = 0;
-  NeedleReport needles;     ///< of the wall, before all this
-  bool is_opened = false;   ///< ridges are opened or wakes have sheets: finish_mesh() makes the given wall's cells of `layers`
+  NeedleReport needles;    ///< of the wall, before all this
+  bool is_opened = false;  ///< ridges are opened or wakes have sheets: finish_mesh() makes the given wall's cells of `layers`
 };
 
 /// Called when a step of volume_mesh() has ended; any may be empty.
@@ -59,7 +59,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const
 /// \pre,
 /// \throws as volume_mesh()
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// The second. Everything that the envelope is made of is proved again. Where fans of its ridges have no valid cells, they are closed and the first is done, too.
+/// The second. Everything that the envelope is made of is proved again. Where fans have no valid cells, they are closed and the first step is done again.
 /// \pre `envelope` of make_envelope() on this wall
 /// \throws Error(bad_argument) for an envelope of another size, else of the stages
 FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);

@@ -45,7 +45,7 @@ struct SternaParts {
   const StoredTetrahedra* tetrahedra = nullptr;
   const HybridMesh* mesh = nullptr;    ///< its layers stay columns
   const HybridMesh* opened = nullptr;  ///< the layer around which `tetrahedra` were made, where `mesh` has made explicit cells of its columns
-  std::string_view manifest = {};    ///< options
+  std::string_view manifest = {};      ///< options
   std::string_view certificate = {};
   std::string_view quality = {};
 };

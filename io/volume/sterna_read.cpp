@@ -47,8 +47,8 @@ class PartReader {
     if (!has(name)) fail(name, "is missing");
     const StoredArray& array = at(name);
     if (array.type != type || array.n_components != n_components)
-      fail(name, "found the type " + std::to_string(static_cast<int>(array.type)) + " with " + std::to_string(array.n_components) +
-                           " components, expected " + std::to_string(static_cast<int>(type)) + " with " + std::to_string(n_components));
+      fail(name, "found the type " + std::to_string(static_cast<int>(array.type)) + " with " + std::to_string(array.n_components) + " components, expected " +
+                     std::to_string(static_cast<int>(type)) + " with " + std::to_string(n_components));
     std::vector<Item> values(array.n_values / n_components);
     file_.read(named(name), reinterpret_cast<char*>(values.data()), context_);
     return values;
@@ -79,8 +79,7 @@ class PartReader {
     const auto* const numbers = reinterpret_cast<const std::uint32_t*>(values.data());
     const std::size_t n = values.size() * (sizeof(Ids) / sizeof(std::uint32_t));
     for (std::size_t i = 0; i < n; ++i)
-      if (numbers[i] >= limit)
-        fail(name, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected below " + std::to_string(limit));
+      if (numbers[i] >= limit) fail(name, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected below " + std::to_string(limit));
   }
 
   template <std::size_t N>
@@ -170,8 +169,7 @@ class PartReader {
     result.moved_nodes = items<std::uint32_t>(part::k_moved_nodes, NumberType::u32, 1);
     result.moved_points = points(part::k_moved_points);
     if (result.moved_points.size() != result.moved_nodes.size())
-      fail(part::k_moved_points,
-                 "found " + std::to_string(result.moved_points.size()) + " places for " + std::to_string(result.moved_nodes.size()) + " nodes");
+      fail(part::k_moved_points, "found " + std::to_string(result.moved_points.size()) + " places for " + std::to_string(result.moved_nodes.size()) + " nodes");
     return result;
   }
 
@@ -225,8 +223,8 @@ class PartReader {
     if (has(part::k_request_layers)) result.line_layers = line_layers(part::k_request_layers, n_lines, std::numeric_limits<std::uint16_t>::max());
     for (std::size_t i = 0; i < result.reason.size(); ++i)
       if (result.reason[i] >= result.reasons.size())
-        fail(part::k_request_reason, "value " + std::to_string(i) + " is " + std::to_string(result.reason[i]) + ", there are " +
-                                               std::to_string(result.reasons.size()) + " reasons");
+        fail(part::k_request_reason,
+             "value " + std::to_string(i) + " is " + std::to_string(result.reason[i]) + ", there are " + std::to_string(result.reasons.size()) + " reasons");
     return result;
   }
 

@@ -504,9 +504,8 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     wall->smooth_angle = json.smooth_angle();
     wall->changes = json.changes();
     result.surface = wall;
-    volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file),
-                                    .feature_angle = json.get<double>("/stage/feature_angle"),
-                                    .closed = json.closed_fans()};
+    volmesh::EnvelopeStage envelope{
+        .envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle"), .closed = json.closed_fans()};
     result.envelope = std::make_shared<const EnvelopeValue>(
         EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
     if (content.tetrahedra && content.mesh)

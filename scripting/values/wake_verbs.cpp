@@ -1,6 +1,8 @@
 #include "scripting/values/wake_verbs.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "geom/base/error.h"
@@ -16,6 +18,7 @@ struct SheetNumbers {
   double length = volmesh::WakeSheet{}.length;
   double growth = volmesh::WakeSheet{}.growth;
   double height_growth = volmesh::WakeSheet{}.height_growth;
+  double alpha = k_automatic, beta = k_automatic;
 };
 
 }  // namespace sterna::scripting
@@ -40,6 +43,20 @@ struct Schema<scripting::SheetNumbers> {
                .min = 1.0,
                .max = 2.0,
                .help = "largest ratio of first heights from row to row along the sheet, so that fewer layers are needed; 1: all layers go on to its end"},
+      Field<O>{.name = "alpha",
+               .member = &O::alpha,
+               .unit = Unit::radian,
+               .min = -1.6,
+               .max = 1.6,
+               .help = "angle of attack instead of a direction, as of su2_config and foam_case: the flow comes from below",
+               .automatic = "0 beside a beta"},
+      Field<O>{.name = "beta",
+               .member = &O::beta,
+               .unit = Unit::radian,
+               .min = -1.6,
+               .max = 1.6,
+               .help = "sideslip, likewise: above zero the flow goes towards y > 0",
+               .automatic = "0 beside an alpha"},
   };
 };
 
@@ -51,7 +68,10 @@ namespace {
 using volmesh::WakeSheet;
 using SheetJson = nlohmann::json;
 
-constexpr std::string_view k_wake_sheet_usage = "wake_sheet{ wing = \"main*\", length = 2, growth = 1.2, height_growth = 1.2, direction = {1, 0, 0.05} }";
+constexpr std::string_view k_wake_sheet_usage = "wake_sheet{ wing = \"main*\", length = 2, growth = 1.2, height_growth = 1.2, alpha = 2*deg }";
+
+/// As in the cases of solvers: x aft, z up.
+Vec3 stream_at(double alpha, double beta) { return {std::cos(alpha) * std::cos(beta), std::sin(beta), std::sin(alpha) * std::cos(beta)}; }
 
 WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
   WakeSheet wake;
@@ -61,9 +81,12 @@ WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
   reader.field("shape");
   refuse_items_beyond(reader, 0);
   if (const auto direction = read_point(reader, "direction")) wake.direction = *direction;
-  if (!(norm2(wake.direction) > 0.0)) reader.add_problem("direction: has no length");
+  if (wake.direction && !(norm2(*wake.direction) > 0.0)) reader.add_problem("direction: has no length");
   reader.read_options(options);
+  const bool has_angles = !is_automatic(numbers.alpha) || !is_automatic(numbers.beta);
+  if (has_angles && wake.direction) reader.add_problem("direction and alpha, beta say the same: one of them is enough");
   reader.finish();
+  if (has_angles) wake.direction = stream_at(is_automatic(numbers.alpha) ? 0.0 : numbers.alpha, is_automatic(numbers.beta) ? 0.0 : numbers.beta);
   wake.wing = numbers.wing;
   wake.length = numbers.length;
   wake.growth = numbers.growth;
@@ -82,7 +105,8 @@ ScriptValue make_wake_sheet(const ScriptCall& call) {
 
 std::string wake_sheet_help() {
   SheetNumbers numbers;
-  return options_help(sterna::options_of(numbers)) + "direction = {x, y, z}: of the free stream, {1, 0, 0} unless given\n";
+  return options_help(sterna::options_of(numbers)) +
+         "direction = {x, y, z}: of the free stream, instead of alpha and beta; with none of them along the inflow in a tunnel, else along x\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_wake_verbs = {{
@@ -140,12 +164,11 @@ WakeSheet wake_sheet_of_text(const std::string& text) {
 
 std::string wakes_json(const std::vector<WakeSheet>& wakes) {
   SheetJson list = SheetJson::array();
-  for (const WakeSheet& wake : wakes)
-    list.push_back({{"wing", wake.wing},
-                    {"length", wake.length},
-                    {"growth", wake.growth},
-                    {"height_growth", wake.height_growth},
-                    {"direction", {wake.direction.x, wake.direction.y, wake.direction.z}}});
+  for (const WakeSheet& wake : wakes) {
+    SheetJson entry = {{"wing", wake.wing}, {"length", wake.length}, {"growth", wake.growth}, {"height_growth", wake.height_growth}};
+    if (const auto& way = wake.direction) entry["direction"] = {way->x, way->y, way->z};
+    list.push_back(std::move(entry));
+  }
   return list.dump();
 }
 
@@ -153,12 +176,14 @@ std::vector<WakeSheet> wakes_of_json(const std::string& text) {
   std::vector<WakeSheet> wakes;
   try {
     for (const SheetJson& entry : SheetJson::parse(text)) {
-      const SheetJson& way = entry.at("direction");
+      std::optional<Vec3> direction;
+      if (const auto way = entry.find("direction"); way != entry.end())
+        direction = {way->at(0).get<double>(), way->at(1).get<double>(), way->at(2).get<double>()};
       wakes.push_back({.wing = entry.at("wing").get<std::string>(),
                        .length = entry.at("length").get<double>(),
                        .growth = entry.at("growth").get<double>(),
                        .height_growth = entry.at("height_growth").get<double>(),
-                       .direction = {way.at(0).get<double>(), way.at(1).get<double>(), way.at(2).get<double>()}});
+                       .direction = direction});
     }
   } catch (const SheetJson::exception& error) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "reading wake sheets from JSON", .problem = error.what()});

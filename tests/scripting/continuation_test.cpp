@@ -78,8 +78,11 @@ INSTANTIATE_TEST_SUITE_P(
         Domain{"Periodic", "",
                "farfield = box{ {-3, -3, -3}, {4, 4, 4}, edge = 1.5, sides = { y_min = { kind = 'slip', name = 'left' }, y_max = { kind = 'slip', name = "
                "'right' } } }, periodic = { { 'left', 'right' } }"},
-        Domain{"Ridges", "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.2 }", "farfield = sphere{ radius = 6 }, open_ridges = 'always', open_angle = 80*deg"},
-        Domain{"WakeSheet", "wall = surface_mesh{ wing{ sections = { { chord = 1, airfoil = 'naca0012' }, { y = 1, chord = 1 } }, trailing_edge = 0 }, max_edge = 0.2 }", "farfield = sphere{ radius = 10 }, wakes = { wake_sheet{ length = 0.5 } }"},
+        Domain{"Ridges", "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.2 }",
+               "farfield = sphere{ radius = 6 }, open_ridges = 'always', open_angle = 80*deg"},
+        Domain{"WakeSheet",
+               "wall = surface_mesh{ wing{ sections = { { chord = 1, airfoil = 'naca0012' }, { y = 1, chord = 1 } }, trailing_edge = 0 }, max_edge = 0.2 }",
+               "farfield = sphere{ radius = 10 }, wakes = { wake_sheet{ length = 0.5 } }"},
         Domain{"FarfieldSurface", "surface_mesh{ box{ {-3, -3, -3}, {4, 4, 4} }, max_edge = 1.5 }:write 'room.stl'", "farfield = 'room.stl'"}),
     [](const testing::TestParamInfo<Domain>& tested) { return std::string(tested.param.name); });
 

@@ -146,6 +146,7 @@ TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
   const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
   EXPECT_THAT(message("wake_sheet{ wings = 'main' }"), testing::HasSubstr("did you mean"));
   EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("has no length"));
+  EXPECT_THAT(message("wake_sheet{ direction = {1, 0, 0}, alpha = 2*deg }"), testing::HasSubstr("one of them is enough"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = 'always' }"),
               testing::HasSubstr("wakes: expected \"auto\" or a list"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = { wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0}, length = 10, "

@@ -27,9 +27,9 @@ constexpr double k_far_turn = 182.0 * k_degree;  ///< knife edges turn by 180 de
 constexpr double k_angle_slack = 1e-6;           ///< of fan_angle: no sector for rounding
 constexpr double k_clear_axis = 0.1;             ///< sine of the turn above which both normals give its axis
 
-/// One vertex inside a chain.
+/// One vertex inside a chain, or the one at which it goes on in its mirror image.
 struct Inner {
-  HalfedgeId ahead, back;       ///< outgoing edges of the chain
+  HalfedgeId ahead, back;       ///< outgoing edges of the chain; one is invalid in a plane on which the wall ends
   double turn = 0.0;            ///< rad, between the normals of both sides
   std::array<Vec3, 2> normal;   ///< unit, of the sides: left and right of the way ahead
   Vec3 axis;                    ///< unit: turns the left normal towards the right one
@@ -66,6 +66,8 @@ class RidgeOpener {
     const auto [a, b, c] = corners(wall_, t);
     return normalized(area_vector(a, b, c));
   }
+  /// Whether the wall ends in one plane there, on one patch: ridges go on up to it.
+  bool is_in_plane(VertexId v) const { return patch_beyond_[v].is_valid() && domain_.constraints.vertex[v].freedom == Freedom::plane && !is_partner_[v]; }
   bool is_free(VertexId v) const {
     return (domain_.constraints.vertex.empty() || domain_.constraints.vertex[v].freedom == Freedom::free) && !is_partner_[v] &&
            std::ranges::none_of(topology_.outgoing(v), [&](HalfedgeId h) { return topology_.is_boundary(h) || topology_.is_boundary(previous(h)); });
@@ -86,12 +88,18 @@ class RidgeOpener {
     }
   }
 
-  /// Triangles left of outgoing half-edge `from` up to outgoing half-edge `to`, counter-clockwise.
+  /// Triangles between outgoing half-edges, from one counter-clockwise to the other; an invalid one is the border of the wall.
   std::vector<TriangleId> sector(HalfedgeId from, HalfedgeId to) const {
     std::vector<TriangleId> triangles;
-    for (HalfedgeId h = from; h != to; h = topology_.twin(previous(h))) triangles.push_back(triangle_of(h));
+    if (from.is_valid())
+      for (HalfedgeId h = from; h.is_valid() && h != to; h = topology_.twin(previous(h))) triangles.push_back(triangle_of(h));
+    else
+      for (HalfedgeId h = topology_.twin(to); h.is_valid(); h = topology_.twin(next(h))) triangles.push_back(triangle_of(h));
     return triangles;
   }
+
+  VertexId vertex_at(HalfedgeId h) const { return h.is_valid() ? topology_.to(h) : VertexId{}; }
+  bool has_fan_at(HalfedgeId h) const { return h.is_valid() && inner_[topology_.to(h)]; }
 
   /// The normal of one side of a vertex; nothing where it does not see all of it well.
   std::optional<Vec3> side_normal(VertexId v, const std::vector<TriangleId>& side) const {
@@ -101,7 +109,7 @@ class RidgeOpener {
       const std::size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
       sum += corner_angle(point(v), point(c[(k + 1) % 3]), point(c[(k + 2) % 3])) * normal(t);
     }
-    const Vec3 mean = normalized(sum);
+    const Vec3 mean = is_in_plane(v) ? constrained(domain_.constraints.vertex[v], sum) : normalized(sum);
     for (const TriangleId t : side)
       if (!(dot(mean, normal(t)) > k_side_cosine)) return {};
     return mean;
@@ -113,14 +121,21 @@ class RidgeOpener {
     int n = 0;
     for (const HalfedgeId h : topology_.outgoing(v))
       if (is_chain_[h]) (n++ == 0 ? inner.ahead : inner.back) = h;
-    if (n != 2 || !is_free(v)) return {};
+    if (!(n == 2 && is_free(v)) && !(n == 1 && is_in_plane(v))) return {};
     for (const VertexId w : topology_.neighbours(v))
       if (distance(point(v), point(w)) > longest_edge_) return {};
     return measured(v, inner);
   }
 
+  Vec3 mirrored(VertexId v, const Vec3& way) const {
+    const Vec3& normal = domain_.constraints.vertex[v].axis;
+    return way - 2.0 * dot(way, normal) * normal;
+  }
+
+  /// \pre the edge ahead is there
   std::optional<Inner> measured(VertexId v, Inner inner) const {
-    const Vec3 ahead = normalized(point(topology_.to(inner.ahead)) - point(v)), back = normalized(point(topology_.to(inner.back)) - point(v));
+    const Vec3 ahead = normalized(point(topology_.to(inner.ahead)) - point(v));
+    const Vec3 back = inner.back.is_valid() ? normalized(point(topology_.to(inner.back)) - point(v)) : mirrored(v, ahead);
     if (!(dot(ahead, -back) > k_bend_cosine)) return {};
     const Vec3 along = normalized(ahead - back);
     const std::optional<Vec3> left = side_normal(v, sector(inner.ahead, inner.back)), right = side_normal(v, sector(inner.back, inner.ahead));
@@ -138,12 +153,21 @@ class RidgeOpener {
     is_partner_.resize(wall_.n_vertices(), 0);
     for (const auto& pair : domain_.partners)
       for (const VertexId v : pair) is_partner_[v] = 1;
+    patch_beyond_.resize(wall_.n_vertices());
+    Column<VertexId, std::uint8_t> has_other(wall_.n_vertices(), 0);
+    for (const RimEdge& edge : domain_.rim)
+      for (const VertexId v : {topology_.from(edge.halfedge), topology_.to(edge.halfedge)}) {
+        has_other[v] = has_other[v] != 0 || (patch_beyond_[v].is_valid() && patch_beyond_[v] != edge.patch) ? 1 : 0;
+        patch_beyond_[v] = edge.patch;
+      }
+    for (const VertexId v : wall_.points.ids())
+      if (has_other[v]) patch_beyond_[v] = {};
     inner_.resize(wall_.n_vertices());
     for (const VertexId v : wall_.points.ids()) inner_[v] = inner_at(v);
     for (const VertexId v : closed) {
       if (v.index() >= wall_.n_vertices())
-        throw_bad_argument("opening ridges", "vertex " + std::to_string(v.value()) + " is to stay closed, the wall has " + std::to_string(wall_.n_vertices()), {},
-                           "surface and envelope must come from one run");
+        throw_bad_argument("opening ridges", "vertex " + std::to_string(v.value()) + " is to stay closed, the wall has " + std::to_string(wall_.n_vertices()),
+                           {}, "surface and envelope must come from one run");
       inner_[v].reset();
     }
     // Fans need a fan beside them; what is beside the last one is the chain's end, which has to be free.
@@ -151,9 +175,9 @@ class RidgeOpener {
       has_changed = false;
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v]) continue;
-        const VertexId ahead = topology_.to(inner_[v]->ahead), back = topology_.to(inner_[v]->back);
-        const auto can_end = [&](VertexId w) { return inner_[w] || is_free(w); };
-        if (ahead != back && (inner_[ahead] || inner_[back]) && can_end(ahead) && can_end(back)) continue;
+        const HalfedgeId ahead = inner_[v]->ahead, back = inner_[v]->back;
+        const auto can_end = [&](HalfedgeId h) { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); };
+        if (vertex_at(ahead) != vertex_at(back) && (has_fan_at(ahead) || has_fan_at(back)) && can_end(ahead) && can_end(back)) continue;
         inner_[v].reset();
         has_changed = true;
       }
@@ -174,22 +198,23 @@ class RidgeOpener {
       while (inner_[v] && !is_done[v]) {
         is_done[v] = 1;
         chain.push_back(v);
+        if (!inner_[v]->ahead.is_valid()) break;
         const VertexId next = topology_.to(inner_[v]->ahead);
-        if (inner_[next] && !is_done[next] && topology_.to(inner_[next]->back) != v) turn_round(next);
+        if (inner_[next] && !is_done[next] && vertex_at(inner_[next]->back) != v) turn_round(next);
         v = next;
       }
     };
     for (const bool from_ends : {true, false})  // what is left then are loops
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v] || is_done[v]) continue;
-        const bool is_first = !inner_[topology_.to(inner_[v]->back)], is_last = !inner_[topology_.to(inner_[v]->ahead)];
+        const bool is_first = !has_fan_at(inner_[v]->back), is_last = !has_fan_at(inner_[v]->ahead);
         if (from_ends && !is_first && !is_last) continue;
         if (from_ends && !is_first) turn_round(v);
         walk(v);
       }
   }
 
-  /// Along the ridges, m.
+  /// Along the ridges, m; they do not end in planes.
   Column<VertexId, double> distances_to_ends() const {
     Column<VertexId, double> to_end(wall_.n_vertices(), k_infinity);
     const auto walk = [&](const std::vector<VertexId>& chain, VertexId end) {
@@ -201,10 +226,10 @@ class RidgeOpener {
       }
     };
     for (const std::vector<VertexId>& chain : chains_) {
-      const VertexId first = topology_.to(inner_[chain.front()]->back), last = topology_.to(inner_[chain.back()]->ahead);
-      if (inner_[first]) continue;  // a loop
-      walk(chain, first);
-      walk({chain.rbegin(), chain.rend()}, last);
+      const HalfedgeId first = inner_[chain.front()]->back, last = inner_[chain.back()]->ahead;
+      if (has_fan_at(first)) continue;  // a loop
+      if (first.is_valid()) walk(chain, topology_.to(first));
+      if (last.is_valid()) walk({chain.rbegin(), chain.rend()}, topology_.to(last));
     }
     return to_end;
   }
@@ -252,6 +277,9 @@ class RidgeOpener {
         for (const VertexId line : inner_[v]->lines) ridges.foot[line] = v;
   }
 
+  /// Whether a ridge goes on in its mirror image there.
+  bool is_at_plane(VertexId v) const { return !inner_[v]->ahead.is_valid() || !inner_[v]->back.is_valid(); }
+
   /// Lines of a vertex from left to right of the way along an edge that starts (or ends) there.
   std::vector<VertexId> lines_along(VertexId v, bool is_ahead) const {
     std::vector<VertexId> lines = inner_[v]->lines;
@@ -264,13 +292,19 @@ class RidgeOpener {
     for (const std::vector<VertexId>& chain : chains_)
       for (const VertexId v : chain)
         for (const HalfedgeId h : {inner_[v]->ahead, inner_[v]->back}) {
+          if (!h.is_valid()) continue;
           const VertexId w = topology_.to(h);
           if (inner_[w] && w < v) continue;  // from there
           const std::vector<VertexId> own = lines_along(v, h == inner_[v]->ahead);
           const PatchId patch = wall_.triangle_patch[triangle_of(h)];
           if (inner_[w]) {
             const std::vector<VertexId> other = lines_along(w, topology_.twin(h) == inner_[w]->back);
-            for (std::size_t i = 0; i + 1 < own.size(); ++i) add_quad({other[i], own[i], own[i + 1], other[i + 1]}, h, patch);
+            for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+              add_quad({other[i], own[i], own[i + 1], other[i + 1]}, h, patch);
+              const TriangleId last(wall_.n_triangles() - 1);
+              if (is_at_plane(v)) domain_.rim.push_back({halfedge(TriangleId(last.index() - 1), 1), patch_beyond_[v]});
+              if (is_at_plane(w)) domain_.rim.push_back({halfedge(last, 2), patch_beyond_[w]});
+            }
           } else {
             for (std::size_t i = 0; i + 1 < own.size(); ++i) {
               ridges.ends.push_back({w, own[i], own[i + 1]});
@@ -281,7 +315,9 @@ class RidgeOpener {
         }
     std::ranges::sort(ridges.end_vertices);
     ridges.end_vertices.erase(std::unique(ridges.end_vertices.begin(), ridges.end_vertices.end()), ridges.end_vertices.end());
-    if (!domain_.constraints.vertex.empty()) domain_.constraints.vertex.resize(wall_.n_vertices());
+    if (!domain_.constraints.vertex.empty())
+      for (std::size_t i = domain_.constraints.vertex.size(); i < wall_.n_vertices(); ++i)
+        domain_.constraints.vertex.push_back(VertexConstraint(domain_.constraints.vertex[ridges.foot[VertexId(i)]]));
     if (!domain_.constraints.near.empty())
       for (std::size_t i = domain_.constraints.near.size(); i < wall_.n_vertices(); ++i)
         domain_.constraints.near.push_back(domain_.constraints.near[ridges.foot[VertexId(i)]]);
@@ -309,6 +345,7 @@ class RidgeOpener {
   Topology topology_;  ///< of the wall as it was given
   Column<HalfedgeId, std::uint8_t> is_chain_;
   Column<VertexId, std::uint8_t> is_partner_;
+  Column<VertexId, PatchId> patch_beyond_;  ///< of the outer boundary, on which the wall ends there; invalid elsewhere, and where there are several
   Column<VertexId, std::optional<Inner>> inner_;
   std::vector<std::vector<VertexId>> chains_;
 };

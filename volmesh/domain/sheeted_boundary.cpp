@@ -97,7 +97,7 @@ void give_back_patches(const std::vector<LeftOut>& left_out, std::size_t n_befor
 SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const WakeSheet> wakes,
                                  double first_height, const OuterOptions& options, const RunContext& context) {
   UserPart part = user_part(complete, n_given, needles);
-  SheetsOnWall made = add_wake_sheets(wakes, first_height, part.mesh, context);
+  SheetsOnWall made = add_wake_sheets(wakes, stream_of(complete), first_height, part.mesh, context);
   SheetedBoundary result;
   result.boundary = complete_boundary(part.mesh, options, context);
   give_back_patches(part.left_out, part.mesh.n_triangles(), result.boundary);

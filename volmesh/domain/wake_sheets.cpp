@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
@@ -22,11 +23,13 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_wake_attempt = "making wake sheets";
-constexpr double k_sheet_raise = 0.01;                          ///< of the first height: how far both sides are off their foot
-constexpr double k_least_sheet_raise = 1e-11;                   ///< of the largest coordinate: five digits are left for normals between both sides
-constexpr double k_blend = 1.5;                                 ///< chords, over which the sheet turns into the free stream
-constexpr double k_least_start = 0.25;                          ///< of the edge across the stream: the first edge along it, or triangles would be needles
-constexpr double k_longest = 2.5;                               ///< of the edge across the stream: an edge along it, so that tops of layers are no needles
+constexpr double k_sheet_raise = 0.01;          ///< of the first height: how far both sides are off their foot
+constexpr double k_least_sheet_raise = 1e-11;   ///< of the largest coordinate: five digits are left for normals between both sides
+constexpr double k_blend = 1.5;                 ///< chords, over which the sheet turns into the free stream
+constexpr double k_least_start = 0.25;          ///< of the edge across the stream: the first edge along it, or triangles would be needles
+constexpr double k_short_end = 0.25;            ///< of edges upstream of a chain, and of its median edge: shorter ones at its free ends get no sheet
+constexpr std::size_t k_least_sheet_edges = 3;  ///< of a chain, with or without these
+constexpr double k_longest = 2.5;               ///< of the edge across the stream: an edge along it, so that tops of layers are no needles
 constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< likewise where edges across are finer than this part of the chord
 constexpr double k_spread = 0.3;                                ///< chords, over which lines go to equal distances
 constexpr double k_clear_angle = 0.3;   ///< of the way from the trailing edge: nearer than this, walls are in the way, unless farther than an edge
@@ -34,6 +37,19 @@ constexpr double k_start_share = 0.01;  ///< of the first edge: walls are hit at
 constexpr std::size_t k_most_stations = 1000;
 constexpr int k_shape_sweeps = 3;       ///< of chords along the edge
 constexpr double k_shape_reach = 0.15;  ///< chords to both sides, over which directions are means
+
+/// Mean of the edges at a vertex of the trailing edge that go upstream, m.
+double upstream_edge(const TriMesh& wall, const Topology& topology, VertexId v, const Vec3& stream) {
+  double sum = 0.0;
+  int n = 0;
+  for (const VertexId w : topology.neighbours(v)) {
+    const Vec3 way = wall.points[w] - wall.points[v];
+    if (dot(way, stream) > -0.5 * norm(way)) continue;
+    sum += norm(way);
+    ++n;
+  }
+  return n > 0 ? sum / n : 0.0;
+}
 
 /// A sheet of n x m cells behind the chain's n edges.
 class SheetMaker {
@@ -103,7 +119,7 @@ class SheetMaker {
         ++n_edges;
       }
       spacing_[i] /= n_edges;
-      first[i] = std::max(upstream_edge(edge_vertex(i)), k_least_start * spacing_[i]);
+      first[i] = std::max(upstream_edge(wall_, topology_, edge_vertex(i), stream_), k_least_start * spacing_[i]);
     }
     even_out(starts);
     const std::vector<double> shares = stations(first);
@@ -157,19 +173,6 @@ class SheetMaker {
         points_[i][j] = row[k] + (wanted - at[k]) / (at[k + 1] - at[k]) * (row[k + 1] - row[k]);
       }
     }
-  }
-
-  /// Mean of the edges at a vertex of the trailing edge that go upstream, m.
-  double upstream_edge(VertexId v) const {
-    double sum = 0.0;
-    int n = 0;
-    for (const VertexId w : topology_.neighbours(v)) {
-      const Vec3 way = wall_.points[w] - wall_.points[v];
-      if (dot(way, stream_) > -0.5 * norm(way)) continue;
-      sum += norm(way);
-      ++n;
-    }
-    return n > 0 ? sum / n : 0.0;
   }
 
   /// Of the length, ascending from 0 to 1; the same for all lines.
@@ -405,6 +408,30 @@ class SheetMaker {
   std::vector<std::vector<std::array<VertexId, 2>>> sides_;
 };
 
+/// Without the short edges of a round tip, behind which the sheet's triangles would be needles: its first edges along the stream are as long there as
+/// elsewhere.
+TrailingEdge without_short_ends(const TriMesh& wall, const Topology& topology, const Vec3& stream, TrailingEdge chain) {
+  if (chain.is_loop) return chain;
+  const auto length = [&](HalfedgeId h) { return distance(wall.points[topology.to(h)], wall.points[topology.from(h)]); };
+  std::vector<double> lengths;
+  double along = 0.0;
+  for (const HalfedgeId h : chain.edges) {
+    lengths.push_back(length(h));
+    along += upstream_edge(wall, topology, topology.from(h), stream) / static_cast<double>(chain.edges.size());
+  }
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, middle);
+  const double least = k_short_end * std::min(along, *middle);
+  const auto is_short_end = [&](HalfedgeId h, VertexId end) {
+    return length(h) < least &&
+           std::ranges::none_of(topology.outgoing(end), [&](HalfedgeId o) { return topology.is_boundary(o) || topology.is_boundary(previous(o)); });
+  };
+  std::vector<HalfedgeId>& edges = chain.edges;
+  while (edges.size() > k_least_sheet_edges && is_short_end(edges.back(), topology.to(edges.back()))) edges.pop_back();
+  while (edges.size() > k_least_sheet_edges && is_short_end(edges.front(), topology.from(edges.front()))) edges.erase(edges.begin());
+  return chain;
+}
+
 void require_patches(const TriMesh& wall, const WakeSheet& wake) {
   std::vector<std::string> names;
   for (const Patch& patch : wall.patches) names.push_back(patch.name);
@@ -424,7 +451,23 @@ double raise_for(double first_height, const TriMesh& wall) {
 
 }  // namespace
 
-SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, double first_height, TriMesh& wall, const RunContext& context) {
+Vec3 stream_of(const TriMesh& boundary) {
+  constexpr Vec3 k_along_x{1.0, 0.0, 0.0};
+  Vec3 sum;
+  double area = 0.0;
+  for (const TriangleId t : boundary.triangles.ids()) {
+    const PatchKind kind = boundary.patches[boundary.triangle_patch[t]].kind;
+    if (kind == PatchKind::farfield) return k_along_x;
+    if (kind != PatchKind::inflow) continue;
+    const auto [a, b, c] = corners(boundary, t);
+    sum += area_vector(a, b, c);
+    area += norm(area_vector(a, b, c));
+  }
+  constexpr double k_one_way = 0.5;  // of the area: less is no stream
+  return norm(sum) > k_one_way * area ? normalized(sum) : k_along_x;
+}
+
+SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_domain, double first_height, TriMesh& wall, const RunContext& context) {
   SheetsOnWall made;
   made.sheets.n_given_vertices = wall.n_vertices();
   made.sheets.n_given_triangles = wall.n_triangles();
@@ -433,16 +476,18 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, double first_heig
   std::size_t n_chains = 0;
   for (const WakeSheet& wake : wakes) {
     require_patches(wall, wake);
-    const Vec3 stream = normalized(wake.direction);
+    const Vec3 stream = normalized(wake.direction.value_or(of_domain));
     if (!(norm2(stream) > 0.0)) throw_bad_argument(k_wake_attempt, "the direction of the free stream is zero", {}, "direction = {1, 0, 0}");
     const Topology topology(wall, context);
-    const std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, {wake.wing, made.sheets.n_given_triangles}, stream);
+    std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, {wake.wing, made.sheets.n_given_triangles}, stream);
     if (chains.empty())
       throw_bad_argument(k_wake_attempt,
                          "the patches named like \"" + wake.wing +
                              "\" have no trailing edge: no three edges in a row at which the wall turns by more than 120 degrees and looks downstream, or "
                              "above a base narrower than a tenth of the chord",
                          {}, "check the direction of the free stream");
+    // Before the wall is changed: makers double its vertices, half-edges stay.
+    for (TrailingEdge& chain : chains) chain = without_short_ends(wall, topology, stream, std::move(chain));
     for (const TrailingEdge& chain : chains) SheetMaker(wake, stream, raise, chain, made, wall, context).make();
     n_chains += chains.size();
   }

@@ -205,6 +205,11 @@ std::vector<BoundaryCrossing> Collider::crossings(const RunContext& context, con
   return std::move(found.pairs);
 }
 
+bool Collider::has_fan_on(TriangleId wall_triangle, std::uint32_t outer_triangle) const {
+  return base_.ridges && links_ &&
+         std::ranges::any_of(base_.wall.triangles[wall_triangle], [&](VertexId v) { return base_.fan_of(v) != nullptr && holds(outer_triangle, v); });
+}
+
 std::vector<BoundaryCrossing> Collider::fixed_crossings(const RunContext& context) {
   const SearchSide wall{&tree_, &wall_}, outer{&outer_tree_, &outer_boxes_};
   const auto search = [&](const SearchSide& side_a, BoundaryPart part_a, const SearchSide& side_b, BoundaryPart part_b) {
@@ -214,6 +219,7 @@ std::vector<BoundaryCrossing> Collider::fixed_crossings(const RunContext& contex
           if (part_a == part_b && a == b) return;
           const BoundaryTriangle first{part_a, a}, second{part_b, b};
           ++results.n_tested;
+          if (part_a == BoundaryPart::wall && part_b == BoundaryPart::outer && has_fan_on(TriangleId(a), b)) return;
           if (triangles_cross(points_, points_of(first), points_of(second))) results.pairs.push_back({std::min(first, second), std::max(first, second)});
         },
         context);

@@ -87,6 +87,8 @@ class Collider {
   std::uint32_t top_point(VertexId v) const;
   Corners points_of(const BoundaryTriangle& triangle) const;
   bool is_held(const BoundaryTriangle& moving, std::uint32_t outer_triangle) const;
+  /// Whether a wall triangle has a line of an opened ridge in the outer triangle's surface, which was left as it is: they touch.
+  bool has_fan_on(TriangleId wall_triangle, std::uint32_t outer_triangle) const;
   template <class F>
   void for_each_moving(TriangleId t, const F& f) const;
   template <class RoleOf>

@@ -61,9 +61,14 @@ class RenumberedLines {
       for (NodeId& n : face.nodes) n = moved(n, node);
       faces.push_back(face);
     }
-    mesh.boundary_triangles = std::move(faces);
-    for (BoundaryQuad& quad : mesh.boundary_quads)
+    std::vector<BoundaryQuad> quads;
+    for (BoundaryQuad quad : mesh.boundary_quads) {
       for (NodeId& n : quad.nodes) n = moved(n, node);
+      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // between lines of one foot
+      else quads.push_back(quad);
+    }
+    mesh.boundary_triangles = std::move(faces);
+    mesh.boundary_quads = std::move(quads);
   }
 
   /// Triangles of the tetrahedra's boundary in this order of the given ones, its points where they are now.

@@ -82,6 +82,8 @@ class Closer {
   ClosedOuter close() {
     result_.mesh.patches = domain_.outer.patches;
     new_of_.resize(domain_.outer.n_vertices());
+    top_of_.resize(base_.wall.n_vertices());
+    find_fan_edges();
     for (const TriangleId t : domain_.outer.triangles.ids()) {
       if (is_end(domain_.outer.triangle_patch[t]) || is_slit(domain_.outer.triangle_patch[t])) continue;
       TriangleVertices v = domain_.outer.triangles[t];
@@ -150,10 +152,30 @@ class Closer {
     return result_.mesh.points.push_back(p);
   }
   VertexId vertex(VertexId outer) {
+    if (const VertexId line = domain_.links.line[outer]; line.is_valid()) return vertex_on(line);
     VertexId& v = new_of_[outer];
-    if (v.is_valid()) return v;
-    const VertexId line = domain_.links.line[outer];
-    return v = add(line.is_valid() ? top(line) : domain_.outer.points[outer], line);
+    return v.is_valid() ? v : v = add(domain_.outer.points[outer], {});
+  }
+  /// The top of a line.
+  VertexId vertex_on(VertexId line) {
+    VertexId& v = top_of_[line];
+    return v.is_valid() ? v : v = add(top(line), line);
+  }
+
+  /// Fans of opened ridges stand in end patches: one vertex of their border has several lines.
+  void find_fan_edges() {
+    for (const RimEdge& edge : domain_.rim) {
+      const VertexId a = base_.topology.from(edge.halfedge), b = base_.topology.to(edge.halfedge);
+      if (base_.have_one_foot(a, b)) fan_edges_.push_back({{b, a}, edge.patch});
+      else if (base_.fan_of(a) || base_.fan_of(b)) lines_of_.emplace(key(base_.ridges->foot[b], base_.ridges->foot[a]), Edge{b, a});
+    }
+  }
+  /// An edge of the outer boundary between lines of the layer, or elsewhere.
+  Edge edge_between(VertexId a, VertexId b) {
+    const VertexId from = domain_.links.line[a], to = domain_.links.line[b];
+    if (from.is_valid() && to.is_valid())
+      if (const auto found = lines_of_.find(key(from, to)); found != lines_of_.end()) return {vertex_on(found->second[0]), vertex_on(found->second[1])};
+    return {vertex(a), vertex(b)};
   }
   Point top(VertexId line) const { return envelope_.is_collapsed(line) ? base_.wall.points[line] : envelope_.point(base_.wall, line); }
 
@@ -246,9 +268,11 @@ class Closer {
         const VertexId a = topology_.from(h), b = topology_.to(h);
         is_border[a.index()] = is_border[b.index()] = 1;
         if (const auto found = replaced_.find(key(a, b)); found != replaced_.end()) edges.insert(edges.end(), found->second.begin(), found->second.end());
-        else edges.push_back({vertex(a), vertex(b)});
+        else edges.push_back(edge_between(a, b));
       }
     }
+    for (const auto& [lines, patch] : fan_edges_)
+      if (patch == end.patch) edges.push_back({vertex_on(lines[0]), vertex_on(lines[1])});
     for (const VertexId v : number.ids()) made->has_inner = made->has_inner || (number[v].is_valid() && !is_border[v.index()]);
     EndRegion& region = made->region;
     region.surface = domain_.constraints.surfaces[static_cast<std::size_t>(end.surface)].get();
@@ -312,7 +336,9 @@ class Closer {
   const CloseEndsOptions& options_;
   const RunContext& context_;
   Topology topology_;                                          ///< of domain_.outer
-  Column<VertexId, VertexId> new_of_;                          ///< of a vertex of domain_.outer
+  Column<VertexId, VertexId> new_of_, top_of_;                 ///< of a vertex of domain_.outer that is on no line; of a line
+  std::map<std::uint64_t, Edge> lines_of_;                     ///< by an edge between feet as the end patch has it: its lines, where there is a fan
+  std::vector<std::pair<Edge, PatchId>> fan_edges_;            ///< between lines of one foot, as the end patch has them
   std::map<std::uint64_t, std::vector<Edge>> replaced_;        ///< by an edge of a chain: what stands for it, all at its first edge
   std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< what stands for a chain
   struct First {

@@ -26,6 +26,7 @@ struct CloseEndsOptions {
 /// Without rims the outer boundary as it is. Discs that end on walls are left out (discs/slits.h adds them). Of periodic sides the second has the triangles of
 /// the first, moved. Common edges of end patches keep their polygon beyond the layer, with new vertices there; end patches whose triangulation has vertices
 /// inside keep its edge lengths as an upper limit.
+/// Where a fan of an opened ridge stands in an end patch, its tops are part of the footprint.
 /// \pre `base` of domain.wall and its constraints; envelope valid, tops of rim vertices on their surfaces
 /// \throws Error(self_intersection, envelope_failed) with places and the patch's name where a footprint does not fit into its patch
 ClosedOuter close_ends(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const CloseEndsOptions& options, const RunContext& context);

@@ -39,9 +39,9 @@ struct Continued {
 inline Continued expect_continued(const TriMesh& wall, const MeshCase& options) {
   EnvelopeStage envelope;
   FilledStage filled;
-  const VolumeMeshResult whole =
-      volume_mesh(wall, options, {},
-                  {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }}, test::k_context);
+  const VolumeMeshResult whole = volume_mesh(
+      wall, options, {}, {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }},
+      test::k_context);
   EXPECT_EQ(filled.split_wall.has_value(), whole.n_split_triangles > 0);
   expect_same_mesh(finish_mesh(wall, filled, options, test::k_context), whole);
   const FilledStage again = make_tetrahedra(wall, envelope, options, {}, test::k_context);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "tests/support/constants.h"
@@ -13,7 +15,10 @@
 #include "tests/volmesh/domain/sharp_wing.h"
 #include "tests/volmesh/driver/continued.h"
 #include "volmesh/domain/open_ridges.h"
+#include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/patch_layers.h"
+#include "volmesh/parts/warm_start.h"
+#include "volmesh/site/site.h"
 #include "volmesh/stages.h"
 #include "volmesh/volume_mesh.h"
 
@@ -143,6 +148,108 @@ TEST(Ridges, EqualForAnyNumberOfThreads) {
     EXPECT_EQ(other.mesh.hexahedra, one.mesh.hexahedra);
     EXPECT_EQ(other.mesh.tetrahedra, one.mesh.tetrahedra);
   }
+}
+
+TEST(Ridges, FansOfAHalfModelStandInItsPlane) {
+  const TriMesh wall = half_sharp_wing(30.0, 6);
+  const MeshingSite site(wall, wing_case(true), k_context);
+  const Domain& domain = site.domain;
+  ASSERT_EQ(domain.ridges.feet.size(), 6u);  // up to the plane; the corner at the tip ends the ridge
+  EXPECT_EQ(domain.ridges.end_vertices.size(), 1u);
+  const auto in_plane = std::ranges::find_if(domain.ridges.feet, [](const OpenedRidges::Foot& foot) { return foot.point.y == 0.0; });
+  ASSERT_NE(in_plane, domain.ridges.feet.end());
+  EXPECT_EQ(in_plane->middle.y, 0.0);
+  int n_lines = 0;
+  for (const VertexId v : domain.wall.points.ids()) {
+    if (domain.ridges.foot[v] != in_plane->vertex) continue;
+    EXPECT_EQ(domain.wall.points[v].y, 0.0);
+    EXPECT_EQ(site.base.constraint[v].freedom, Freedom::plane);
+    ++n_lines;
+  }
+  EXPECT_EQ(n_lines, 6);
+  EXPECT_DOUBLE_EQ(in_plane->to_end, 0.6);  // the plane is no end
+  const VolumeMeshResult closed = volume_mesh(wall, wing_case(false), k_context), open = volume_mesh(wall, wing_case(true), k_context);
+  EXPECT_TRUE(open.check.is_valid());
+  EXPECT_EQ(wall_faces(open.mesh), wall_faces(closed.mesh));
+  EXPECT_NEAR(open.check.dual_volume, closed.check.dual_volume, 1e-11 * closed.check.dual_volume);
+  // Around the trailing edge in the plane: a triangle on the wall and quadrilaterals above it for each of five sectors.
+  int n_triangles = 0;
+  for (const sterna::BoundaryTriangle& face : open.mesh.boundary_triangles)
+    if (open.mesh.patches[face.patch].kind == PatchKind::symmetry)
+      n_triangles += std::ranges::any_of(face.nodes, [&](NodeId n) { return open.mesh.points[n] == in_plane->point; }) ? 1 : 0;
+  EXPECT_EQ(n_triangles, 5);
+  EXPECT_LT(open.layer.visibility.share_above[2], closed.layer.visibility.share_above[2]);
+  for (const int threads : {1, 7}) EXPECT_EQ(volume_mesh(wall, wing_case(true), RunContext({.threads = threads})).mesh.points, open.mesh.points);
+  expect_continued(wall, wing_case(true));
+}
+
+TEST(Ridges, BentInThePlaneOfAHalfModelTheyEndBeforeIt) {
+  for (const auto& [sweep, n_feet] : {std::pair(0.5, 6), std::pair(1.0, 4)}) {  // tangents: 27 and 45 degrees
+    TriMesh wall = half_sharp_wing(30.0, 6);
+    for (Point& p : wall.points) p.x += sweep * p.y;
+    const MeshingSite site(wall, wing_case(true), k_context);
+    const auto is_inboard = [](const OpenedRidges::Foot& foot) { return foot.point.y < 0.55; };  // edges of the tip are ridges, too
+    EXPECT_EQ(std::ranges::count_if(site.domain.ridges.feet, is_inboard), n_feet) << sweep;
+  }
+}
+
+TEST(Ridges, OfPlacedPartsAreThoseOfTheWholeWall) {
+  const TriMesh own = sharp_wing(30.0, 8);
+  const Transform pitch = rotation({0, 0, 0}, {0, 1, 0}, 0.3);
+  TriMesh wall = own;
+  for (Point& p : wall.points) p = pitch.point(p);
+  MeshCase mesh_case = wing_case(true);
+  const VolumeMeshResult whole = volume_mesh(wall, mesh_case, k_context);
+  mesh_case.parts.push_back({std::make_shared<const TriMesh>(own), pitch});
+  const VolumeMeshResult placed = volume_mesh(wall, mesh_case, k_context);  // an opened wall is no part's any more
+  EXPECT_TRUE(placed.check.is_valid());
+  EXPECT_FALSE(placed.mesh.hexahedra.empty());
+  EXPECT_EQ(placed.mesh.points, whole.mesh.points);
+  EXPECT_EQ(placed.mesh.tetrahedra, whole.mesh.tetrahedra);
+}
+
+TEST(Ridges, BetweenPatchesWithOtherLayers) {
+  TriMesh wall = sharp_wing(30.0, 8);
+  wall.patches.push_back({"lower", PatchKind::wall});
+  for (const TriangleId t : wall.triangles.ids()) {
+    const auto [a, b, c] = corners(wall, t);
+    if (a.z + b.z + c.z < 0.0) wall.triangle_patch[t] = PatchId(1);
+  }
+  MeshCase mesh_case = wing_case(true);
+  mesh_case.patches = {{.names = "lower", .layers = 8, .first_height = 2e-3}};
+  const VolumeMeshResult result = volume_mesh(wall, mesh_case, k_context);
+  EXPECT_TRUE(result.check.is_valid());
+  EXPECT_FALSE(result.mesh.hexahedra.empty());
+}
+
+TEST(Ridges, MembersOfAFamilyHaveThemToo) {
+  const TriMesh wall = sharp_wing(30.0, 8);
+  MeshCase mesh_case = wing_case(true);
+  mesh_case.family = {.refinement = 1.5, .family_wake = "off"};
+  const VolumeMeshResult fine = volume_mesh(wall, mesh_case, k_context);
+  EXPECT_TRUE(fine.check.is_valid());
+  EXPECT_FALSE(fine.mesh.hexahedra.empty());
+  EXPECT_EQ(fine.mesh.layers.n_layers, 18);
+  EXPECT_DOUBLE_EQ(fine.mesh.request.first_height, 1e-3 / 1.5);
+}
+
+TEST(Ridges, EnvelopesOfDeformedWallsStartFromThatOfTheReference) {
+  MeshingSite reference(sharp_wing(35.0, 8), wing_case(true), k_context);
+  const StartingEnvelope start{reference.base.wall.points, build_envelope(reference.base, reference.options.envelope, reference.collider, k_context)};
+  TriMesh bent = sharp_wing(35.0, 8);
+  for (Point& p : bent.points) p.z += 0.05 * p.y * p.y;
+  bool is_started = false;
+  Makers makers;
+  makers.wall_envelope = [&](const LayerBase& base, const EnvelopeOptions& options, Collider& collider, const RunContext& context) {
+    WarmStart warm = warm_start(base, options, start, collider, context);
+    is_started = warm.envelope.has_value();
+    EXPECT_TRUE(is_started) << warm.objection;
+    return is_started ? std::move(*warm.envelope) : build_envelope(base, options, collider, context);
+  };
+  const VolumeMeshResult result = volume_mesh(bent, wing_case(true), makers, {}, k_context);
+  EXPECT_TRUE(is_started);
+  EXPECT_TRUE(result.check.is_valid());
+  EXPECT_FALSE(result.mesh.hexahedra.empty());
 }
 
 TEST(Ridges, ContinuedMeshesAreTheSame) {

@@ -24,6 +24,8 @@ namespace {
 
 using test::k_context;
 
+constexpr Vec3 k_stream{1.0, 0.0, 0.0};
+
 MeshCase wake_case(std::vector<WakeSheet> wakes) {
   MeshCase mesh_case = layers(8, 1e-3);
   mesh_case.farfield.farfield_radius = 10.0;
@@ -45,21 +47,6 @@ std::vector<std::array<Place, 3>> faces_of_wing(const HybridMesh& mesh) {
   }
   std::ranges::sort(faces);
   return faces;
-}
-
-/// The half y < 0.6 of a wing of 1.2 m span, open there.
-TriMesh half_wing(double wedge_angle) {
-  TriMesh wall = sharp_wing(wedge_angle, 6);
-  TriMesh open;
-  open.points = wall.points;
-  open.patches = wall.patches;
-  for (const TriangleId t : wall.triangles.ids()) {
-    const auto [a, b, c] = corners(wall, t);
-    if (a.y == 0.0 && b.y == 0.0 && c.y == 0.0) continue;  // the cap
-    open.triangles.push_back(wall.triangles[t]);
-    open.triangle_patch.push_back(wall.triangle_patch[t]);
-  }
-  return open;
 }
 
 /// A plate of chord 1 and a thickness, with a base and eight edges of 0.1 m along it.
@@ -138,7 +125,7 @@ TEST(TrailingEdges, OfAWingItIsTheSharpOne) {
 TEST(WakeSheets, TheWallIsAThinBodyThen) {
   const TriMesh given = sharp_wing(20.0, 8);
   TriMesh wall = given;
-  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{}}, 1e-3, wall, k_context);
+  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{}}, k_stream, 1e-3, wall, k_context);
   const DoubledSheets& sheets = made.sheets;
   ASSERT_FALSE(sheets.is_empty());
   EXPECT_EQ(Topology(wall, k_context).n_boundary_halfedges(), 0u);
@@ -227,7 +214,7 @@ TEST(WakeSheets, EqualForAnyNumberOfThreads) {
 }
 
 TEST(WakeSheets, OfAHalfModelItEndsInThePlane) {
-  const VolumeMeshResult with = volume_mesh(half_wing(20.0), wake_case({{.length = 1.0}}), k_context);
+  const VolumeMeshResult with = volume_mesh(half_sharp_wing(20.0, 6), wake_case({{.length = 1.0}}), k_context);
   EXPECT_TRUE(with.check.is_valid());
   std::size_t n_behind = 0;  // quadrilaterals of layers on the plane behind the wing
   for (const BoundaryQuad& quad : with.mesh.boundary_quads) {
@@ -247,13 +234,13 @@ TEST(WakeSheets, BehindABluntBaseItStartsAtTheUpperEdge) {
 TEST(WakeSheets, EndWhereAWallIsInTheWay) {
   const TriMesh wing = sharp_wing(20.0, 8), free = [&] {
     TriMesh wall = wing;
-    add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, 1e-3, wall, k_context);
+    add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, k_stream, 1e-3, wall, k_context);
     return wall;
   }();
   EXPECT_GT(end_of(free), 3.0);
   const auto sheets_before = [&](const TriMesh& given) {
     TriMesh wall = given;
-    const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, 1e-3, wall, k_context);
+    const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, k_stream, 1e-3, wall, k_context);
     Box box;
     for (std::size_t t = made.sheets.n_given_triangles; t < wall.n_triangles(); ++t)
       for (const Point& p : corners(wall, TriangleId(t))) box.add(p);
@@ -271,7 +258,7 @@ TEST(WakeSheets, EndWhereAWallIsInTheWay) {
 }
 
 TEST(WakeSheets, AGivenPlaneOfSymmetryIsMadeAnew) {
-  const TriMesh half = half_wing(20.0);
+  const TriMesh half = half_sharp_wing(20.0, 6);
   const TriMesh domain = complete_boundary(half, {wake_case({}).farfield, nullptr}, k_context);
   MeshCase mesh_case = wake_case({{.length = 1.0}});
   mesh_case.farfield = {};
@@ -281,14 +268,53 @@ TEST(WakeSheets, AGivenPlaneOfSymmetryIsMadeAnew) {
   for (const BoundaryQuad& quad : with.mesh.boundary_quads) EXPECT_EQ(with.mesh.patches[quad.patch].name, "symmetry");
 }
 
+TEST(WakeSheets, FollowTheInflowOfATunnel) {
+  TriMesh tunnel = room([](const std::string&) { return PatchKind::slip; });
+  EXPECT_EQ(stream_of(tunnel), (Vec3{1.0, 0.0, 0.0}));
+  for (Patch& patch : tunnel.patches) patch.kind = patch.name == "floor" ? PatchKind::inflow : PatchKind::slip;
+  EXPECT_EQ(stream_of(tunnel), (Vec3{0.0, 0.0, 1.0}));
+  for (Patch& patch : tunnel.patches)
+    if (patch.name == "ceiling") patch.kind = PatchKind::inflow;  // against each other
+  EXPECT_EQ(stream_of(tunnel), k_stream);
+  for (Patch& patch : tunnel.patches) patch.kind = patch.name == "floor" ? PatchKind::inflow : PatchKind::farfield;  // an engine's jet is no stream
+  EXPECT_EQ(stream_of(tunnel), k_stream);
+}
+
+TEST(WakeSheets, TheirDirectionIsTheStreamUnlessGiven) {
+  const auto end_height = [](const WakeSheet& wake, const Vec3& stream) {
+    TriMesh wall = sharp_wing(20.0, 8);
+    const std::size_t n_given = wall.n_vertices();
+    add_wake_sheets(std::array{wake}, stream, 1e-3, wall, k_context);
+    double highest = 0.0;
+    for (std::size_t i = n_given; i < wall.n_vertices(); ++i) highest = std::max(highest, wall.points[VertexId(i)].z);
+    return highest;
+  };
+  const Vec3 upward = normalized(Vec3{1.0, 0.0, 0.2});
+  EXPECT_LT(end_height({}, k_stream), 0.01);
+  EXPECT_GT(end_height({}, upward), 0.1);
+  EXPECT_EQ(end_height({.direction = upward}, k_stream), end_height({}, upward));
+}
+
+TEST(WakeSheets, BeginWhereEdgesOfATipAreNotShort) {
+  TriMesh wall = sharp_wing(20.0, 8);  // edges of 0.1 m; the last two 0.02 m
+  for (Point& p : wall.points)
+    if (p.y > 0.65) p.y = p.y > 0.75 ? 0.64 : 0.62;
+  const std::size_t n_given = wall.n_vertices();
+  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.length = 0.5}}, k_stream, 1e-3, wall, k_context);
+  double farthest = 0.0;
+  for (const VertexId v : made.sheets.rims)
+    if (v.index() < n_given) farthest = std::max(farthest, wall.points[v].y);
+  EXPECT_NEAR(farthest, 0.6, 1e-12);
+}
+
 TEST(WakeSheets, WhatCannotBeIsRefused) {
   const TriMesh wall = sharp_wing(20.0, 8);
   const auto refuse = [&](const char* text, MeshCase mesh_case) {
     test::expect_error(ErrorCode::bad_argument, text, [&] { volume_mesh(wall, mesh_case, k_context); });
   };
   refuse("no patch is named like \"tail\"", wake_case({{.wing = "tail"}}));
-  refuse("no trailing edge", wake_case({{.direction = {-1, 0, 0}}}));
-  refuse("is zero", wake_case({{.direction = {0, 0, 0}}}));
+  refuse("no trailing edge", wake_case({{.direction = Vec3{-1, 0, 0}}}));
+  refuse("is zero", wake_case({{.direction = Vec3{0, 0, 0}}}));
   MeshCase with_ridges = wake_case({{}});
   with_ridges.ridges.open_ridges = "always";
   refuse("several normals", with_ridges);
@@ -302,7 +328,7 @@ TEST(WakeSheets, ContinuedMeshesAreTheSame) {
   MeshCase mesh_case = wake_case({{.length = 0.5}});
   EXPECT_FALSE(expect_continued(sharp_wing(20.0, 8), mesh_case).whole.mesh.prisms.empty());
   mesh_case.prisms.truncate = "auto";
-  expect_continued(half_wing(20.0), mesh_case);
+  expect_continued(half_sharp_wing(20.0, 6), mesh_case);
 }
 
 }  // namespace
