@@ -8,7 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/surface_file.h"
+#include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
+#include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/domain/room.h"
@@ -256,6 +259,17 @@ TEST(Ridges, ContinuedMeshesAreTheSame) {
   const Continued all_open = expect_continued(sharp_wing(30.0, 8), wing_case(true));
   EXPECT_FALSE(all_open.whole.mesh.hexahedra.empty());
   EXPECT_EQ(all_open.n_rounds, 0);
+}
+
+/// Two rounds: some fans have no valid cells and are closed.
+TEST(Ridges, ContinuedMeshesWithClosedFansAreTheSame) {
+  STERNA_NEEDS_SHARED_DATA();
+  const SurfaceSoup soup = io::read_surface_file(test::shared_data() / "surfaces/clean/vspgeom_geom2_geom2.stl", k_context);
+  MeshCase mesh_case = layers(20, 1e-4);
+  mesh_case.ridges.open_ridges = "always";
+  const Continued geom2 = expect_continued(surfmesh::stitch_surface({soup}, {}, k_context).mesh, mesh_case);
+  EXPECT_GT(geom2.n_rounds, 0);
+  EXPECT_FALSE(geom2.whole.mesh.hexahedra.empty());
 }
 
 TEST(Ridges, WhatIsToStayClosedIsOfTheWall) {
