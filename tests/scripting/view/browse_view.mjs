@@ -9,6 +9,7 @@ import { Failed, require_equal, require_near, require_no_complaints, require_tha
 const [sterna, scripts, data, work] = process.argv.slice(2);
 const k_patience = 120000; // ms: software rendering on a busy machine
 const k_args = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const k_large = 300000; // triangles: more than those from which on surfaces are thinned
 const times = {};
 const children = []; // programs that were started
 
@@ -479,12 +480,49 @@ mesh:write "case.vtu"
   await page.close();
 }
 
+/** A surface of so many triangles that it is thinned while the camera moves. */
+async function use_large(context) {
+  const folder = path.join(work, "large");
+  await mkdir(folder);
+  await writeFile(path.join(folder, "ball.lua"), 'surface_mesh{ aircraft{ fuselage{ name = "body", frames = { { x = 1, diameter = 1 }, { x = 4, diameter = 1.2 } }, nose_height = 0.6 } }, max_edge = 0.5 }:write "body.stl"\n');
+  const ended = (child) => new Promise((resolve) => child.on("exit", resolve));
+  require_equal(await ended(spawn(sterna, ["run", "ball.lua"], { cwd: folder, stdio: "ignore" })), 0, "the small surface");
+  require_equal(await ended(spawn(sterna, ["convert", "body.stl", "small.stl", "--format", "STL binary"], { cwd: folder, stdio: "ignore" })), 0, "as binary STL");
+  const n_small = (await readFile(path.join(folder, "small.stl"))).readUInt32LE(80);
+  const parts = Math.ceil(Math.sqrt(k_large / n_small));
+  const refine = path.join(path.dirname(process.argv[1]), "refine_stl.mjs");
+  require_equal(await ended(spawn(process.execPath, [refine, "small.stl", "large.stl", String(parts)], { cwd: folder, stdio: "ignore" })), 0, "the large surface");
+  const program = await start(folder, ["large.stl"]);
+  const page = await open(context, program.address);
+  let state = await wait_for(page, (s) => s.run.status === "done" && s.shown.some((x) => x.drawn >= k_large), null, "the large surface");
+  require_equal(state.shown.length, 1, "objects in the picture");
+  require_that(state.pace.thin > 1000 && state.pace.thin < k_large / 3, `${state.pace.thin} triangles of the thinned surface`);
+  await require_picture(page, "the large surface");
+  await wait_for(page, (s) => s.pace.costs[0] !== null, null, "what a frame takes");
+  const box = await page.locator(".view_canvas").boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  const levels = new Set();
+  for (let k = 1; k < 12; ++k) {
+    await page.mouse.move(box.x + box.width / 2 + 8 * k, box.y + box.height / 2);
+    levels.add((await state_of(page)).pace.level);
+  }
+  await shot(page, "large_moving");
+  await page.mouse.up();
+  require_that(Math.max(...levels) > 0 || (await state_of(page)).pace.costs[0] < 40, "frames are thinned while the camera moves, unless they are quick");
+  await wait_for(page, (s) => !s.pace.is_moving && (s.pace.level === 0 || s.pace.costs[0] > 1000), null, "all of it at rest, unless that takes very long");
+  require_no_complaints(page, "the large surface");
+  await program.end();
+  await page.close();
+}
+
 const browser = await chromium.launch({ executablePath: process.env.STERNA_BROWSER ?? "/usr/bin/chromium", args: k_args });
 try {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce", permissions: ["clipboard-read", "clipboard-write"] });
   await use_airliner(context);
   await use_cpacs(context);
   await use_series(context);
+  await use_large(context);
   const dark = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce", colorScheme: "dark" });
   const program = await start(path.join(work, "airliner"), ["03_airliner.lua"]);
   const page = await open(dark, program.address);

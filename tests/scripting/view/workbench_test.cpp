@@ -193,6 +193,12 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(surface["is_shown"], true);
   EXPECT_GT(scene(surface["scene"]).first["surface"]["fields"].size(), 2u);
 
+  // What inspect{} finds; models are not inspected.
+  const ViewJson found = ViewJson::parse(body_of(exchange_bytes(port_, post_request(port_, secret_ + "inspect", "{\"key\": \"surface\"}"))), nullptr, false);
+  EXPECT_EQ(found.value("schema", ""), "sterna-inspect-1");
+  EXPECT_EQ(found.value("ok", false), true) << found.dump();
+  EXPECT_EQ(post("inspect", {{"key", "model"}}), 409);
+
   // What makes no sense is refused, and the program lives.
   EXPECT_EQ(post("run", {{"mode", "everything"}}), 400);
   EXPECT_EQ(post("show", {{"key", "nobody"}}), 404);
@@ -249,6 +255,15 @@ TEST_F(WorkbenchTest, GoesThroughTheCasesOfASeries) {
   EXPECT_EQ(now["parameters"][0]["max"], 2);  // one of the three has no mesh
   EXPECT_NE(now["lines"].dump().find("case 1 of 2, height=1: VALID"), std::string::npos) << now["lines"].dump();
   EXPECT_EQ(object(now, "mesh")["kind"], "mesh");
+  EXPECT_EQ(now["has_cases"], true);
+  const ViewJson cases = ViewJson::parse(body_of(exchange_bytes(port_, get_request(port_, secret_ + "cases"))), nullptr, false);
+  ASSERT_EQ(cases.size(), 3u) << cases.dump();
+  EXPECT_EQ(cases[0]["case"], 1);
+  EXPECT_EQ(cases[1]["case"], nullptr);  // the one without a mesh
+  EXPECT_EQ(cases[2]["case"], 2);
+  EXPECT_EQ(cases[2]["parameters"]["height"], 3);
+  EXPECT_EQ(cases[2]["verdict"], "VALID");
+  EXPECT_EQ(status_of(exchange_bytes(port_, get_request(port_, secret_ + "picture?picture=0"))), 404);  // none has written one
   EXPECT_EQ(post("values", {{"values", {{"case", "2"}}}}), 200);
   now = wait_for_end(now["run"]["number"]);
   EXPECT_NE(now["lines"].dump().find("case 2 of 2, height=3: VALID"), std::string::npos) << now["lines"].dump();

@@ -50,7 +50,9 @@ export class Pace {
       this.is_whole = false;
       return 0;
     }
-    const whole = this.costs[0] ?? (n < k_many ? 0 : this.costs[1] === null ? Infinity : (this.costs[1] * n) / n_thin);
+    const [measured, thin] = this.costs;
+    // What all of it takes was measured once, perhaps while the machine was busy; thinned frames tell of now.
+    const whole = measured === null && thin === null ? (n < k_many ? 0 : Infinity) : Math.min(measured ?? Infinity, thin === null ? Infinity : (thin * n) / n_thin);
     if (!this.is_moving) return whole > k_most_frame && n_thin < n ? 1 : 0;
     const smooth = this.costs.findIndex((cost, level) => (level === 0 ? whole : (cost ?? 0)) <= k_smooth);
     return smooth < 0 ? k_levels.length - 1 : smooth;
