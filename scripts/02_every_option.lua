@@ -191,6 +191,10 @@ local mesh = volume_mesh{ wall,
     improve_rounds = 30,            -- 0: none
     slide_share = 0.2,              -- of the layer's height, that lines may end lower where prisms and tetrahedra do not fit; 0: never
   },
+  limits = {                          -- what a mesh may need of the machine: more is an error before the work
+    max_memory = 20e9,              -- bytes; automatic: what is free
+    force = false,                  -- goes on all the same
+  },
 }
 
 mesh:check{ intersections = true, quality = true, cell_centred = true, findings_per_kind = 10, strict = false,

@@ -13,6 +13,7 @@ add_test(NAME architecture COMMAND ${CMAKE_SOURCE_DIR}/tools/check_architecture 
 add_test(NAME architecture_self_test
          COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_architecture_test.py ${CMAKE_SOURCE_DIR}/tools/check_architecture ${CMAKE_CXX_COMPILER})
 add_test(NAME count_skips_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/count_skips_test.py ${CMAKE_SOURCE_DIR}/tools/count_skips)
+add_test(NAME bench_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/bench_test.py ${CMAKE_SOURCE_DIR}/tools/bench)
 
 # ThreadSanitizer sees a deliberate race in our own loops, and none where there is none: on the back end of the tsan preset, in any preset.
 if(STERNA_SANITIZE STREQUAL "" OR STERNA_SANITIZE STREQUAL "thread")

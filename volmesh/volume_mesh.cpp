@@ -14,6 +14,7 @@
 #include "geom/mesh/check_moved.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/periodic.h"
+#include "volmesh/forecast.h"
 #include "volmesh/layer/close_fans.h"
 #include "volmesh/layer/lay_out.h"
 #include "volmesh/layer/repair_envelope.h"
@@ -117,7 +118,12 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
-  SizeSupply sizes(domain, site.options.sources, site.options.size, context);
+  const CellCounts cells = count_cells(layer.mesh);
+  Forecast forecast{.n_triangles = static_cast<double>(site.base.wall.n_triangles()), .n_prisms = static_cast<double>(cells.total())};
+  SizeSupply sizes(domain, site.options.sources, site.options.size, context, [&](const SizeField& field, const RunContext& side) {
+    forecast.n_tetrahedra = expected_tetrahedra(field);
+    require_room(forecast, site.options.limits, side);
+  });
   const StepEnds ends = step_ends(context.threads());
   TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
@@ -253,6 +259,7 @@ FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Make
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
+  require_room(forecast_of(site), site.options.limits, context);
   tell_needles(site.domain.needles, site.options.needles, context);
   const std::vector<WholePart> parts = site.domain.slits.empty() && !site.domain.is_opened()
                                            ? whole_parts(site.domain, site.options.parts, context)

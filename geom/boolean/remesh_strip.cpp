@@ -58,12 +58,19 @@ class StripRemesher {
   void run(UnionReport& report, const RunContext& context) {
     report.before = quality();
     for (int round = 0; round < k_rounds; ++round) {
-      context.progress(static_cast<double>(round) / k_rounds);
       const std::int64_t n_before = n_split_ + n_collapsed_ + n_flipped_;
+      constexpr double k_steps = 5.0;
+      double step = 0.0;
+      const auto next = [&] { context.progress((round + step++ / k_steps) / (k_rounds + 1)); };
+      next();
       collapse_short();
+      next();
       split_long();
+      next();
       flip_edges();
+      next();
       smooth();
+      next();
       measure_strip();
       if (n_split_ + n_collapsed_ + n_flipped_ == n_before) break;
     }

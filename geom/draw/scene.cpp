@@ -125,10 +125,23 @@ class SceneBuilder {
     scene_.toward = is_turned ? -plane_->normal : plane_->normal;
   }
 
-  /// Half models are seen from the side of the fluid: the symmetry plane behind the body, not in front of it.
+  /// Half models are seen from the side of the fluid: the symmetry plane, or the surface's opening there, behind the body, not in front of it.
   void look_from_inside() {
-    const Vec3 out = symmetry_normal(mesh_);
+    const Vec3 out = is_surface_ ? opening_normal() : symmetry_normal(mesh_);
     if (const double away = dot(scene_.toward, out); away > 0.0) scene_.toward -= 2.0 * away * out;
+  }
+
+  /// Out of a surface's opening, unit; zero where it is closed: the facets of a closed surface add up to none, of an open one to what its opening lacks.
+  Vec3 opening_normal() const {
+    Vec3 sum;
+    double area = 0.0;
+    for (const BoundaryTriangle& face : mesh_.boundary_triangles) {
+      const Vec3 a = area_vector(mesh_.points[face.nodes[0]], mesh_.points[face.nodes[1]], mesh_.points[face.nodes[2]]);
+      sum += a;
+      area += norm(a);
+    }
+    constexpr double k_open = 1e-3;
+    return norm(sum) > k_open * area ? normalized(sum) : Vec3{};
   }
 
   void cut_cells() {

@@ -9,7 +9,9 @@
 #include <cmath>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/mirror_gap.h"
 #include "geom/mesh/topology.h"
 
 namespace sterna {
@@ -309,6 +311,15 @@ void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContex
   throw Error(std::move(touching));
 }
 
+/// What is left out should be the image of what is kept: a deflected aileron, a tail of one side are not.
+void tell_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const RunContext& context) {
+  constexpr double k_share_of_edge = 0.3, k_share_of_length = 3e-4;
+  const MirrorGap gap = mirror_gap(surface, plane.axis, plane.at, k_share_of_edge, context);
+  if (gap.distance <= k_share_of_length * bounding_box(surface).longest_side()) return;
+  context.warn("half at " + plane.text() + ": the side that is left out is not the image of the one that is kept; the image of " + format_point(gap.at) +
+               " is " + in_metres(gap.distance, 3) + " from the surface");
+}
+
 }  // namespace
 
 TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context) {
@@ -317,6 +328,7 @@ TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunCon
   Cutting cutting = place_vertices(surface, plane);
   const SnapReport snapped = options.snap > 0.0 ? snap_near_vertices(cutting, Topology(surface, context), plane, options.snap) : SnapReport{};
   const Cutter cutter(cutting, plane);
+  if (std::ranges::any_of(cutting.distance, [](double d) { return d < 0.0; })) tell_asymmetry(surface, plane, context);
   TriMesh half = cutter.take();
   require_reach(surface, half, plane);
   require_rim(half, plane, context);

@@ -301,6 +301,7 @@ struct Aircraft {
 struct AircraftReading {
   Aircraft aircraft;
   std::vector<std::string> messages;
+  std::vector<std::string> notes = {};  ///< what is left out as it has to be: no warning
 };
 
 }  // namespace sterna

@@ -373,7 +373,9 @@ void Reader::fuselage(const Node& node) {
 
 void Reader::read_model(const Node& model) {
   Aircraft& aircraft = reading_.aircraft;
-  file_.warn_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines", k_no_shape});
+  file_.warn_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines landingGear landingGears", k_no_shape});
+  if (model.child("landingGear") || model.child("landingGears"))
+    reading_.notes.emplace_back("the landing gear is taken as retracted: it is no part of the shape");
   aircraft.name = file_.text(model, "uID");
   if (const Node reference = model.child("reference")) {
     if (reference.child("area")) aircraft.reference_area = file_.child_number(reference, "area", 0.0);
@@ -417,6 +419,7 @@ AircraftReading read_cpacs(const std::filesystem::path& path, const RunContext& 
   context.check_stop();
   AircraftReading reading = cpacs::Reader(path).read();
   for (const std::string& message : reading.messages) context.warn(path.filename().string() + ": " + message);
+  for (const std::string& note : reading.notes) context.info(path.filename().string() + ": " + note);
   return reading;
 }
 

@@ -80,6 +80,8 @@ class WingBuilder {
   const WingPatch* slot_at(ControlKind kind, double place) const;
   void keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across);
   void make_cove(std::size_t patch);
+  /// Of a control surface that is the whole wing there, or the wing's.
+  const std::string& name_at_end(std::size_t section, std::size_t neighbour) const;
   void tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap);
 
   CutEnds cut_;
@@ -365,20 +367,29 @@ void WingBuilder::make_panels() {
     const bool is_flat = !(cap.height > 0.0) && is_planar(rows_[section]);  // a bent section need not be
     if (!is_cut && (cap.height > 0.0 || is_flat)) return tip(station, section, neighbour, cap);
     const EdgeId trailing = is_blunt_ ? station.thickness : builder_.pole(station.upper.corners.front());
-    ruled_wall(builder_, station.upper, station.lower, trailing, builder_.pole(station.leading()), is_cut ? FaceRole::control_side : FaceRole::tip, wing_.name);
+    ruled_wall(builder_, station.upper, station.lower, trailing, builder_.pole(station.leading()), is_cut ? FaceRole::control_side : FaceRole::tip,
+               is_cut ? wing_.name : name_at_end(section, neighbour));
   };
   end(first, 0, 1, wing_.right_tip, cut_.right);
   end(at, rows_.size() - 1, rows_.size() - 2, wing_.left_tip, cut_.left);
 }
 
+const std::string& WingBuilder::name_at_end(std::size_t section, std::size_t neighbour) const {
+  const auto [from, to] = std::minmax(static_cast<double>(section), static_cast<double>(neighbour));
+  const double middle = 0.5 * (from + to);
+  const WingPatch* patch = section < neighbour ? patch_over(ControlKind::all_moving, from, middle) : patch_over(ControlKind::all_moving, middle, to);
+  return patch && !patch->slot ? patch->name : wing_.name;
+}
+
 /// Flat, or half ellipses between upper and lower side as rational quadratics: side, side + bulge, crest line, side + bulge, side. The bulge is the
 /// section's half thickness times the height, outwards along the section's normal.
 void WingBuilder::tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap) {
+  const std::string& name = name_at_end(section, neighbour);
   if (!(cap.height > 0.0)) {
     std::vector<EdgeId> border = at.upper.edges;
     border.insert(border.end(), at.lower.edges.rbegin(), at.lower.edges.rend());
     if (is_blunt_) border.push_back(at.thickness);
-    builder_.plane(border, FaceRole::tip, wing_.name);
+    builder_.plane(border, FaceRole::tip, name);
     return;
   }
   const std::vector<Point>& row = rows_[section];
@@ -404,7 +415,7 @@ void WingBuilder::tip(const Station& at, std::size_t section, std::size_t neighb
   EdgeId base;
   if (is_blunt_) {
     base = builder_.edge(line_of_constant_u(form, 0.0), {0.0, 1.0}, at.upper.corners.front(), at.lower.corners.front());
-    builder_.plane({base, at.thickness}, FaceRole::trailing_edge, wing_.name);
+    builder_.plane({base, at.thickness}, FaceRole::trailing_edge, name);
   } else {
     base = builder_.pole(at.upper.corners.front());
   }
@@ -413,7 +424,7 @@ void WingBuilder::tip(const Station& at, std::size_t section, std::size_t neighb
   sides.push_back({nose, {1.0, 0.0}, {1.0, 1.0}});
   for (std::size_t i = at.lower.edges.size(); i-- > 0;) sides.push_back({at.lower.edges[i], {at.lower.at[i + 1], 1.0}, {at.lower.at[i], 1.0}});
   sides.push_back({base, {0.0, 1.0}, {0.0, 0.0}});
-  builder_.face(std::make_shared<NurbsSurface>(form), sides, FaceRole::tip, wing_.name);
+  builder_.face(std::make_shared<NurbsSurface>(form), sides, FaceRole::tip, name);
 }
 
 Model WingBuilder::build() {

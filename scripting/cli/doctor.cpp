@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "geom/base/machine_memory.h"
 #include "io/output/scratch_folder.h"
 #include "scripting/interpreter/script_run.h"
 #include "scripting/report/report_page.h"
@@ -41,16 +42,6 @@ struct Finding {
   std::string text;
   std::string remedy;
 };
-
-/// Bytes that processes may still take, by the kernel's estimate; 0 where it is not told.
-double available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string key, unit;
-  double kibibytes = 0.0;
-  while (file >> key >> kibibytes >> unit)
-    if (key == "MemAvailable:") return 1024.0 * kibibytes;
-  return 0.0;
-}
 
 std::string gigabytes(double bytes) { return fmt::format("{:.1f} GB", bytes / k_gigabyte); }
 

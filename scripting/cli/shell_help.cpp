@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "scripting/interpreter/script_help.h"
 #include "scripting/terminal/exit_status.h"
 
 namespace sterna::scripting {
@@ -174,6 +175,21 @@ void add_shell_commands(CLI::App& app, const std::function<void(std::function<in
   completion->final_callback([&app, shell, choose] {
     choose([&app, shell](const CommandContext& context) {
       context.console.print(completion_script(app, shell->as<std::string>()));
+      return k_exit_success;
+    });
+  });
+  CLI::App* help = app.add_subcommand("help", "say what a command does (as --help), or a verb, object or option of scripts (as help \"name\" in a script)");
+  const CLI::Option* about = help->add_option("name", "mesh, volume_mesh, max_growth ...; without one: all commands")->type_name("NAME");
+  help->final_callback([&app, about, choose] {
+    choose([&app, about](const CommandContext& context) {
+      const auto name = about->count() > 0 ? about->as<std::string>() : std::string();
+      const auto commands = app.get_subcommands([&](const CLI::App* known) { return known->check_name(name); });
+      const CLI::App* command = name.empty() ? &app : commands.empty() ? nullptr : commands.front();
+      // app.help() would be that of the command that runs.
+      std::string text = command == &app ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal) : command ? command->help() : "";
+      // A word may be both: a command and a verb of scripts.
+      if (!name.empty() && (!command || find_verb(name))) text += (text.empty() ? "" : "\nIn scripts:\n\n") + help_on_name(name, "help " + name);
+      context.console.print(text);
       return k_exit_success;
     });
   });

@@ -1,13 +1,28 @@
 #include "scripting/command/command_context.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "geom/base/error.h"
 #include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
+namespace {
+
+/// The options that no name on the command line is meant for, be it misspelt or its value refused: one mistake is told once.
+OptionTable not_meant(const OptionTable& table, const OptionOverrides& given) {
+  OptionTable result;
+  for (const Option& option : table) {
+    const std::vector<std::string> names{std::string(option.name), std::string(option.stage) + "." + std::string(option.name)};
+    if (std::ranges::none_of(given, [&](const auto& entry) { return !nearest_name(entry.first, names).empty(); })) result.push_back(option);
+  }
+  return result;
+}
+
+}  // namespace
 
 void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context) {
   std::string problems;
@@ -28,7 +43,7 @@ void set_options(const OptionTable& table, const OptionOverrides& given, const C
     }
   }
   try {
-    require_options(table, "mesh");
+    require_options(n_problems == 0 ? table : not_meant(table, given), "mesh");
   } catch (const Error& error) {
     problems += "\n  - " + error.info().problem;
     ++n_problems;

@@ -39,24 +39,6 @@ std::string verbs_with_option(const std::string& name) {
   return text;
 }
 
-std::string help_on_name(const ScriptCall& call, const std::string& name) {
-  std::string text;
-  if (const ScriptVerb* verb = find_verb(name)) text = help_text(*verb);
-  if (const ObjectKind* kind = object_kind(name)) text += (text.empty() ? "" : "\n\n") + help_text(*kind);
-  if (!text.empty()) return text;
-  text = verbs_with_option(name);
-  if (!text.empty()) return "option " + name + "\n" + text.substr(0, text.size() - 1);
-  std::vector<std::string> known;
-  for (const ScriptVerb* verb : all_verbs()) {
-    known.emplace_back(verb->name);
-    for (const std::string& option : option_names(*verb)) known.push_back(option);
-  }
-  for (const ObjectKind& kind : object_kinds()) known.emplace_back(kind.name);
-  const std::string nearest = nearest_name(name, known);
-  reject(call, "there is no verb, object or option \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
-         "help() lists the verbs");
-}
-
 }  // namespace
 
 std::vector<OptionGroup> option_groups(const ScriptVerb& verb) {
@@ -145,6 +127,26 @@ std::string help_text() {
   return text + ". help(volume_mesh) prints the options of a verb, help(wall) the methods and fields of an object, help \"first_height\" who takes an option.";
 }
 
+std::string help_on_name(const std::string& name, const std::string& attempted) {
+  std::string text;
+  if (const ScriptVerb* verb = find_verb(name)) text = help_text(*verb);
+  if (const ObjectKind* kind = object_kind(name)) text += (text.empty() ? "" : "\n\n") + help_text(*kind);
+  if (!text.empty()) return text;
+  text = verbs_with_option(name);
+  if (!text.empty()) return "option " + name + "\n" + text.substr(0, text.size() - 1);
+  std::vector<std::string> known;
+  for (const ScriptVerb* verb : all_verbs()) {
+    known.emplace_back(verb->name);
+    for (const std::string& option : option_names(*verb)) known.push_back(option);
+  }
+  for (const ObjectKind& kind : object_kinds()) known.emplace_back(kind.name);
+  const std::string nearest = nearest_name(name, known);
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = attempted,
+               .problem = "there is no verb, object or option \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+               .hint = "help() lists the verbs"});
+}
+
 ScriptValue print_help(const ScriptCall& call) {
   if (call.arguments.empty()) {
     call.session.print(help_text());
@@ -153,10 +155,10 @@ ScriptValue print_help(const ScriptCall& call) {
   const ScriptValue& about = call.arguments.front();
   if (const auto* verb = std::get_if<const ScriptVerb*>(&about)) call.session.print(help_text(**verb));
   else if (const ObjectKind* kind = kind_of(about)) call.session.print(help_text(*kind));
-  else if (const auto* name = std::get_if<std::string>(&about)) call.session.print(help_on_name(call, *name));
+  else if (const auto* name = std::get_if<std::string>(&about)) call.session.print(help_on_name(*name, call.attempted()));
   else if (const auto* table = std::get_if<TableHandle>(&about);
            table && (*table)->fields.contains("shape") && std::holds_alternative<std::string>((*table)->fields.at("shape")))
-    call.session.print(help_on_name(call, std::get<std::string>((*table)->fields.at("shape"))));
+    call.session.print(help_on_name(std::get<std::string>((*table)->fields.at("shape")), call.attempted()));
   else reject(call, "there is no help on " + std::string(type_text(about)), "help() lists the verbs; a name that is misspelt is nil");
   return std::monostate{};
 }

@@ -40,6 +40,10 @@ std::string help_text(const ObjectKind& kind);
 /// All verbs with one sentence each.
 std::string help_text();
 
+/// Of a verb, an object or an option by its name.
+/// \throws Error(bad_argument) with the nearest name where there is none
+std::string help_on_name(const std::string& name, const std::string& attempted);
+
 /// The verb help.
 ScriptValue print_help(const ScriptCall& call);
 

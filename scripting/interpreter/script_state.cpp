@@ -157,7 +157,7 @@ Error with_suggestion(const Error& error) {
   ErrorInfo info = error.info();
   std::smatch match;
   if (std::regex_search(info.problem, match, std::regex("\\((?:global )?'([\\w.]+)'\\)")))
-    if (const std::string nearest = nearest_global(match[1].str()); !nearest.empty()) info.hint = "did you mean " + nearest + "?";
+    if (std::string hint = hint_for_global(match[1].str()); !hint.empty()) info.hint = std::move(hint);
   return Error(std::move(info));
 }
 
@@ -194,8 +194,12 @@ ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
   return with_provenance(cached_model(verb, call), call);
 }
 
-const ScriptHooks k_hooks = {
-    .kinds = object_kinds, .describe = &k_describe_object, .run = run_with_cache, .stand_in = make_stand_in, .set_option = set_option_as_typed};
+const ScriptHooks k_hooks = {.kinds = object_kinds,
+                             .describe = &k_describe_object,
+                             .run = run_with_cache,
+                             .stand_in = make_stand_in,
+                             .set_option = set_option_as_typed,
+                             .hint_for_global = hint_for_global};
 
 }  // namespace
 

@@ -435,11 +435,16 @@ std::span<const ScriptVerb> surface_methods() {
 std::span<const ScriptVerb> mesh_methods() { return k_mesh_methods; }
 std::span<const ScriptUnit> script_units() { return k_units; }
 
-std::string nearest_global(std::string_view name) {
+std::string hint_for_global(std::string_view name) {
+  constexpr std::array<std::string_view, 8> k_left_out = {"io", "os", "debug", "package", "coroutine", "load", "loadfile", "dofile"};
+  if (std::ranges::find(k_left_out, name.substr(0, name.find('.'))) != k_left_out.end())
+    return "scripts have Lua's string, table, math and utf8, and require for modules beside them; files are read and written by verbs, numbers come in by "
+           "args{}";
   std::vector<std::string> known;
   for (const ScriptVerb& verb : script_verbs()) known.emplace_back(verb.name);
   for (const ScriptUnit& unit : k_units) known.emplace_back(unit.name);
-  return nearest_name(name, known);
+  const std::string nearest = nearest_name(name, known);
+  return nearest.empty() ? "" : "did you mean " + nearest + "?";
 }
 
 }  // namespace sterna::scripting

@@ -26,7 +26,8 @@ struct ScriptUnit {
 /// m, mm, um, cm, inch, ft, deg: global numbers.
 std::span<const ScriptUnit> script_units();
 
-/// The verb or unit whose name is nearest to a misspelt one; empty when none is near.
-std::string nearest_global(std::string_view name);
+/// What to try instead of a global name that there is not: the verb or unit whose name is nearest, or what scripts have instead of Lua's libraries that
+/// are left out. Empty: nothing is near.
+std::string hint_for_global(std::string_view name);
 
 }  // namespace sterna::scripting

@@ -119,18 +119,6 @@ ScriptValue read_value(lua_State* state, int index, int depth) {
   return OpaqueValue{lua_typename(state, lua_type(state, index))};
 }
 
-/// "case.lua:5: " of the nearest Lua function that is running.
-std::string where_of(lua_State* state) {
-  lua_Debug record;
-  for (int level = 1; lua_getstack(state, level, &record); ++level) {
-    lua_getinfo(state, "Sl", &record);
-    if (record.currentline <= 0) continue;
-    const std::string_view source = record.source;
-    return std::string(source.starts_with('@') ? source.substr(1) : std::string_view(record.short_src)) + ":" + std::to_string(record.currentline) + ": ";
-  }
-  return {};
-}
-
 ErrorHandle make_error(ErrorInfo info) { return std::make_shared<const Error>(std::move(info)); }
 
 /// The verb's own error, with the user's file:line in front.
@@ -138,18 +126,6 @@ ErrorHandle placed(const Error& error, const ScriptCall& call) {
   ErrorInfo info = error.info();
   if (!info.attempted.starts_with(call.where)) info.attempted = call.where + info.attempted;
   return make_error(std::move(info));
-}
-
-/// Whether a script's own pcall waits for the error.
-bool is_protected(lua_State* state) {
-  lua_Debug record;
-  for (int level = 1; lua_getstack(state, level, &record); ++level) {
-    lua_getinfo(state, "f", &record);
-    const bool is_pcall = is_protected_call(lua_tocfunction(state, -1));
-    lua_pop(state, 1);
-    if (is_pcall) return true;
-  }
-  return false;
 }
 
 /// Of a script that is only checked: notes what is wrong and goes on with something that stands for the result, unless the script wants to know.

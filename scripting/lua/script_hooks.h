@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "geom/base/schema.h"
@@ -29,6 +30,7 @@ struct ScriptHooks {
   ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);       ///< the verb, or the same result from the cache; models know what they were made of
   ScriptValue (*stand_in)(const ScriptCall& call, std::string_view gives);  ///< see stand_in() of script_check.h
   void (*set_option)(const Option& option, std::string_view text);          ///< as users type it on the command line
+  std::string (*hint_for_global)(std::string_view name);                    ///< what to try instead of a global that is not there; empty: nothing is near
 };
 
 }  // namespace sterna::scripting

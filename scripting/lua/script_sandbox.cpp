@@ -11,6 +11,9 @@
 
 #include "geom/base/error.h"
 #include "scripting/lua/script_call.h"
+#include "scripting/lua/script_check.h"
+#include "scripting/lua/script_hooks.h"
+#include "scripting/lua/script_unknowns.h"
 #include "scripting/lua/script_watch.h"
 
 namespace sterna::scripting {
@@ -205,7 +208,27 @@ std::string read_script(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-bool is_protected_call(int (*function)(lua_State*)) { return function == protected_call || function == protected_call_with_handler; }
+std::string where_of(lua_State* state) {
+  lua_Debug record;
+  for (int level = 1; lua_getstack(state, level, &record); ++level) {
+    lua_getinfo(state, "Sl", &record);
+    if (record.currentline <= 0) continue;
+    const std::string_view source = record.source;
+    return std::string(source.starts_with('@') ? source.substr(1) : std::string_view(record.short_src)) + ":" + std::to_string(record.currentline) + ": ";
+  }
+  return {};
+}
+
+bool is_protected(lua_State* state) {
+  lua_Debug record;
+  for (int level = 1; lua_getstack(state, level, &record); ++level) {
+    lua_getinfo(state, "f", &record);
+    const lua_CFunction function = lua_tocfunction(state, -1);
+    lua_pop(state, 1);
+    if (function == protected_call || function == protected_call_with_handler) return true;
+  }
+  return false;
+}
 
 void open_sandbox(lua_State* state) {
   luaL_requiref(state, LUA_GNAME, luaopen_base, 1);
@@ -239,10 +262,30 @@ void open_sandbox(lua_State* state) {
 
 namespace {
 
+/// Of a script that is only checked: the problem is noted, and the script goes on with something that is not known.
+bool note_unknown_name(lua_State* state, const char* name) noexcept {
+  ScriptSession& session = session_of(state);
+  if (!session.check || is_protected(state)) return false;
+  try {
+    ErrorInfo info{.code = ErrorCode::script_failed, .attempted = {}, .problem = where_of(state) + "unknown name (global '" + name + "')"};
+    info.hint = session.hooks->hint_for_global(name);
+    session.check->problems.push_back(std::make_shared<const Error>(std::move(info)));
+    return true;
+  } catch (const std::exception&) {
+    return false;  // no memory for it: Lua's own message has to do
+  }
+}
+
 /// A name that nothing has would be nil, and a table drops what is nil: unit = parsec would silently be no unit at all.
 int unknown_global(lua_State* state) {
   if (lua_type(state, 2) != LUA_TSTRING) return 0;
-  return luaL_error(state, "unknown name (global '%s')", lua_tostring(state, 2));
+  const char* name = lua_tostring(state, 2);
+  if (!note_unknown_name(state, name)) return luaL_error(state, "unknown name (global '%s')", name);
+  push_unknown(state);
+  lua_pushvalue(state, 2);
+  lua_pushvalue(state, -2);
+  lua_rawset(state, 1);  // told once
+  return 1;
 }
 
 }  // namespace

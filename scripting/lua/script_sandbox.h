@@ -19,7 +19,10 @@ void watch_for_stop(lua_State* state);
 /// \throws Error(file_not_found)
 std::string read_script(const std::filesystem::path& path);
 
-/// Whether this is a script's pcall or xpcall.
-bool is_protected_call(int (*function)(lua_State*));
+/// "case.lua:5: " of the nearest Lua function that is running.
+std::string where_of(lua_State* state);
+
+/// Whether a script's own pcall or xpcall waits for an error of what runs.
+bool is_protected(lua_State* state);
 
 }  // namespace sterna::scripting

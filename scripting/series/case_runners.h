@@ -43,7 +43,8 @@ void cancel_left_jobs(const std::filesystem::path& folder, const RunContext& con
 
 /// Before a worker is started: makes the folder, and takes its validity from a status that an earlier run has left, so that nobody takes it for this run's.
 void prepare(const CaseTask& task, const RunContext& context);
-/// What the folder of a case says once its worker is gone for good: a status that is not final, or of another key, becomes `otherwise`, which is written there.
+/// What the folder of a case says once its worker is gone for good: a status that is not final, or of another key, becomes `otherwise`, which is written there;
+/// a final one of another key that was not there at prepare() is another build's, which is told.
 CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -23,6 +23,9 @@ constexpr std::chrono::milliseconds k_pause{5};         ///< between two looks a
 constexpr std::chrono::milliseconds k_stop_grace{800};  ///< a worker that was asked to stop gets so long; Ctrl-C shall be over in a second
 constexpr std::size_t k_quoted = 2000;                  ///< bytes of a log for a message
 
+/// Ends the key of a status that nobody is to take for this run's.
+constexpr const char* k_of_earlier_run = " of an earlier run";
+
 struct Running {
   const CaseTask* task;
   ChildProcess process;
@@ -91,8 +94,8 @@ std::vector<std::string> words_of(const RunnerContext& runner, const CaseTask& t
 void prepare(const CaseTask& task, const RunContext& context) {
   std::filesystem::create_directories(task.folder);
   CaseStatus before = read_status(task.folder, context);
-  if (before.key != task.key) return;
-  before.key += " of an earlier run";
+  if (before.key.empty() || before.key.ends_with(k_of_earlier_run)) return;
+  before.key += k_of_earlier_run;
   write_status(before, task.folder);
 }
 
@@ -100,6 +103,11 @@ CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunCo
   const CaseStatus status = read_status(task.folder, context);
   if (status.key == task.key && (status.is_final() || status.state == CaseState::killed)) return status;
   CaseStatus settled = otherwise;
+  // The build is part of the key, so this worker was of another one.
+  if (status.is_final() && !status.key.empty() && !status.key.ends_with(k_of_earlier_run)) {
+    settled.state = CaseState::killed;
+    settled.message = "another build of sterna, which has replaced this one, worked on it: run the series again";
+  }
   settled.found = status.found;
   write_status(settled, task.folder);
   return settled;

@@ -9,10 +9,12 @@
 #include "geom/cad/aircraft_union.h"
 #include "geom/cad/fluid.h"
 #include "geom/cad/refit.h"
+#include "geom/mesh/mirror_gap.h"
 #include "geom/model/analytic_surfaces.h"
 #include "geom/model/model_builder.h"
 #include "geom/model/model_measures.h"
 #include "scripting/values/aircraft_model.h"
+#include "surfmesh/model/model_facets.h"
 
 namespace sterna::scripting {
 namespace {
@@ -241,11 +243,35 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
   return as_fluid(std::move(all));
 }
 
+namespace {
+
+/// As half_of tells it of surfaces.
+void tell_asymmetry(const Model& model, const HalfModelOptions& options, const RunContext& context) {
+  constexpr double k_tolerance = 5e-5, k_clear = 4.0;  // of the longest side; facets are so near to the surface, and their corners on it
+  const surfmesh::ModelFacets facets = surfmesh::facets_of(model, {.tolerance = k_tolerance}, context);
+  TriMesh drawn;
+  drawn.patches.push_back({.name = "model"});
+  for (const Point& p : facets.points) drawn.points.push_back(p);
+  for (const auto& t : facets.triangles) {
+    drawn.triangles.push_back({VertexId(t[0]), VertexId(t[1]), VertexId(t[2])});
+    drawn.triangle_patch.push_back(PatchId(0u));
+  }
+  if (drawn.triangles.empty()) return;
+  const MirrorGap gap = mirror_gap(drawn, static_cast<std::size_t>(options.axis.front() - 'x'), options.at, 0.0, context);
+  if (gap.distance <= k_clear * k_tolerance * bounding_box(drawn).longest_side()) return;
+  context.warn(
+      fmt::format("half at {} = {:g} m: the side that is left out is not the image of the one that is kept; the image of {} is {:.3g} m from the model",
+                  options.axis, options.at, format_point(gap.at), gap.distance));
+}
+
+}  // namespace
+
 ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& options, const RunContext& context) {
   ModelValue value = whole;
   if (free_edges(value.model).empty()) refit_for_cad(value.model, context);
   HalfModel half = cad::half_model(value.model, options, context);
   const HalfModelReport& r = half.report;
+  if (!r.was_half) tell_asymmetry(whole.model, options, context);
   value.model = std::move(half.model);
   value.parts.clear();
   value.report = r.was_half

@@ -63,6 +63,10 @@ bool is_model_file(const std::filesystem::path& path) { return io::is_cad_file(p
 
 bool is_model_output(const std::filesystem::path& path) { return is_smx(path) || (io::is_cad_file(path) && extension_of(path) != ".gz"); }
 
+Aircraft description_of(const InputPath& file, const RunContext& context) {
+  return (is_smx(file.path) ? read_smx(file.path, context) : read_cpacs(file.path, context)).aircraft;
+}
+
 ModelValue read_smx_model(const InputPath& file, const RunContext& context) { return value_of(read_smx(file.path, context), file, context); }
 ModelValue read_cpacs_model(const InputPath& file, const RunContext& context) { return value_of(read_cpacs(file.path, context), file, context); }
 

@@ -50,6 +50,10 @@ ModelValue read_model(const InputPath& file, const ReadCadOptions& options, cons
 ModelValue read_smx_model(const InputPath& file, const RunContext& context);
 ModelValue read_cpacs_model(const InputPath& file, const RunContext& context);
 
+/// What an .smx or CPACS file describes, without a model of it.
+/// \throws Error of read_smx, read_cpacs
+Aircraft description_of(const InputPath& file, const RunContext& context);
+
 /// A model that was read from .smx or CPACS with its control surfaces turned (with_controls_set); what moved it afterwards is lost with its description.
 /// \throws Error(bad_argument) for other models, and as with_controls_set and make_components
 ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSetting>& settings, const RunContext& context);

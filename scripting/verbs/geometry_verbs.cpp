@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "geom/cad/unite.h"
 #include "geom/model/airfoil.h"
 #include "geom/model/model_builder.h"
 #include "geom/model/sampled.h"
+#include "geom/model/set_controls.h"
 #include "geom/model/shapes.h"
 #include "scripting/lua/script_function.h"
 #include "scripting/lua/script_watch.h"
@@ -108,6 +110,18 @@ ScriptValue read_cad_verb(const ScriptCall& call) {
   return std::make_shared<const ModelValue>(read_model(*file, options, call.session.context.part("read_cad", 0.0, 1.0)));
 }
 
+/// Of a script that is only checked: whether the file has what its deflections name. The description alone is read, nothing is made of it.
+void check_deflections(const ScriptCall& call, const InputPath& file, const std::vector<ControlSetting>& settings, TableReader& reader) {
+  std::error_code ignored;  // what cannot be looked up is not there, which is told elsewhere
+  if (!call.session.check || settings.empty() || reader.has_problems() || !std::filesystem::exists(file.path, ignored)) return;
+  try {
+    with_controls_set(description_of(file, RunContext()), settings);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_argument) return;  // of a file that cannot be read the run tells
+    reader.add_problem("deflections: " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : "; " + error.info().hint));
+  }
+}
+
 template <ModelValue (*Read)(const InputPath&, const RunContext&)>
 ScriptValue read_description(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_read_smx_usage);
@@ -118,6 +132,7 @@ ScriptValue read_description(const ScriptCall& call) {
     if (const auto* angles = std::get_if<TableHandle>(value)) settings = read_control_settings(**angles, "deflections", reader);
     else reader.add_problem("deflections: expected a table of angles by names of control surfaces, not " + std::string(type_text(*value)));
   }
+  if (file) check_deflections(call, *file, settings, reader);
   reader.finish();
   const RunContext context = call.session.context.part(call.verb, 0.0, 1.0);
   ModelValue value = Read(*file, context);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geom/model/wing_span.h"
 #include "scripting/lua/component_value.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/verbs/component_verbs.h"
@@ -36,6 +37,7 @@ struct WingSectionOptions {
   bool is_reversed = false;
 };
 struct WingletOptions {
+  std::string name;
   double height = k_automatic;
   double cant = 80.0 * std::numbers::pi / 180.0;
   double taper = 0.4;
@@ -113,6 +115,7 @@ struct Schema<scripting::WingletOptions> {
   using O = scripting::WingletOptions;
   static constexpr std::string_view stage = "winglet";
   static constexpr std::array fields = {
+      Field<O>{.name = "name", .member = &O::name, .help = "of a patch of its own, bend and tip included; empty: it is part of the wing's"},
       Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along the winglet", .required = true},
       Field<O>{.name = "cant", .member = &O::cant, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "dihedral of the winglet; 90 deg = upright"},
       Field<O>{.name = "taper", .member = &O::taper, .min = 0.01, .max = 2.0, .help = "chord of its tip, of the wing's tip"},
@@ -166,6 +169,8 @@ class SectionList {
   void add_winglet(const ScriptValue& value);
 
   std::vector<GivenSection> sections;
+  std::string winglet_name;          ///< empty: the winglet is part of the wing's patch, or there is none
+  std::size_t n_before_winglet = 0;  ///< sections of the wing itself
 
  private:
   void add(const ScriptValue& value, const std::string& where);
@@ -251,7 +256,10 @@ void SectionList::add_winglet(const ScriptValue& value) {
     reader_.add_problem("winglet: " + error.info().problem);
     return;
   }
+  if (o.name == options_.name) reader_.add_problem("winglet: name: \"" + o.name + "\" is the wing's");
   if (sections.size() < 2) return;
+  winglet_name = o.name;
+  n_before_winglet = sections.size();
   const GivenSection tip = sections.back();
   const double from = panel_roll(sections[sections.size() - 2].leading, tip.leading);
   sections.back().roll = from;
@@ -310,6 +318,18 @@ WingSection section_of(const GivenSection& s) {
   return section;
 }
 
+/// A surface of no angle that is the wing from its tip, its first section, to another one: a patch with a name.
+Deflection winglet_patch(const Wing& wing, const std::string& name, std::size_t last_section) {
+  constexpr double k_any_chord = 0.5;  // nothing turns about it
+  const bool has_other_side = wing.is_symmetric || wing.has_mirror_image;
+  return {.surface = {.name = name,
+                      .wing = wing.name,
+                      .kind = ControlKind::all_moving,
+                      .hinge = {{0.0, k_any_chord}, {WingSpan(wing).fractions()[last_section], k_any_chord}},
+                      .has_image = has_other_side},
+          .other_side = has_other_side ? OtherSide::same : OtherSide::none};
+}
+
 }  // namespace
 
 ScriptValue make_wing_verb(const ScriptCall& call) {
@@ -338,7 +358,10 @@ ScriptValue make_wing_verb(const ScriptCall& call) {
   if (!is_automatic(o.trailing_edge)) wing.trailing_edge = o.trailing_edge;
   wing.right_tip = {CapShape::strip, o.tip == "round" ? o.tip_height : 0.0};
   wing.left_tip = is_one ? wing.right_tip : EndCap{CapShape::strip, o.root == "round" ? o.tip_height : 0.0};
-  return std::make_shared<ComponentValue>(ComponentValue{.kind = ComponentKind::wing, .shape = std::move(wing)});
+  std::vector<Deflection> patches;
+  if (!list.winglet_name.empty()) patches.push_back(winglet_patch(wing, list.winglet_name, given.size() - list.n_before_winglet));
+  return std::make_shared<ComponentValue>(
+      ComponentValue{.kind = ComponentKind::wing, .shape = std::move(wing), .intake = {}, .exhaust = {}, .deflections = std::move(patches)});
 }
 
 std::string wing_help() {

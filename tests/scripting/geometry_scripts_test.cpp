@@ -181,6 +181,31 @@ TEST_F(GeometryScripts, WingsFromFewNumbers) {
             "true\ttrue\n");
 }
 
+TEST_F(GeometryScripts, AWingletMayBeAPatchOfItsOwn) {
+  const std::string sections = "sections={ {chord=1, airfoil='naca0012'}, {y=4, chord=0.6} }";
+  for (const char* bend : {"0", "0.3"}) {
+    const std::string winglet =
+        ", winglet={ name='tip', height=0.5, bend=" + std::string(bend) + " } }:model() print(m.is_closed, table.concat(m.patches, ' '))";
+    EXPECT_EQ(run("local m = wing{ " + sections + winglet), "true\ttip wing\n");
+    EXPECT_EQ(run("local m = wing{ symmetric=true, " + sections + winglet), "true\ttip wing tipLeft\n");
+  }
+  // Round tips and blunt trailing edges of it are part of it; its area is what the wing's lacks.
+  EXPECT_EQ(run("local function area(t) local m = surface_mesh{ wing{ trailing_edge=0.005, tip='round', sections={ {chord=1, airfoil='naca0012'}, {y=4, "
+                "chord=0.6} }, "
+                "winglet=t }:model(), max_edge=0.1 } local n = 0 for i, p in ipairs(m.patches) do n = i end return n end "
+                "print(area{ height=0.5 }, area{ height=0.5, name='tip' })"),
+            "1\t2\n");
+  EXPECT_THAT(error("wing{ name='w', " + sections + ", winglet={ name='w', height=0.5 } }"), HasSubstr("winglet: name: \"w\" is the wing's"));
+}
+
+TEST_F(GeometryScripts, AHalfOfWhatIsNoImageOfItselfIsTold) {
+  const std::string wing = "local w = wing{ symmetric=true, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=4, chord=1} } } ";
+  run(wing + "half(w:model())");
+  EXPECT_THAT(log_, testing::Not(HasSubstr("warning")));
+  run(wing + "w:deflect{ 'aileron', from={0.6, 0.7}, to={0.9, 0.7}, angle=5*deg, other_side='opposite' } half(w:model())");
+  EXPECT_THAT(log_, HasSubstr("is not the image of the one that is kept"));
+}
+
 TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
   const std::string wing = "local w = wing{ symmetric=true, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=4, chord=1} } } ";
   const std::string clean = run(wing + "print(w:model():measures().volume)");

@@ -13,6 +13,7 @@
 #include "volmesh/case/farfield_options.h"
 #include "volmesh/case/first_heights.h"
 #include "volmesh/case/improve_options.h"
+#include "volmesh/case/limit_options.h"
 #include "volmesh/case/needle_options.h"
 #include "volmesh/case/patch_rule.h"
 #include "volmesh/case/periodic_names.h"
@@ -38,6 +39,7 @@ struct MeshOptions {
   SizeFieldOptions size;
   TetraOptions tetrahedra;
   ImproveOptions improve;
+  LimitOptions limits;
 };
 
 /// What is asked for and is no option, and what is known of the surface.

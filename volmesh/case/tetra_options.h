@@ -62,7 +62,7 @@ struct Schema<volmesh::TetraOptions> {
                .min = 0.1,
                .help = "the engine is stopped after this time",
                .automatic = "of a helper 60 s of processor time and 0.1 ms for each tetrahedron that boundary and sizes ask for, seven times of what is usual; "
-                            "of our own no limit"},
+                            "of our own none: its work is bounded by boundary and sizes"},
       Field<O>{.name = "max_new_points",
                .member = &O::max_new_points,
                .min = 0.0,

@@ -211,6 +211,33 @@ void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sou
 
 }  // namespace
 
+double SizeField::volume_over_cubes() const {
+  const SizeFieldView::Header& header = view_.header();
+  // The buffer is laid out as size_field_view.h says.
+  const auto* nodes = reinterpret_cast<const std::uint32_t*>(bytes().data() + sizeof(SizeFieldView::Header));
+  const auto* values = reinterpret_cast<const float*>(bytes().data() + sizeof(SizeFieldView::Header) + 8 * ((header.n_nodes + 1) / 2));
+  struct Place {
+    std::uint32_t node;
+    double edge;
+  };
+  double sum = 0.0;
+  std::vector<Place> open{{0, header.edge}};
+  while (!open.empty()) {
+    const auto [at, edge] = open.back();
+    open.pop_back();
+    const std::uint32_t node = nodes[at];
+    if (node & SizeFieldView::k_leaf_bit) {
+      const float* corners = values + 8 * static_cast<std::size_t>(node & ~SizeFieldView::k_leaf_bit);
+      double cubes = 0.0;
+      for (int k = 0; k < 8; ++k) cubes += std::pow(edge / static_cast<double>(corners[k]), 3.0);
+      sum += cubes / 8.0;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < 8; ++k) open.push_back({node + k, 0.5 * edge});
+  }
+  return sum;
+}
+
 SizeField build_size_field(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context) {
   require_sane(boundary, sources, options.size_growth);
   return Builder(boundary, sources, options, context).build(options.size_growth);

@@ -24,6 +24,9 @@ class SizeField {
   /// Wanted edge length in metres; outside of the boundary's box that of the nearest place of a cube around it.
   double operator()(const Vec3& p) const { return view_(p.x, p.y, p.z); }
 
+  /// Volume over the cube of the wanted edge, summed over the leaves: how many tetrahedra fit is in proportion to it.
+  double volume_over_cubes() const;
+
   explicit SizeField(std::vector<double> words) : words_(std::move(words)), view_(view()) {}
   SizeField(const SizeField& other) : SizeField(other.words_) {}
   SizeField& operator=(const SizeField& other) { return *this = SizeField(other); }

@@ -1,15 +1,19 @@
 #include "volmesh/tetra/size_supply.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace sterna::volmesh {
 
-SizeSupply::SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context)
+SizeSupply::SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context,
+                       std::function<void(const SizeField&, const RunContext&)> judge)
     : sources_(sources), options_(options) {
-  making_.emplace(context, [&boundary, sources, options](const RunContext& side) {
+  making_.emplace(context, [&boundary, sources, options, judge = std::move(judge)](const RunContext& side) {
     const StageTimer timer(side, "tetrahedra/size");
-    return build_size_field(boundary, sources, options, side);
+    SizeField field = build_size_field(boundary, sources, options, side);
+    if (judge) judge(field, side);
+    return field;
   });
 }
 

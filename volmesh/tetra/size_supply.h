@@ -1,6 +1,7 @@
 // A size field that may still be in the making while an engine works on the boundary.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -14,7 +15,9 @@ class SizeSupply {
   /// One that is ready. `field` must outlive it.
   explicit SizeSupply(const SizeField& field) : field_(&field) {}
   /// Begins to build one (build_size_field) beside the caller; boundary and sources must outlive it.
-  SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context);
+  /// \p judge: looks at what is made, and may throw: get() throws that
+  SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context,
+             std::function<void(const SizeField&, const RunContext&)> judge = {});
 
   bool is_ready() const { return field_ || making_->is_done(); }
   /// From any thread.

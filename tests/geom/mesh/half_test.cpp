@@ -117,6 +117,29 @@ TEST(Half, HasNoSliversBesideTheRim) {
   }
 }
 
+TEST(Half, TellsWhereTheOtherSideIsNoImage) {
+  const auto warnings_of = [](const TriMesh& surface) {
+    std::vector<std::string> warnings;
+    half_of(surface, {}, RunContext({.threads = 2, .log = [&](LogLevel level, std::string_view text) {
+                                       if (level == LogLevel::warning) warnings.emplace_back(text);
+                                     }}));
+    return warnings;
+  };
+  TriMesh body = test::sphere(12);
+  EXPECT_THAT(warnings_of(body), testing::IsEmpty());
+  EXPECT_THAT(warnings_of(moved(body, {0.0, 0.03, 0.0})), testing::SizeIs(1));  // cut beside the middle
+  TriMesh dented = body;
+  for (Point& p : dented.points)
+    if (p.y < -0.8) p.y *= 0.9;
+  EXPECT_THAT(warnings_of(dented), testing::ElementsAre(testing::AllOf(HasSubstr("is not the image of the one that is kept"), HasSubstr("0.1 m"))));
+  TriMesh rough = body;  // other triangles on both sides are no asymmetry
+  for (std::size_t i = 0; i < rough.points.size(); ++i) {
+    Point& p = rough.points[VertexId(i)];
+    if (p.y > 0.1) p = normalized(p + Vec3{0.03 * std::sin(static_cast<double>(i)), 0.0, 0.03 * std::cos(static_cast<double>(7 * i))});
+  }
+  EXPECT_THAT(warnings_of(rough), testing::IsEmpty());
+}
+
 TEST(Half, OfAHalfIsTheSame) {
   const TriMesh half = half_of(moved(test::sphere(9), {0.0, 0.03, 0.0}), {}, k_context);
   TriMesh rough = half;

@@ -130,6 +130,30 @@ TEST_F(CheckScript, AfterAnErrorOfLuaItSaysWhatWasNotLookedAt) {
   EXPECT_THAT(problems("assert(1 == 2, 'as the user says')\n"), testing::ElementsAre(HasSubstr("as the user says")));  // nothing stands for anything here
 }
 
+TEST_F(CheckScript, AnUnknownNameDoesNotEndTheSearch) {
+  const auto found = problems(
+      "local model = read_smxx 'a.smx'\n"
+      "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_egde = 0.1 }\n"
+      "local a, b = parsec + 1, parsec * 2\n"
+      "local f = io.open('x')\n"
+      "volume_mesh{ wall, first_height = 1e-3, layerz = 3 }\n");
+  ASSERT_EQ(found.size(), 5u);
+  EXPECT_THAT(found[0], testing::AllOf(HasSubstr("case.lua:1: unknown name (global 'read_smxx')"), HasSubstr("did you mean read_smx?")));
+  EXPECT_THAT(found[1], testing::AllOf(HasSubstr("case.lua:2: surface_mesh"), HasSubstr("did you mean \"max_edge\"?")));
+  EXPECT_THAT(found[2], HasSubstr("case.lua:3: unknown name (global 'parsec')"));  // once
+  EXPECT_THAT(found[3], testing::AllOf(HasSubstr("case.lua:4: unknown name (global 'io')"), HasSubstr("require for modules beside them")));
+  EXPECT_THAT(found[4], testing::AllOf(HasSubstr("case.lua:5: volume_mesh"), HasSubstr("did you mean \"layers\"?")));
+  EXPECT_THAT(problems("local ok = pcall(function() return parsec end) assert(not ok)"), testing::IsEmpty());  // the script wants to know
+}
+
+TEST_F(CheckScript, DeflectionsAreLookedForInTheFile) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string file = (test::shared_data() / "cpacs" / "d150.xml").string();
+  EXPECT_THAT(problems("read_cpacs{ '" + file + "', deflections = { Elevatr = 5*deg } }"),
+              testing::ElementsAre(testing::AllOf(HasSubstr("case.lua:1: read_cpacs"), HasSubstr("did you mean \"Elevator\"?"))));
+  EXPECT_THAT(problems("read_cpacs{ '" + file + "', deflections = { Elevator = 5*deg } }"), testing::IsEmpty());
+}
+
 TEST_F(CheckScript, AllMistakesOfAScriptAreFoundAtOnce) {
   const auto found = problems(
       "local wall = read_surface{ 'absent.stl' }\n"

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "scripting/report/report_page.h"
+#include "scripting/series/case_runners.h"
 #include "tests/scripting/report/page_json.h"
 #include "tests/scripting/series/series_fixture.h"
 
@@ -306,6 +307,25 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
               HasSubstr("a case cannot hold a series of its own"));
   EXPECT_THAT(run("jobs{ 2.5 }").errors, HasSubstr("tasks"));
   EXPECT_THAT(run("slurm{ options = { mem = print } }").errors, HasSubstr("options.mem: expected a text, a number or true, not a function"));
+}
+
+/// The program may be replaced while a series runs: what the new one has done does not count as this one's failure.
+TEST(CaseRunners, AWorkerOfAnotherBuildIsToldAsSuch) {
+  const std::filesystem::path folder = test::scratch();
+  const RunContext context;
+  const CaseTask task{.of = nullptr, .folder = folder / "case", .key = "ours"};
+  const CaseStatus otherwise{.state = CaseState::failed, .key = "ours", .code = "script_failed", .message = "the worker ended without a word"};
+  std::filesystem::create_directories(task.folder);
+  write_status({.state = CaseState::done, .key = "of last week", .result = "null"}, task.folder);
+  prepare(task, context);
+  EXPECT_EQ(settle(task, otherwise, context).message, "the worker ended without a word");  // what is left of last week says nothing
+  prepare(task, context);
+  write_status({.state = CaseState::done, .key = "theirs", .result = "null"}, task.folder);
+  const CaseStatus status = settle(task, otherwise, context);
+  EXPECT_EQ(status.state, CaseState::killed);
+  EXPECT_EQ(status.key, "ours");
+  EXPECT_NE(status.message.find("another build of sterna"), std::string::npos);
+  EXPECT_EQ(read_status(task.folder, context).state, CaseState::killed);
 }
 
 }  // namespace

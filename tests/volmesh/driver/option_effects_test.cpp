@@ -166,6 +166,7 @@ const std::map<std::string, Change> k_changes = {
     {"improve.improve_min_angle", {"0.5"}},
     {"improve.improve_max_angle", {"2.1"}},
     {"improve.improve_rounds", {"0"}},
+    {"limits.max_memory", {"1e6"}},
 };
 
 /// Options that show only when something fails or takes too long: each has its test.
@@ -179,6 +180,7 @@ const std::map<std::string, std::string> k_elsewhere = {
     {"tetrahedra.try_other_engine", "ladder_test: engines that fail"},
     {"tetrahedra.repair_boundary", "graceful_test and driver/ladder_test: boundaries that no engine fills"},
     {"tetrahedra.fall_back_on_limits", "ladder_test: limits"},
+    {"limits.force", "forecast_test: a mesh that is too large"},
     {"farfield.farfield_surface", "the file's name is for messages; continuation_test and farfield_test read it"},
 };
 

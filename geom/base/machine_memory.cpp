@@ -1,0 +1,72 @@
+#include "geom/base/machine_memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace sterna {
+namespace {
+
+constexpr double k_untold = std::numeric_limits<double>::infinity();
+
+/// The number behind a key of a file of lines "key number ..."; untold where there is none.
+double number_of(const std::filesystem::path& path, const std::string& wanted) {
+  std::ifstream file(path);
+  std::string key, rest;
+  double number = 0.0;
+  while (file >> key >> number) {
+    if (key == wanted) return number;
+    std::getline(file, rest);
+  }
+  return k_untold;
+}
+
+/// The one number of a file; untold for "max", or where there is no such file.
+double number_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  double number = 0.0;
+  return file >> number ? number : k_untold;
+}
+
+double free_of_kernel() {
+  constexpr double k_kibibyte = 1024.0;
+  return k_kibibyte * number_of("/proc/meminfo", "MemAvailable:");
+}
+
+double free_of_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return k_untold;
+  const double pages = number_of("/proc/self/statm");  // the first number: the whole address space
+  const double used = pages == k_untold ? 0.0 : pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
+}
+
+/// Of the process's own group and those around it (version 2 of control groups).
+double free_of_control_group() {
+  std::ifstream file("/proc/self/cgroup");
+  double least = k_untold;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("0::/")) continue;
+    const std::filesystem::path top = "/sys/fs/cgroup";
+    for (std::filesystem::path group = top / line.substr(4);; group = group.parent_path()) {
+      const double limit = number_of(group / "memory.max"), used = number_of(group / "memory.current");
+      if (limit != k_untold && used != k_untold) {
+        const double cache = number_of(group / "memory.stat", "inactive_file");  // given up when others need it
+        least = std::min(least, std::max(0.0, limit - used + (cache == k_untold ? 0.0 : cache)));
+      }
+      if (group == top || !group.has_relative_path()) break;
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double available_memory() { return std::min({free_of_kernel(), free_of_address_space(), free_of_control_group()}); }
+
+}  // namespace sterna

@@ -1,0 +1,10 @@
+// How much memory is left. For forecasts and reports only, never for results.
+#pragma once
+
+namespace sterna {
+
+/// Bytes that this process may still take: the least of what the kernel thinks is free, what is left of its address space (ulimit -v), and of its control group
+/// (containers, jobs of Slurm). Infinite where nothing is told.
+double available_memory();
+
+}  // namespace sterna

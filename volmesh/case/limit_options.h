@@ -1,0 +1,34 @@
+// Options of what a mesh may need of the machine (volmesh/forecast.h).
+#pragma once
+
+#include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
+
+namespace sterna::volmesh {
+
+struct LimitOptions {
+  double max_memory = k_automatic;
+  bool force = false;
+};
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::LimitOptions> {
+  using O = volmesh::LimitOptions;
+  static constexpr std::string_view stage = "limits";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_envelope_step | volmesh::k_tetrahedra_step;
+  static constexpr std::array fields = {
+      Field<O>{.name = "max_memory",
+               .member = &O::max_memory,
+               .unit = Unit::byte,
+               .min = 1e6,
+               .help = "a mesh that is expected to need more is an error before the work",
+               .automatic = "what the machine has free"},
+      Field<O>{.name = "force", .member = &O::force, .help = "goes on all the same, with a warning"},
+  };
+};
+
+}  // namespace sterna

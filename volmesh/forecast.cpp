@@ -1,0 +1,73 @@
+#include "volmesh/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/base/machine_memory.h"
+#include "geom/base/number_text.h"
+
+namespace sterna::volmesh {
+namespace {
+
+// Peaks of whole runs (docs/performance.md): an airliner's wing and body, the CRM, the Cessna, the DLR-F6 with 184 k and 613 k triangles.
+constexpr double k_bytes_alone = 60e6, k_bytes_of_prism = 45.0, k_bytes_of_tetrahedron = 215.0;
+/// The fewest that were seen on walls of good triangles, where sizes grow as they do by default.
+constexpr double k_least_tetrahedra_of_triangle = 5.0;
+// Seconds of the same runs on two threads; they end 1.8 times as fast as on one.
+constexpr double k_seconds_of_triangle = 6e-5, k_seconds_of_tetrahedron = 0.8e-6, k_threads_power = 0.85;
+constexpr double k_long = 600.0;
+/// Of a regular tetrahedron by the cube of its edge is 6^-1 2^-1/2; those around sizes that grow are smaller by some.
+constexpr double k_volume_over_cube = 0.118 * 0.9;
+/// Leaves within bodies count in the integral, and no tetrahedra stand there.
+constexpr double k_share_in_fluid = 0.75;
+
+std::string millions(double n) { return n < 1e6 ? number_text(std::round(1e-3 * n), 3) + " k" : number_text(1e-6 * n, 3) + " M"; }
+std::string gigabytes(double n) { return number_text(1e-9 * n, 2) + " GB"; }
+
+std::string figures(const Forecast& forecast) {
+  return "about " + millions(forecast.n_prisms) + " prisms and " + millions(forecast.n_tetrahedra) + " tetrahedra, " + gigabytes(forecast.bytes());
+}
+
+}  // namespace
+
+double Forecast::bytes() const { return k_bytes_alone + k_bytes_of_prism * n_prisms + k_bytes_of_tetrahedron * n_tetrahedra; }
+
+double Forecast::seconds(int threads) const {
+  return (k_seconds_of_triangle * n_triangles + k_seconds_of_tetrahedron * n_tetrahedra) * std::pow(2.0 / threads, k_threads_power);
+}
+
+Forecast forecast_of(const MeshingSite& site) {
+  const TriMesh& wall = site.base.wall;
+  const auto& layers = site.base.demand.layers;
+  Forecast forecast{.n_triangles = static_cast<double>(wall.n_triangles())};
+  if (layers.empty()) forecast.n_prisms = forecast.n_triangles * site.options.envelope.layers;
+  else
+    for (const TriangleVertices& t : wall.triangles) forecast.n_prisms += layers[t[0]];
+  forecast.n_tetrahedra = k_least_tetrahedra_of_triangle * forecast.n_triangles;
+  return forecast;
+}
+
+double expected_tetrahedra(const SizeField& sizes) { return k_share_in_fluid * sizes.volume_over_cubes() / k_volume_over_cube; }
+
+void require_room(const Forecast& forecast, const LimitOptions& limits, const RunContext& context) {
+  const bool is_given = !is_automatic(limits.max_memory);
+  // What the process has already is part of the forecast's whole, and small before the work.
+  const double allowed = is_given ? limits.max_memory : available_memory();
+  const double seconds = forecast.seconds(context.threads());
+  if (forecast.bytes() > allowed) {
+    const std::string problem = figures(forecast) + " are to be expected; " + (is_given ? "limits.max_memory is " : "the machine has ") + gigabytes(allowed) +
+                                (is_given ? "" : " free");
+    const std::string hint =
+        "fewer or larger triangles, fewer layers, larger size sources or a larger size_growth; or more memory. force = true (--force) goes on all the same";
+    if (!limits.force) throw Error({.code = ErrorCode::overflow, .attempted = "volume_mesh", .problem = problem, .hint = hint});
+    context.warn(problem);
+  } else if (seconds > k_long) {
+    context.warn(figures(forecast) + " are to be expected, in about " + number_text(std::round(seconds / 60.0), 2) + " min");
+  } else {
+    context.debug(figures(forecast) + " are to be expected");
+  }
+}
+
+}  // namespace sterna::volmesh
