@@ -137,6 +137,7 @@ def aircraft(rng, table):
     if extra < 0.22:
         length, y = chord * rng.uniform(0.8, 1.1), half_span * rng.uniform(0.3, 0.5)
         diameter = length * rng.uniform(0.4, 0.55)
+        case["engine"] = diameter
         x, z = root[0] - rng.uniform(0.2, 0.5) * length + 0.3 * y * rng.uniform(0.5, 1), root[2] - diameter * rng.uniform(0.75, 0.95)
         parts.append({"name": "engine", "lua": f'nacelle{{ name = "engine", symmetric = true, position = {{ {num(x)}, {num(y)}, {num(z)} }}, length = {num(length)}, diameter = {num(diameter)}, '
                       f'intake = "fan_face", exhaust = "nozzle" }}', "needs": []})
@@ -152,6 +153,8 @@ def aircraft(rng, table):
     max_edge = size * rng.uniform(0.08, 0.14)  # coarse on purpose: a case takes seconds
     case["surface"] = {"max_edge": num(max_edge), "min_edge": num(max_edge * rng.uniform(0.1, 0.25)), "curvature_angle": f"{num(rng.uniform(30, 48))}*deg", "growth": num(rng.uniform(1.4, 1.9)),
                        "narrow": num(rng.uniform(8, 40)), "trailing_edge_factor": "1", "intersection_factor": num(rng.uniform(0.6, 1)), "tip_strips": rng.choice(["true", "false"])}
+    if "engine" in case:  # edges longer than a cowl is thick cross each other, which is refused
+        case["surface"]["patches"] = f'{{ ["engine*"] = {{ max_edge = {num(0.5 * case["engine"])}, min_edge = {num(0.05 * case["engine"])} }} }}'
     case["volume"] = layers(rng, size) | draw_options(rng, table, rng.choice([0, 0, 1, 2, 4]))
     case["output"] = rng.choice(OUTPUTS)
     return case

@@ -421,8 +421,9 @@ void look_for_overlaps(const Mesh& mesh, Findings& findings) {
 // ---- What was made -------------------------------------------------------------------------------------------------------------------------
 
 struct Layers {
-  std::vector<double> first;  // heights of first cells at their lines
-  std::vector<int> numbers;   // of cells in each column of prisms
+  std::vector<double> first;   // lengths of first cells along their lines
+  std::vector<double> height;  // of the same nodes above the wall's triangle
+  std::vector<int> numbers;    // of cells in each column of prisms
 };
 
 std::vector<Layers> measure_layers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, const std::vector<std::array<std::int32_t, 6>>& across) {
@@ -431,9 +432,14 @@ std::vector<Layers> measure_layers(const Mesh& mesh, const std::vector<BoundaryF
     const Cell& cell = mesh.cells[face.cell];
     if (cell.kind != 13 || face.nodes.size() != 3) continue;
     const bool is_lower = std::find(face.nodes.begin(), face.nodes.end(), cell.nodes[0]) != face.nodes.end();
+    const int lower = is_lower ? 0 : 3;
+    const double area = area_of(mesh, face.nodes);
     for (int k = 0; k < 3; ++k) {
       const Wide edge = minus(mesh.points[cell.nodes[k]], mesh.points[cell.nodes[k + 3]]);
       made[face.marker].first.push_back(std::sqrt(static_cast<double>(edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2])));
+      const Real six = six_volumes(mesh.points[cell.nodes[lower]], mesh.points[cell.nodes[lower + 1]], mesh.points[cell.nodes[lower + 2]],
+                                   mesh.points[cell.nodes[k + 3 - lower]]);
+      made[face.marker].height.push_back(std::fabs(static_cast<double>(six)) / (2 * area));
     }
     int n = 1;
     auto from = face.cell;
@@ -510,7 +516,8 @@ void print_markers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, 
     std::printf("%s%s: {\"faces\": %zu, \"area\": %.17g, \"flux\": %.17g, ", m == 0 ? "" : ", ", quoted(mesh.markers[m].name).c_str(),
                 mesh.markers[m].faces.size(), areas[m], static_cast<double>(volumes[m]));
     if (areas[m] > 0) std::printf("\"box\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]], ", low[0], low[1], low[2], high[0], high[1], high[2]);
-    std::printf("\"first_height\": %s, \"layers\": %s}", spread(layers[m].first).c_str(), spread(layers[m].numbers).c_str());
+    std::printf("\"first_edge\": %s, \"first_height\": %s, \"layers\": %s}", spread(layers[m].first).c_str(), spread(layers[m].height).c_str(),
+                spread(layers[m].numbers).c_str());
   }
   std::printf("}");
 }
