@@ -51,7 +51,8 @@ def in_range(rng, default, limits):
     low, high, middle = float(found[1]), float(found[3]), float(default.split()[0].strip('"'))
     reach = 3.0 if rng.random() < 0.8 else 10.0
     value = middle * math.exp(rng.uniform(-1, 1) * math.log(reach)) if middle > 0 else rng.uniform(low, low + 0.2 * (high - low))
-    value = min(max(value, low), high - 1e-3 * (high - low) if high > 1 else high)  # limits in degrees are rounded in the manual
+    inset = 1e-3 * (high - low) if found[2] else 0  # limits in degrees are rounded in the manual
+    value = min(max(value, low + inset), high - inset)
     if "." not in default and "e" not in default and not found[2] and high >= 10:
         value = round(value)
     return num(value) + ("*deg" if found[2] else "")

@@ -57,7 +57,7 @@ class Run:
 def is_honest(text):
     """Whether an error names a place (coordinates, or by name what it is about) and a remedy."""
     message = text[text.find("error:"):] if "error:" in text else ""
-    has_place = re.search(r"\(-?[\d.e+-]+, -?[\d.e+-]+, -?[\d.e+-]+\)", message) or re.search(r'"[^"]+"', message) or re.search(r"\b(input|converted|mesh|other)\.\w+", message)
+    has_place = re.search(r"\(-?[\d.e+-]+, -?[\d.e+-]+, -?[\d.e+-]+\)", message) or re.search(r'"[^"]+"', message) or re.search(r"\b(input|converted|mesh|other)\.\w+|case\.lua:\d+: \w+: \w+: .*, expected ", message)
     return bool(has_place) and bool(re.search(r"^\s*try: \S|, expected .* in ", message, re.MULTILINE))  # what is out of range names the range
 
 
