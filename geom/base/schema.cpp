@@ -127,7 +127,9 @@ void check_range(const Option& option, double value) {
     if (option.automatic.empty()) reject(option, "\"automatic\"", std::string(kind_text(option.kind)));
     return;
   }
-  if (value < option.min || value > option.max || std::isinf(value))
+  // Limits of angles are printed in degrees, to six digits: whoever types what is printed means the limit.
+  const double slack = option.unit == Unit::radian ? 5e-6 : 0.0;
+  if (value < option.min - slack * std::abs(option.min) || value > option.max + slack * std::abs(option.max) || std::isinf(value))
     reject(option, option_number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""),
            std::string(kind_text(option.kind)) + " in " + option.range_text());
 }

@@ -58,6 +58,7 @@ ContentKey key_of(const ComponentValue& component) {
 
 ContentKey envelope_options_key(const volmesh::MeshCase& options) {
   volmesh::MeshCase named = options;
+  named.limits = {};  // they decide whether it is made, not what it is
   KeyMaker maker("envelope options");
   maker.add(volmesh::options_of(named, volmesh::k_envelope_step));
   if (!options.discs.empty()) maker.add(options.size.size_growth);  // decides their triangles

@@ -81,7 +81,10 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
     if (options.engine == "hxt" || options.engine == "sterna")
       throw_bad("boundary_splits", "always",
                 (options.engine == "hxt" ? "HXT" : "our own engine") + std::string(" keeps the boundary: leave the engine automatic, or choose tetgen"));
-    if (!boundary.may_split) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
+    if (!boundary.may_split)
+      throw_bad(
+          "boundary_splits", "always",
+          "where walls end on other patches, sides are periodic, ridges are opened or wakes have sheets, the boundary stays as it is: leave it at ladder");
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
 #include "tests/support/error_of.h"
@@ -47,6 +50,24 @@ TEST(Schema, ValueOutsideItsRangeNamesValueAndLimit) {
     }
   }
   EXPECT_EQ(options.layers, EnvelopeOptions{}.layers);
+}
+
+TEST(Schema, LimitsOfAnglesMayBeTypedAsTheyArePrinted) {
+  volmesh::MeshCase options;
+  int n_limits = 0;
+  for (const Option& option : volmesh::options_of(options)) {
+    if (option.unit != Unit::radian) continue;
+    for (const double limit : {option.min, option.max}) {
+      if (!std::isfinite(limit) || std::abs(limit) > 10.0) continue;
+      char text[40];
+      std::snprintf(text, sizeof text, "%.6gdeg", limit * 180.0 / 3.14159265358979323846);
+      EXPECT_NO_THROW(set_option_from_text(option, text)) << option.name << " = " << text;
+      std::snprintf(text, sizeof text, "%.6gdeg", limit * 180.0 / 3.14159265358979323846 + (limit == option.max ? 0.01 : -0.01));
+      EXPECT_THROW(set_option_from_text(option, text), Error) << option.name << " = " << text;
+      ++n_limits;
+    }
+  }
+  EXPECT_GT(n_limits, 4);
 }
 
 TEST(Schema, AUnitOfAnotherDimensionIsAnError) {
