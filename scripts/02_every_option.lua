@@ -262,6 +262,7 @@ mesh:su2_config{ "every_option.cfg", cruise,
   mesh = "every_option.su2",
   solver = "automatic",             -- EULER, NAVIER_STOKES, RANS
   turbulence = "SA",                -- SST
+  wall_functions = "automatic",     -- yes, no; by itself where the first height means a y+ above 20
   alpha = 2*deg, beta = 0,
   reference_area = 16, reference_length = 1.6, moment_origin = { 2, 0, 0 },  -- or reference = an aircraft or a wing
   wing = "",                        -- of the reference; empty: the largest
@@ -275,7 +276,7 @@ mesh:su2_config{ "every_option.cfg", cruise,
   kinds = {},                       -- what patches are to the solver: { ["top*"] = "slip" }
 }
 
-mesh:foam_case{ "every_option_case", cruise,  -- a folder; of the rest of the table: the entries of su2_config but mesh, solver, turbulence, cfl and restart
+mesh:foam_case{ "every_option_case", cruise,  -- a folder; of the rest of the table: the entries of su2_config but mesh, solver, turbulence, wall_functions, cfl and restart
   model = "automatic",              -- laminar, euler, SpalartAllmaras, kOmegaSST
   steady = true,                    -- false: in time
   compressible = "automatic",       -- yes, no; by itself from Mach 0.3 on

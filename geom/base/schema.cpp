@@ -21,7 +21,7 @@ struct NamedScale {
   Unit dimension;
 };
 /// SI value of each unit that a number may carry; exact by definition (inch = 25.4 mm, ft = 12 inch).
-constexpr std::array<NamedScale, 10> k_units = {{{"m", 1.0, Unit::metre},
+constexpr std::array<NamedScale, 13> k_units = {{{"m", 1.0, Unit::metre},
                                                  {"mm", 1e-3, Unit::metre},
                                                  {"um", 1e-6, Unit::metre},
                                                  {"cm", 1e-2, Unit::metre},
@@ -30,7 +30,10 @@ constexpr std::array<NamedScale, 10> k_units = {{{"m", 1.0, Unit::metre},
                                                  {"ft", 0.3048, Unit::metre},
                                                  {"deg", std::numbers::pi / 180.0, Unit::radian},
                                                  {"rad", 1.0, Unit::radian},
-                                                 {"s", 1.0, Unit::second}}};
+                                                 {"s", 1.0, Unit::second},
+                                                 {"kB", 1e3, Unit::byte},
+                                                 {"MB", 1e6, Unit::byte},
+                                                 {"GB", 1e9, Unit::byte}}};
 
 std::string_view dimension_text(Unit dimension) {
   switch (dimension) {
@@ -296,6 +299,7 @@ double parse_number_with_unit(std::string_view text, Unit expected) {
                  .problem = "\"" + std::string(text) + "\" is not " + expected_text(expected),
                  .hint = expected == Unit::radian  ? "write for example 35*deg"
                          : expected == Unit::metre ? "write for example 2e-6 or 0.5*mm"
+                         : expected == Unit::byte  ? "write for example 16GB or 2e9"
                                                    : "write for example 1.25"});
   };
   double number = 0.0;

@@ -317,7 +317,7 @@ void tell_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const Run
   const MirrorGap gap = mirror_gap(surface, plane.axis, plane.at, k_share_of_edge, context);
   if (gap.distance <= k_share_of_length * bounding_box(surface).longest_side()) return;
   context.warn("half at " + plane.text() + ": the side that is left out is not the image of the one that is kept; the image of " + format_point(gap.at) +
-               " is " + in_metres(gap.distance, 3) + " from the surface");
+               " is " + in_metres(gap.distance, 3) + " from the surface. A half stands for both sides: where they are meant to differ, mesh the whole");
 }
 
 }  // namespace

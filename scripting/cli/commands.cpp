@@ -466,6 +466,11 @@ int execute(const CacheCommand& command, const CommandContext& context) {
 }
 
 int execute(const HalfCommand& command, const CommandContext& context) {
+  if (is_model_file(command.input))
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "half " + command.input,
+                 .problem = "it is a model, not a triangulation",
+                 .hint = "`sterna mesh " + command.input + " --half ...` meshes a half of it; in a script half(read_cad \"...\"); or `sterna surface` first"});
   require_surface_output(command.output);
   HalfOptions options;
   surfmesh::StitchOptions reading;

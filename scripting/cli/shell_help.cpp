@@ -1,6 +1,8 @@
 #include "scripting/cli/shell_help.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "geom/base/error.h"
@@ -147,6 +149,32 @@ std::string roff_options(const CLI::App& app) {
   return text;
 }
 
+/// "max-memory" and "envelope.max_growth" as scripts have them.
+std::string script_name(std::string name) {
+  if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && !find_verb(name)) name.erase(0, dot + 1);
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+bool is_known_in_scripts(const std::string& name) {
+  try {
+    help_on_name(name, {});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// The commands that have an option of that name, a line each; empty: none.
+std::string help_on_option(const CLI::App& app, const std::string& name) {
+  std::string text;
+  for (const CLI::App* command : shown_commands(app))
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& known : option->get_lnames())
+        if (known == name) text += "  sterna " + command->get_name() + " --" + known + ": " + option->get_description() + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string completion_script(const CLI::App& app, const std::string& shell) {
@@ -187,8 +215,11 @@ void add_shell_commands(CLI::App& app, const std::function<void(std::function<in
       const CLI::App* command = name.empty() ? &app : commands.empty() ? nullptr : commands.front();
       // app.help() would be that of the command that runs.
       std::string text = command == &app ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal) : command ? command->help() : "";
-      // A word may be both: a command and a verb of scripts.
-      if (!name.empty() && (!command || find_verb(name))) text += (text.empty() ? "" : "\nIn scripts:\n\n") + help_on_name(name, "help " + name);
+      // A word may be both: a command and a verb of scripts; an option of a command, and one of scripts.
+      if (name.empty() || (command && !find_verb(name))) return context.console.print(text), k_exit_success;
+      if (const std::string of_commands = command ? "" : help_on_option(app, name); !of_commands.empty()) text += of_commands;
+      const std::string in_script = script_name(name);
+      if (text.empty() || is_known_in_scripts(in_script)) text += (text.empty() ? "" : "\nIn scripts:\n\n") + help_on_name(in_script, "help " + name);
       context.console.print(text);
       return k_exit_success;
     });

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "geom/model/model_measures.h"
@@ -28,6 +29,26 @@ ParameterBox used_box(const Model& model, const ModelFace& face) {
   return {{low.u, high.u}, {low.v, high.v}};
 }
 
+/// Whether the face is all of its box of parameters, however many edges its sides are made of: then points within the box are on it.
+bool is_whole(const Model& model, const ModelFace& face, const ParameterBox& box) {
+  if (face.borders.size() != 1) return false;
+  constexpr double k_on_side = 1e-6;  // of the box
+  const auto is_at_end = [](double x, const Interval& range) {
+    return std::min(std::abs(x - range.from), std::abs(x - range.to)) <= k_on_side * range.length();
+  };
+  for (const EdgeUse& use : face.borders.front()) {
+    const Interval range = model.edges[use.edge].range;
+    bool is_u = true, is_v = true;
+    for (int i = 0; i <= k_box_samples; ++i) {
+      const Uv p = use.parameter->point(range.from + range.length() * i / k_box_samples);
+      is_u = is_u && is_at_end(p.u, box.u);
+      is_v = is_v && is_at_end(p.v, box.v);
+    }
+    if (!is_u && !is_v) return false;
+  }
+  return true;
+}
+
 PartMeasures part_of(const BodyMeasures& body, std::string kind, const std::vector<FaceId>& faces, const Column<FaceId, FaceMeasures>& measures) {
   PartMeasures part{
       .name = body.name, .kind = std::move(kind), .n_faces = body.n_faces, .area = body.area, .volume = body.volume, .is_closed = body.has_volume};
@@ -50,9 +71,10 @@ Box box_of(const Model& model, FaceId f) {
   const ModelFace& face = model.faces[f];
   Box box;
   const ParameterBox used = used_box(model, face);
+  const bool has_points_within = (face.borders.size() == 1 && face.borders.front().size() <= 4) || is_whole(model, face, used);
   for (int i = 0; i <= k_box_samples; ++i)
     for (int j = 0; j <= k_box_samples; ++j)
-      if (face.borders.size() == 1 && face.borders.front().size() <= 4)
+      if (has_points_within)
         box.add(face.surface->point({used.u.from + used.u.length() * i / k_box_samples, used.v.from + used.v.length() * j / k_box_samples}));
   for (const Border& border : face.borders)
     for (const EdgeUse& use : border) {

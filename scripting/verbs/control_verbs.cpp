@@ -1,4 +1,6 @@
 // wing:deflect{} and wing:control{}, and deflections of control surfaces that files describe.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -35,6 +37,17 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   if (hinge && !rows) reader.add_problem("hinge: expected a list of places {{span, chord}, ...}");
   const bool has_both = table.fields.contains("from") && table.fields.contains("to"), has_any = table.fields.contains("from") || table.fields.contains("to");
   if (hinge ? has_any : !has_both) reader.add_problem("needs from and to, or hinge = {{span, chord}, ...}: " + std::string(usage));
+  const auto require_within = [&](const std::string& what, double span, double chord) {
+    if (!(span >= 0.0 && span <= 1.0))
+      reader.add_problem(what + fmt::format(": {:g} is beyond the wing: parts of its span are 0 at the root to 1 at the tip", span));
+    if (!(chord >= 0.0 && chord <= 1.0))
+      reader.add_problem(what + fmt::format(": {:g} is beyond the chord: its parts are 0 at the leading edge to 1 at the trailing edge", chord));
+  };
+  if (from) require_within("from", (*from)[0], (*from)[1]);
+  if (to) require_within("to", (*to)[0], (*to)[1]);
+  if (from && to && (*from)[0] == (*to)[0]) reader.add_problem("from and to are at the same place along the span");
+  if (rows)
+    for (const std::vector<double>& row : *rows) require_within("hinge", row[0], row[1]);
   reader.read_options(control_schema);
   if (is_deflected) {
     reader.read_options(deflect_schema);

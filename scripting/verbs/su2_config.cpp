@@ -11,6 +11,7 @@
 
 #include "geom/math/constants.h"
 #include "io/names/patch_names.h"
+#include "volmesh/flow/boundary_layer.h"
 #include "volmesh/flow/standard_atmosphere.h"
 
 namespace sterna::scripting {
@@ -48,11 +49,23 @@ class Configuration {
     require_su2_flow(flow_, reference_, is_viscous_, problems_);
     boundaries_.require_used(problems_);
     problems_.require_none("making a configuration of SU2");
+    choose_wall_functions();
     tell();
     return head() + physics() + reference_values() + markers() + numerics() + files();
   }
 
  private:
+  void choose_wall_functions() {
+    if (solver_ != "RANS") return;
+    constexpr double k_least_y_plus = 20.0;
+    double y_plus = 0.0;
+    const double reynolds = flow_.reynolds;
+    if (mesh_.request.is_known() && reynolds >= volmesh::k_least_reynolds && reynolds <= volmesh::k_largest_reynolds)
+      y_plus = mesh_.request.first_height / volmesh::first_height({.y_plus = 1.0}, flow_).height;
+    has_wall_functions_ = options_.wall_functions == "automatic" ? y_plus > k_least_y_plus : options_.wall_functions == "yes";
+    if (has_wall_functions_ && y_plus > 0.0) context_.info(fmt::format("SU2: wall functions, as the first height means y+ {:.3g}", y_plus));
+  }
+
   /// What the patches of a pair are of themselves does not count: the flow goes out of one and comes in through the other. SU2 takes the centre and angles of a
   /// rotation, none here.
   void add_periodic() {
@@ -179,6 +192,9 @@ class Configuration {
       if (!entries.empty()) text += std::string(key) + "= " + list(entries) + "\n";
     };
     add(is_automatic(common_.wall_temperature) ? "MARKER_HEATFLUX" : "MARKER_ISOTHERMAL", walls);
+    std::vector<std::string> modelled;
+    for (const std::string& name : walls_) modelled.push_back(name + ", STANDARD_WALL_FUNCTION");
+    if (has_wall_functions_) add("MARKER_WALL_FUNCTIONS", modelled);
     add("MARKER_EULER", euler_);
     add("MARKER_SYM", symmetry_);
     add("MARKER_FAR", farfield_);
@@ -225,6 +241,7 @@ class Configuration {
   std::vector<std::string> names_;  ///< of markers, by patch
   std::string solver_;
   bool is_viscous_ = false;
+  bool has_wall_functions_ = false;
   std::vector<std::string> walls_, euler_, symmetry_, farfield_, inlets_, outlets_, supersonic_inlets_, supersonic_outlets_, discs_, periodic_, monitored_,
       unmonitored_;
 };

@@ -16,6 +16,7 @@ struct Su2Options {
   std::string mesh;
   std::string solver = "automatic";
   std::string turbulence = "SA";
+  std::string wall_functions = "automatic";
   double cfl = 10.0;
   bool restart = false;
 };
@@ -47,6 +48,10 @@ struct Schema<scripting::Su2Options> {
                .help = "automatic: RANS where the mesh has layers, else EULER",
                .choices = "automatic EULER NAVIER_STOKES RANS"},
       Field<O>{.name = "turbulence", .member = &O::turbulence, .help = "turbulence model of RANS", .choices = "SA SST"},
+      Field<O>{.name = "wall_functions",
+               .member = &O::wall_functions,
+               .help = "of RANS on walls; automatic: where the first height that was asked for means a y+ above 20 in this flow",
+               .choices = "automatic yes no"},
       Field<O>{.name = "cfl", .member = &O::cfl, .min = 0.01, .max = 1e6, .help = "CFL number at the start; SU2 adapts it"},
       Field<O>{.name = "restart", .member = &O::restart, .help = "go on from restart_flow, which an earlier run has written"},
   };

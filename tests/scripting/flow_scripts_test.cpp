@@ -15,6 +15,7 @@
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/process.h"
 #include "tests/support/shapes.h"
+#include "volmesh/flow/boundary_layer.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::scripting {
@@ -202,6 +203,7 @@ const std::set<std::string> k_su2_keys = {"SOLVER",
                                           "REF_ORIGIN_MOMENT_Y",
                                           "REF_ORIGIN_MOMENT_Z",
                                           "REF_DIMENSIONALIZATION",
+                                          "MARKER_WALL_FUNCTIONS",
                                           "MARKER_HEATFLUX",
                                           "MARKER_ISOTHERMAL",
                                           "MARKER_EULER",
@@ -301,6 +303,23 @@ TEST(Su2Config, half_models_count_half_the_area) {
   EXPECT_THAT(log, HasSubstr("half of 30"));
   test::expect_error(ErrorCode::bad_argument, "a half model has no sideslip (beta)",
                      [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {.beta = 0.1}, flow, {.area = 30.0}, {}, context); });
+}
+
+TEST(Su2Config, walls_of_a_large_y_plus_get_wall_functions) {
+  HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"far field", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
+  const double of_one = volmesh::first_height({.y_plus = 1.0}, flow).height;
+  const auto markers_of = [&](double y_plus, const char* choice, const char* solver) {
+    mesh.request.first_height = y_plus * of_one;
+    const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2", .solver = solver, .wall_functions = choice}, {}, flow, {.area = 30.0}, {}, RunContext()));
+    return keys.contains("MARKER_WALL_FUNCTIONS") ? keys.at("MARKER_WALL_FUNCTIONS") : std::string("none");
+  };
+  EXPECT_EQ(markers_of(50.0, "automatic", "RANS"), "( wing, STANDARD_WALL_FUNCTION )");
+  EXPECT_EQ(markers_of(1.0, "automatic", "RANS"), "none");
+  EXPECT_EQ(markers_of(50.0, "no", "RANS"), "none");
+  EXPECT_EQ(markers_of(50.0, "automatic", "NAVIER_STOKES"), "none");
+  EXPECT_EQ(markers_of(0.0, "automatic", "RANS"), "none");  // of a file: nothing is known of what was asked
+  EXPECT_EQ(markers_of(0.0, "yes", "RANS"), "( wing, STANDARD_WALL_FUNCTION )");
 }
 
 TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {

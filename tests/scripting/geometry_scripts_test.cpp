@@ -198,6 +198,14 @@ TEST_F(GeometryScripts, AWingletMayBeAPatchOfItsOwn) {
   EXPECT_THAT(error("wing{ name='w', " + sections + ", winglet={ name='w', height=0.5 } }"), HasSubstr("winglet: name: \"w\" is the wing's"));
 }
 
+TEST_F(GeometryScripts, ABoxHoldsRoundTipsThatControlSurfacesReach) {
+  for (const char* to : {"0.95", "1.0"}) {
+    const std::string model = "local w = wing{ symmetric=true, sections={ {chord=1.6, airfoil='naca2412'}, {y=5} } } w:deflect{ 'flap', from={0.6, 0.7}, to={" +
+                              std::string(to) + ", 0.7}, angle=20*deg } local m = aircraft{ w } ";
+    EXPECT_NEAR(std::stod(run(model + "print(m.max[2])")), std::stod(run(model + "print(m:measures().components.wing.box[2][2])")), 2e-3) << to;
+  }
+}
+
 TEST_F(GeometryScripts, AHalfOfWhatIsNoImageOfItselfIsTold) {
   const std::string wing = "local w = wing{ symmetric=true, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=4, chord=1} } } ";
   run(wing + "half(w:model())");
@@ -218,6 +226,10 @@ TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
             "true\ttrue\ttrue\nWing \"wing\": 2 sections, span 8 m, area 8 m^2, mean aerodynamic chord 1 m, both halves, aileron +25 deg\n");
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, angle=1*deg }"), HasSubstr("needs from and to, or hinge"));
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"), HasSubstr("needs angle"));
+  EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={1.6, 0.7}, angle=1*deg }"), HasSubstr("to: 1.6 is beyond the wing"));
+  EXPECT_THAT(error(wing + "w:control{ 'a', hinge={ {-0.5, 0.7}, {0.6, 1.7} } }"),
+              testing::AllOf(HasSubstr("hinge: -0.5 is beyond the wing"), HasSubstr("hinge: 1.7 is beyond the chord")));
+  EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.6, 0.8} }"), HasSubstr("same place along the span"));
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7}, angle=10 }"), HasSubstr("write degrees as 40*deg"));
   EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} } w:control{ 'a', from={0.1, 0.7}, to={0.2, 0.7} }"),
               HasSubstr("has a control surface \"a\" already"));

@@ -52,6 +52,14 @@ TEST(Schema, ValueOutsideItsRangeNamesValueAndLimit) {
   EXPECT_EQ(options.layers, EnvelopeOptions{}.layers);
 }
 
+TEST(Schema, MemoryHasUnits) {
+  volmesh::MeshCase options;
+  const OptionTable table = volmesh::options_of(options);
+  set_option_from_text(find_option(table, "max_memory", "test"), "16GB");
+  EXPECT_DOUBLE_EQ(options.limits.max_memory, 16e9);
+  EXPECT_THROW(set_option_from_text(find_option(table, "max_memory", "test"), "16mm"), Error);
+}
+
 TEST(Schema, LimitsOfAnglesMayBeTypedAsTheyArePrinted) {
   volmesh::MeshCase options;
   int n_limits = 0;
