@@ -145,7 +145,7 @@ TEST_F(FillWithSplits, ARefusalIsAFailureOfTheAttempt) {
 }
 
 TEST_F(FillWithSplits, ContradictionsAreNamed) {
-  EXPECT_THAT(error_info_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("nothing here can take"));
+  EXPECT_THAT(error_info_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("leave it at ladder"));
   EXPECT_THAT(error_info_of([&] { fill({.engine = "hxt", .boundary_splits = "always"}, [](TetraResult&) {}); }).hint, HasSubstr("HXT keeps"));
   EXPECT_EQ(error_info_of([&] { fill({.boundary_splits = "sometimes"}, {}); }).code, ErrorCode::bad_argument);
 }
