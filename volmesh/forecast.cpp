@@ -53,12 +53,12 @@ double expected_tetrahedra(const SizeField& sizes) { return k_share_in_fluid * s
 
 void require_room(const Forecast& forecast, const LimitOptions& limits, const RunContext& context) {
   const bool is_given = !is_automatic(limits.max_memory);
-  // What the process has already is part of the forecast's whole, and small before the work.
-  const double allowed = is_given ? limits.max_memory : available_memory();
+  // The forecast is of the whole process, and so holds what that has already.
+  const double allowed = is_given ? limits.max_memory : available_memory() + resident_memory();
   const double seconds = forecast.seconds(context.threads());
   if (forecast.bytes() > allowed) {
     const std::string problem = figures(forecast) + " are to be expected; " + (is_given ? "limits.max_memory is " : "the machine has ") + gigabytes(allowed) +
-                                (is_given ? "" : " free");
+                                (is_given ? "" : " for it");
     const std::string hint =
         "fewer or larger triangles, fewer layers, larger size sources or a larger size_growth; or more memory. force = true (--force) goes on all the same";
     if (!limits.force) throw Error({.code = ErrorCode::overflow, .attempted = "volume_mesh", .problem = problem, .hint = hint});

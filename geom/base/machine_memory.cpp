@@ -38,12 +38,22 @@ double free_of_kernel() {
   return k_kibibyte * number_of("/proc/meminfo", "MemAvailable:");
 }
 
+/// Of the process, in bytes: its whole address space, and what of it is in memory. Zeros where it is not told.
+struct ProcessSize {
+  double all = 0.0, resident = 0.0;
+};
+ProcessSize process_size() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  if (!(file >> all >> resident)) return {};
+  const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
+  return {all * page, resident * page};
+}
+
 double free_of_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return k_untold;
-  const double pages = number_of("/proc/self/statm");  // the first number: the whole address space
-  const double used = pages == k_untold ? 0.0 : pages * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - process_size().all);
 }
 
 /// Of the process's own group and those around it (version 2 of control groups).
@@ -68,5 +78,7 @@ double free_of_control_group() {
 }  // namespace
 
 double available_memory() { return std::min({free_of_kernel(), free_of_address_space(), free_of_control_group()}); }
+
+double resident_memory() { return process_size().resident; }
 
 }  // namespace sterna

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/mirror_gap.h"
 #include "geom/mesh/topology.h"
@@ -316,8 +315,7 @@ void tell_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const Run
   constexpr double k_share_of_edge = 0.3, k_share_of_length = 3e-4;
   const MirrorGap gap = mirror_gap(surface, plane.axis, plane.at, k_share_of_edge, context);
   if (gap.distance <= k_share_of_length * bounding_box(surface).longest_side()) return;
-  context.warn("half at " + plane.text() + ": the side that is left out is not the image of the one that is kept; the image of " + format_point(gap.at) +
-               " is " + in_metres(gap.distance, 3) + " from the surface. A half stands for both sides: where they are meant to differ, mesh the whole");
+  context.warn(describe_asymmetry(gap, plane.text()));
 }
 
 }  // namespace

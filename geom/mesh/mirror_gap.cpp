@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/mesh/bvh.h"
 
@@ -28,6 +30,11 @@ MirrorGap mirror_gap(const TriMesh& surface, std::size_t axis, double at, double
   for (const VertexId v : surface.points.ids())
     if (gap[v] > worst.distance) worst = {gap[v], surface.points[v]};
   return worst;
+}
+
+std::string describe_asymmetry(const MirrorGap& gap, const std::string& plane) {
+  return "half at " + plane + ": the side that is left out is not the image of the one that is kept; the image of " + format_point(gap.at) + " is " +
+         in_metres(gap.distance, 3) + " from the surface. A half stands for both sides: where they are meant to differ, mesh the whole";
 }
 
 }  // namespace sterna

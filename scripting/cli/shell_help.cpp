@@ -156,15 +156,6 @@ std::string script_name(std::string name) {
   return name;
 }
 
-bool is_known_in_scripts(const std::string& name) {
-  try {
-    help_on_name(name, {});
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 /// The commands that have an option of that name, a line each; empty: none.
 std::string help_on_option(const CLI::App& app, const std::string& name) {
   std::string text;
@@ -217,9 +208,9 @@ void add_shell_commands(CLI::App& app, const std::function<void(std::function<in
       std::string text = command == &app ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal) : command ? command->help() : "";
       // A word may be both: a command and a verb of scripts; an option of a command, and one of scripts.
       if (name.empty() || (command && !find_verb(name))) return context.console.print(text), k_exit_success;
-      if (const std::string of_commands = command ? "" : help_on_option(app, name); !of_commands.empty()) text += of_commands;
-      const std::string in_script = script_name(name);
-      if (text.empty() || is_known_in_scripts(in_script)) text += (text.empty() ? "" : "\nIn scripts:\n\n") + help_on_name(in_script, "help " + name);
+      if (!command) text = help_on_option(app, name);
+      const std::string in_script = script_name(name), of_scripts = text.empty() ? help_on_name(in_script, "help " + name) : help_if_known(in_script);
+      if (!of_scripts.empty()) text += (text.empty() ? "" : "\nIn scripts:\n\n") + of_scripts;
       context.console.print(text);
       return k_exit_success;
     });

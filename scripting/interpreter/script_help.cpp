@@ -127,13 +127,17 @@ std::string help_text() {
   return text + ". help(volume_mesh) prints the options of a verb, help(wall) the methods and fields of an object, help \"first_height\" who takes an option.";
 }
 
-std::string help_on_name(const std::string& name, const std::string& attempted) {
+std::string help_if_known(const std::string& name) {
   std::string text;
   if (const ScriptVerb* verb = find_verb(name)) text = help_text(*verb);
   if (const ObjectKind* kind = object_kind(name)) text += (text.empty() ? "" : "\n\n") + help_text(*kind);
   if (!text.empty()) return text;
   text = verbs_with_option(name);
-  if (!text.empty()) return "option " + name + "\n" + text.substr(0, text.size() - 1);
+  return text.empty() ? text : "option " + name + "\n" + text.substr(0, text.size() - 1);
+}
+
+std::string help_on_name(const std::string& name, const std::string& attempted) {
+  if (std::string text = help_if_known(name); !text.empty()) return text;
   std::vector<std::string> known;
   for (const ScriptVerb* verb : all_verbs()) {
     known.emplace_back(verb->name);
@@ -144,7 +148,7 @@ std::string help_on_name(const std::string& name, const std::string& attempted) 
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = attempted,
                .problem = "there is no verb, object or option \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
-               .hint = "help() lists the verbs"});
+               .hint = "help() lists the verbs, `sterna manual` all with their options"});
 }
 
 ScriptValue print_help(const ScriptCall& call) {

@@ -40,7 +40,9 @@ std::string help_text(const ObjectKind& kind);
 /// All verbs with one sentence each.
 std::string help_text();
 
-/// Of a verb, an object or an option by its name.
+/// Of a verb, an object or an option by its name; empty where there is none.
+std::string help_if_known(const std::string& name);
+/// The same.
 /// \throws Error(bad_argument) with the nearest name where there is none
 std::string help_on_name(const std::string& name, const std::string& attempted);
 

@@ -259,10 +259,7 @@ void tell_asymmetry(const Model& model, const HalfModelOptions& options, const R
   if (drawn.triangles.empty()) return;
   const MirrorGap gap = mirror_gap(drawn, static_cast<std::size_t>(options.axis.front() - 'x'), options.at, 0.0, context);
   if (gap.distance <= k_clear * k_tolerance * bounding_box(drawn).longest_side()) return;
-  context.warn(
-      fmt::format("half at {} = {:g} m: the side that is left out is not the image of the one that is kept; the image of {} is {:.3g} m from the model. A half "
-                  "stands for both sides: where they are meant to differ, mesh the whole",
-                  options.axis, options.at, format_point(gap.at), gap.distance));
+  context.warn(describe_asymmetry(gap, fmt::format("{} = {:g} m", options.axis, options.at)));
 }
 
 }  // namespace

@@ -276,7 +276,7 @@ class Workbench::Parts {
     const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
     if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
     if (!worker_ || worker_->is_busy || worker_->is_gone || found->run != held_run_)
-      return refusal(std::string(body.contains("plane") ? "the mesh" : "the surface") + " is not at hand: mesh again");
+      return refusal(std::string(std::string_view(what) == "cut" ? "the mesh" : "the surface") + " is not at hand: mesh again");
     const int ask = ++state_.n_asked;
     send_job({{"do", what}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", ask}});
     const auto is_there = [&] { return is_over_ || state_.asked.contains(ask) || state_.refused.contains(ask); };

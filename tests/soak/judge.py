@@ -198,13 +198,11 @@ class Judge:
         return f'the wing\'s leading edge is {found["near"][0]:g} away from where the attitude brings it' if found["near"][0] > limit else ""
 
     def asked_volume(self, case, manifest, found, told, text):
-        """What the walls enclose is the model's volume but for the facets'."""
-        if "volume" not in told or case.get("tunnel") or case.get("disc"):
+        """What the walls enclose is the model's volume but for the facets'. Not where other boundaries close it: tunnels, discs, the plane of a half model."""
+        if "volume" not in told or case.get("tunnel") or case.get("disc") or case.get("half"):
             return ""
-        asked = float(told["volume"]) * (0.5 if case.get("half") else 1)
+        asked = float(told["volume"])
         walls = [marker for name, marker in found["markers"].items() if name in told["patches"].split("|")]
-        if case.get("half"):
-            return ""  # the symmetry plane closes it
         made = -sum(marker["flux"] for marker in walls)
         return f"the walls enclose {made:g}, the model has {asked:g}" if not 0.8 < made / asked < 1.1 else ""
 
