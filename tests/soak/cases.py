@@ -1,10 +1,12 @@
 """Random cases for the soak: what is asked, as a dictionary that JSON holds, and the Lua script that asks it.
 
-A case has "kind" (aircraft, parts, surface), what its kind is made of (below), and what all have:
+A case has "kind" (aircraft, parts, surface; model is in described.py), what its kind is made of (below), and what all have:
   surface   options of surface_mesh or read_surface, Lua text by name
   volume    options of volume_mesh, Lua text by name
   farfield  {"shape": "sphere", "radius": r} and so on, or nothing
   output    a second format beside SU2
+and what some have: "wakes" (Lua text), "through" (a CAD format that the model is written to and read from again), "periodic" (pairs of sides and the way between them), "turned" (patches that a
+deflection turns), "continued" (the step behind which the mesh is made again from its .sterna file).
 Everything in a list or a table can be left out on its own: that is how a failure is reduced (reduce.py). Figures are drawn from seed and index alone.
 """
 import math
@@ -12,11 +14,14 @@ import pathlib
 import re
 import subprocess
 
+import described
 import surfaces
 
-OUTPUTS = [".vtu", ".cgns", ".b8.ugrid", ".lb8.ugrid", ".msh", ".fluent.msh", ".meshb", ".mesh", ".vtkhdf", ".taumesh", ".sterna", ".bmsh", "polymesh"]
+OUTPUTS = [".vtu", ".cgns", ".b8.ugrid", ".lb8.ugrid", ".msh", ".fluent.msh", ".meshb", ".mesh", ".vtkhdf", ".taumesh", ".sterna", ".bmsh", "polymesh", ".adf.cgns", ".lb8l.ugrid", ".ugrid",
+           ".v2.bmsh", ".bin.msh"]
 INPUTS = ["stl text", "stl binary", "obj", "off"]
-CONVERTED_INPUTS = [".ply", ".msh", ".su2", ".vtu", ".vtp", ".smesh", ".tri", ".nas", ".meshb", ".cgns"]
+CONVERTED_INPUTS = [".ply", ".msh", ".su2", ".vtu", ".vtp", ".smesh", ".tri", ".nas", ".meshb", ".cgns", ".vtk", ".poly", ".bdf", ".vtkhdf", ".bin.tri", ".sterna"]
+THROUGH = [".step", ".igs", ".brep"]
 
 
 def num(value):
@@ -37,6 +42,13 @@ def options_of(sterna, verb):
     section = manual.partition(f"\n### {verb}\n")[2].partition("\n### ")[0].partition("\npatches = ")[0]
     rows = re.findall(r"^\| `(\w+)` \| (.*?) \| (.*?) \| ", section, re.MULTILINE)
     return [row for row in rows if row[0] not in NOT_DRAWN and not row[0].startswith("farfield_")]
+
+
+def names_of(sterna, verb):
+    """The names of all options of a verb."""
+    manual = subprocess.run([sterna, "manual"], capture_output=True, text=True, check=True).stdout
+    section = manual.partition(f"\n### {verb}\n")[2].partition("\n### ")[0].partition("\n## ")[0].partition("\npatches = ")[0]
+    return set(re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE))
 
 
 def in_range(rng, default, limits):
@@ -120,8 +132,11 @@ def aircraft(rng, table):
     main = {"name": "main_wing", "lua": wing_text(rng, "wing", root, chord, half_span, True, edge, winglet=rng.random() < 0.25), "needs": [], "after": []}
     if rng.random() < 0.35:
         other = rng.choice(["same", "opposite"])
-        main["after"].append(f'main_wing:deflect{{ "flap", from = {{ {num(rng.uniform(0.4, 0.55))}, {num(rng.uniform(0.68, 0.78))} }}, to = {{ {num(rng.uniform(0.7, 0.85))}, '
-                             f'{num(rng.uniform(0.68, 0.78))} }}, angle = {num(rng.uniform(-20, 20))}*deg, other_side = "{other}" }}')
+        place = f'"flap", from = {{ {num(rng.uniform(0.4, 0.55))}, {num(rng.uniform(0.68, 0.78))} }}, to = {{ {num(rng.uniform(0.7, 0.85))}, {num(rng.uniform(0.68, 0.78))} }}'
+        angle = num(rng.uniform(-20, 20))
+        main["after"].append(f'main_wing:deflect{{ {place}, angle = {angle}*deg, other_side = "{other}" }}')
+        main["plain"] = f"main_wing:control{{ {place} }}"
+        case["turned"] = [{"patch": patch, "angle": angle} for patch in ("flap", "flapLeft")]
     parts.append(main)
     tail = rng.choice(["low", "low", "high", "none", "vee"])
     if tail in ("low", "high"):
@@ -157,8 +172,24 @@ def aircraft(rng, table):
     if "engine" in case:  # edges longer than a cowl is thick cross each other, which is refused
         case["surface"]["patches"] = f'{{ ["engine*"] = {{ max_edge = {num(0.5 * case["engine"])}, min_edge = {num(0.05 * case["engine"])} }} }}'
     case["volume"] = layers(rng, size) | draw_options(rng, table, rng.choice([0, 0, 1, 2, 4]))
+    if not case.get("tunnel") and rng.random() < 0.12:
+        case["through"] = ".step" if "engine" in case else rng.choice(THROUGH)  # the others lose names
+    if rng.random() < 0.2:
+        wakes(rng, case, chord)
     case["output"] = rng.choice(OUTPUTS)
     return case
+
+
+def wakes(rng, case, chord):
+    """Layers go on behind the wing. Not together with discs and opened ridges, which sheets refuse."""
+    if case.get("disc") or "open_ridges" in case["volume"]:
+        return
+    length = 2.0
+    case["wakes"] = '"auto"'
+    if case.get("through", ".step") == ".step" and rng.random() < 0.7:
+        length = rng.uniform(1, 3)
+        case["wakes"] = f'{{ wake_sheet{{ wing = "wing*", length = {num(length)}, growth = {num(rng.uniform(1.15, 1.5))}, height_growth = {num(rng.uniform(1, 1.4))} }} }}'
+    case["wake_reach"] = num(0.3 * length * chord * 0.3)  # the wing tapers to 0.3 of its chord at the least
 
 
 def surroundings(rng, case, d):
@@ -172,23 +203,37 @@ def surroundings(rng, case, d):
     if where == "tunnel":
         case["components"].append({"name": "support", "lua": f'sting{{ name = "sting", from = {{ {num(0.8 * size)}, 0, 0 }}, to = {{ {num(2.2 * size)}, 0, 0 }}, diameter = {num(0.35 * d)} }}', "needs": []})
         walls = rng.choice(['"slip"', '"slip"', f"{{ layers = {rng.randint(3, 8)}, first_height = {num(size * 1e-3)} }}"])
-        case["tunnel"] = (f"test_section{{ length = {num(4 * size)}, width = {num(rng.uniform(2.2, 3) * size)}, height = {num(rng.uniform(1.6, 2.4) * size)}, upstream = {num(1.5 * size)}, "
+        width, height = rng.uniform(2.2, 3) * size, rng.uniform(1.6, 2.4) * size
+        if rng.random() < 0.25:
+            height = width
+            section = f"diameter = {num(width)}"
+        else:
+            section = f"width = {num(width)}, height = {num(height)}"
+        case["tunnel"] = (f"test_section{{ length = {num(4 * size)}, {section}, upstream = {num(1.5 * size)}, "
                           f"max_edge = {num(0.35 * size)}, walls = {walls}" + (', through = "sting"' if rng.random() < 0.5 else "") + " }")
+        case["tunnel_box"] = [[num(-1.5 * size), num(-0.5 * width), num(-0.5 * height)], [num(2.5 * size), num(0.5 * width), num(0.5 * height)]]
         case["farfield"] = {}
     else:
         case["farfield"] = farfield(rng, size, where == "half", case.get("attitude"))
-    if where == "disc":
+    if where == "disc" or (where == "tunnel" and rng.random() < 0.3):
         case["disc"] = {"name": "prop", "center": [num(-0.12 * size), "0", "0"], "radius": num(size * rng.uniform(0.08, 0.2)), "inner": rng.choice(["0", num(0.03 * size)]), "edge": num(0.03 * size)}
 
 
 def farfield(rng, size, is_half, attitude=None):
-    shape = rng.choice(["sphere", "sphere", "sphere", "box", "none given"])
+    shape = rng.choice(["sphere", "sphere", "sphere", "box", "none given", "cylinder", "surface"])
     if shape == "sphere":
         return {"shape": "sphere", "radius": num(size * 10 ** rng.uniform(0.7, 2))}
     if shape == "box":
         r = size * 10 ** rng.uniform(0.5, 1.3)
         low = [-r, 0.0 if is_half else -r, -r]
-        return {"shape": "box", "low": [num(x) for x in low], "high": [num(2 * r), num(r), num(r)]}
+        made = {"shape": "box", "low": [num(x) for x in low], "high": [num(2 * r), num(r), num(r)]}
+        return made | ({"sides": True} if rng.random() < 0.5 else {})
+    if shape == "cylinder":
+        r = size * 10 ** rng.uniform(0.6, 1.3)
+        return {"shape": "cylinder", "from": num(-r), "to": num(rng.uniform(1.5, 3) * r), "radius": num(r)} | ({"sides": True} if rng.random() < 0.5 else {})
+    if shape == "surface":
+        r = size * 10 ** rng.uniform(0.6, 1.3)
+        return {"shape": "surface", "radii": [num(r * rng.uniform(1, 2)), num(r), num(r * rng.uniform(0.8, 1))], "center": [num(0.5 * size), "0", "0"], "n": rng.randint(12, 20)}
     return {}
 
 
@@ -237,7 +282,53 @@ def parts(rng, table):
     case["surface"] = {"max_edge": num(size * rng.uniform(0.18, 0.4)), "min_edge": num(size * 0.02), "curvature_angle": f"{num(rng.uniform(20, 40))}*deg", "growth": num(rng.uniform(1.3, 1.7))}
     if rng.random() < 0.3:
         case["attitude"] = {"about": ["0", "0", "0"], "pitch": num(rng.uniform(-30, 30)), "yaw": num(rng.uniform(-30, 30))}
+    if not case["triangulated"] and rng.random() < 0.25:
+        case["through"] = rng.choice(THROUGH)
     case["volume"] = layers(rng, 2 * size) | draw_options(rng, table, rng.choice([0, 0, 1, 2, 4]))
+    case["output"] = rng.choice(OUTPUTS)
+    return case
+
+
+# ---- Rows: two sides of a tunnel are each other's image ------------------------------------------------------------------------------------------------
+
+def row(rng, table):
+    """A wing or a bar from side to side, or a body between them, in a tunnel whose sides match; sometimes floor and ceiling, too."""
+    size = 10 ** rng.uniform(-1, 1)
+    width, height = size * rng.uniform(1.2, 3), size * rng.uniform(2, 4)
+    form = rng.choice(["wing", "bar", "body", "bar and body"])
+    made, through = [], ""
+    if form == "wing":
+        made.append({"name": "blade", "lua": f'wing{{ name = "blade", symmetric = true, position = {{ {num(-0.3 * size)}, 0, {num(rng.uniform(-0.2, 0.2) * size)} }}, trailing_edge = {num(0.012 * size)}, '
+                     f'sections = {{ {{ y = 0, chord = {num(0.8 * size)}, airfoil = "{airfoil(rng)}", twist = {num(rng.uniform(-3, 6))}*deg }}, {{ y = {num(width)} }} }} }}', "needs": []})
+        through = ', through = "blade"'
+    if "bar" in form:
+        r = rng.uniform(0.15, 0.35) * size
+        made.append({"name": "bar", "lua": f'cylinder{{ {{ 0, {num(-width)}, 0 }}, {{ 0, {num(width)}, 0 }}, radius = {num(r)}, name = "bar" }}', "needs": []})
+        through = ', through = "bar"'
+    if "body" in form:
+        x, r = 1.2 * size if made else 0, rng.uniform(0.15, 0.3) * size
+        made.append({"name": "pod", "lua": f'body_of_revolution{{ name = "pod", position = {{ {num(x)}, {num(rng.uniform(-0.1, 0.1) * width)}, 0 }}, profile = {{ {{0, 0}}, {{{num(0.1 * size)}, {num(0.6 * r)}}}, '
+                     f"{{{num(0.4 * size)}, {num(r)}}}, {{{num(size)}, 0}} }} }}", "needs": []})
+    case = {"kind": "parts", "size": size, "components": made, "triangulated": False, "farfield": {}}
+    case["tunnel"] = f'test_section{{ length = {num(5 * size)}, width = {num(width)}, height = {num(height)}, upstream = {num(1.5 * size)}, max_edge = {num(0.4 * size)}, walls = "slip"{through} }}'
+    case["tunnel_box"] = [[num(-1.5 * size), num(-0.5 * width), num(-0.5 * height)], [num(3.5 * size), num(0.5 * width), num(0.5 * height)]]
+    case["periodic"] = [["tunnel_left", "tunnel_right", ["0", num(width), "0"]]]
+    if rng.random() < 0.3:
+        case["periodic"].append(["tunnel_floor", "tunnel_ceiling", ["0", "0", num(height)]])
+    case["surface"] = {"max_edge": num(size * rng.uniform(0.1, 0.25)), "min_edge": num(size * 0.02), "curvature_angle": f"{num(rng.uniform(20, 40))}*deg", "growth": num(rng.uniform(1.3, 1.7))}
+    case["volume"] = layers(rng, size) | draw_options(rng, table, rng.choice([0, 0, 1, 2]))
+    case["output"] = rng.choice(OUTPUTS)
+    return case
+
+
+# ---- Models in files -------------------------------------------------------------------------------------------------------------------------------
+
+def model(rng, table, data):
+    case = described.draw(rng, data, num)
+    case["farfield"] = {}
+    if rng.random() < 0.5:
+        case["relative_farfield"] = num(10 ** rng.uniform(0.5, 2))
+    case["volume"] = quick(rng) | draw_options(rng, table, rng.choice([0, 0, 1, 2]))
     case["output"] = rng.choice(OUTPUTS)
     return case
 
@@ -317,7 +408,19 @@ def volume_table(case, entries):
     if field.get("shape") == "sphere":
         entries["farfield"] = f"sphere{{ radius = {field['radius']} }}"
     elif field.get("shape") == "box":
-        entries["farfield"] = f"box{{ {{ {', '.join(field['low'])} }}, {{ {', '.join(field['high'])} }}, edge = {num(float(field['high'][0]) / 4)} }}"
+        sides = ', sides = { x_min = "inflow", x_max = "outflow" }' if field.get("sides") else ""
+        entries["farfield"] = f"box{{ {{ {', '.join(field['low'])} }}, {{ {', '.join(field['high'])} }}, edge = {num(float(field['high'][0]) / 4)}{sides} }}"
+    elif field.get("shape") == "cylinder":
+        sides = ', sides = { start = "inflow", ["end"] = "outflow" }' if field.get("sides") else ""
+        entries["farfield"] = f"cylinder{{ {{ {field['from']}, 0, 0 }}, {{ {field['to']}, 0, 0 }}, radius = {field['radius']}, edge = {num(float(field['radius']) / 3)}{sides} }}"
+    elif field.get("shape") == "surface":
+        entries["farfield"] = '"far.stl"'
+    if case.get("wakes"):
+        entries["wakes"] = case["wakes"]
+    if case.get("periodic"):
+        entries["periodic"] = "{ " + ", ".join(f'{{ "{first}", "{second}" }}' for first, second, _ in case["periodic"]) + " }"
+    if case.get("continued"):
+        entries["stages"] = '"stopped.sterna"'
     if disc := case.get("disc"):
         inner = f", inner_radius = {disc['inner']}" if disc["inner"] != "0" else ""
         entries["interfaces"] = f'{{ actuator_disc{{ name = "{disc["name"]}", center = {{ {", ".join(disc["center"])} }}, radius = {disc["radius"]}{inner}, edge = {disc["edge"]} }} }}'
@@ -331,10 +434,15 @@ def output_name(case):
 
 def script_of(case, folder, data):
     """The Lua text; writes input files into the folder."""
-    lines = surface_script(case, folder, data) if case["kind"] == "surface" else model_script(case)
+    if case["kind"] == "model":
+        lines = described.script(case, data, table_of, attitude_of(case))
+    else:
+        lines = surface_script(case, folder, data) if case["kind"] == "surface" else model_script(case)
+    if case["farfield"].get("shape") == "surface":
+        surfaces.write(pathlib.Path(folder) / "far.stl", [("outer", far_surface(case["farfield"]))], "stl binary")
     lines += ['print("SOAK patches " .. table.concat(wall.patches, "|"))', 'print("SOAK length " .. string.format("%.17g", wall.length))']
     volume = dict(case["volume"])
-    if case["kind"] == "surface":
+    if "relative" in case:
         volume = {"layers": case["relative"]["layers"], "first_height": case["relative"]["first_height"] + " * wall.length"} | volume
         if "relative_farfield" in case:
             volume["farfield"] = f"sphere{{ radius = {case['relative_farfield']} * wall.length }}"
@@ -343,22 +451,44 @@ def script_of(case, folder, data):
     return "\n".join(lines) + "\n"
 
 
+def far_surface(field):
+    return surfaces.moved(surfaces.ellipsoid(*map(float, field["radii"]), field["n"]), list(map(float, field["center"])))
+
+
+def attitude_of(case):
+    if turned := case.get("attitude"):
+        return f":rotate{{ about = {{ {', '.join(turned['about'])} }}, pitch = {turned['pitch']}*deg, yaw = {turned['yaw']}*deg }}"
+    return ""
+
+
+def continued_script(case, names):
+    """Lua that makes the same mesh behind a step that is kept in stopped.sterna; `names`: of the options of `tetrahedra` and `prisms`."""
+    of = {verb: {name: value for name, value in case["volume"].items() if name in names[verb]} for verb in names}
+    lines = ['local kept = read_stages "stopped.sterna"', "local tets = kept.tetrahedra"]
+    if case["continued"] == "envelope":
+        lines[1] = f"local tets = tetrahedra{table_of('kept.envelope', of['tetrahedra'])}"
+    return "\n".join(lines + [f"prisms{table_of('kept.envelope, tets', of['prisms'])}:write \"continued.su2\""]) + "\n"
+
+
 def model_script(case):
     lines = []
+    for part in case["components"]:
+        if part.get("plain") and part.get("after"):
+            without = table_of(f"{part['name']}:model()", {name: value for name, value in case["surface"].items() if name != "patches"} | {"crossings": '"ignore"'})
+            lines.append(f'do local {part["name"]} = {part["lua"]}; {part["plain"]}; surface_mesh{without}:write "plain.stl" end')
     for part in case["components"]:
         lines += [f"local {part['name']} = {part['lua']}"] + part.get("after", [])
     names = ", ".join(part["name"] for part in case["components"])
     if any(part["name"] == "main_wing" for part in case["components"]):
         lines.append('local seen = main_wing:at(0.5, 0); print(string.format("SOAK seen %.17g %.17g %.17g", seen[1], seen[2], seen[3]))')
-    turn = ""
-    if turned := case.get("attitude"):
-        turn = f":rotate{{ about = {{ {', '.join(turned['about'])} }}, pitch = {turned['pitch']}*deg, yaw = {turned['yaw']}*deg }}"
+    turn = attitude_of(case)
     if case["kind"] == "parts" and case.get("triangulated"):
         pieces = [f"surface_mesh{table_of(part['name'], case['surface'])}" for part in case["components"]]
         return lines + [f"local wall = union{{ {', '.join(pieces)} }}" + turn]
     lines.append(f"local model = {'aircraft' if case['kind'] == 'aircraft' else 'union'}{{ {names} }}{turn}")
-    if case["kind"] == "aircraft":
-        lines.append('print("SOAK volume " .. string.format("%.17g", model:measures().volume))')
+    lines.append('print("SOAK volume " .. string.format("%.17g", model:measures().volume))')
+    if case.get("through"):
+        lines.append(f'model:write "model{case["through"]}"; model = read_cad "model{case["through"]}"; print("SOAK read " .. string.format("%.17g", model:measures().volume))')
     if case.get("half"):
         lines.append("model = half(model)")
     target = "model, " + case["tunnel"] if case.get("tunnel") else "model"
@@ -385,9 +515,20 @@ def surface_script(case, folder, data):
     return [f"local wall = read_surface{table_of(first, entries)}"]
 
 
+def only_possible(case):
+    """Takes out what was drawn together though the program says that it cannot be had together."""
+    volume = case["volume"]
+    if volume.get("boundary_splits") == '"always"' and (case.get("half") or case.get("tunnel") or case.get("wakes") or case.get("periodic") or case.get("disc") or case["kind"] in ("surface", "model")):
+        del volume["boundary_splits"]  # engines may not split triangles of boundaries with rims
+    return case
+
+
 def make(seed, index, table, data):
     """The case of this seed and index."""
     rng = surfaces.generator(seed, index)
-    kind = rng.choices(["aircraft", "parts", "surface"], [55, 20, 25])[0]
-    case = aircraft(rng, table) if kind == "aircraft" else parts(rng, table) if kind == "parts" else surface(rng, table, data)
-    return {"seed": seed, "index": index} | case
+    kind = rng.choices(["aircraft", "parts", "row", "surface", "model"], [45, 15, 6, 20, 14])[0]
+    case = {"aircraft": lambda: aircraft(rng, table), "parts": lambda: parts(rng, table), "row": lambda: row(rng, table), "surface": lambda: surface(rng, table, data),
+            "model": lambda: model(rng, table, data)}[kind]()
+    if rng.random() < 0.2:
+        case["continued"] = rng.choice(["envelope", "tetrahedra"])
+    return {"seed": seed, "index": index} | only_possible(case)

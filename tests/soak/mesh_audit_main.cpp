@@ -1,8 +1,9 @@
 // Judges a volume mesh in SU2's format by itself: shares no code with `sterna check`, nor with any of our readers. Says as JSON what it found.
 //
-// usage: soak_mesh_audit MESH.su2 [--wall NAME]... [--near X,Y,Z]...
+// usage: soak_mesh_audit MESH.su2 [--wall NAME]... [--near X,Y,Z]... [--pair NAME NAME]...
 //   --wall    a marker that carries layers: its first heights and numbers of layers are measured
 //   --near    the distance of this point from the walls is measured
+//   --pair    two markers that should be each other's image, moved: how many nodes and faces have no partner
 // Exit status: 0 the mesh is good, 3 it is not, 2 it cannot be read.
 //
 // Asked of a mesh: numbers in range and finite, no node unused, each face shared by two cells in opposite senses or by one cell and one marker, each marker
@@ -426,8 +427,11 @@ struct Layers {
   std::vector<int> numbers;    // of cells in each column of prisms
 };
 
-std::vector<Layers> measure_layers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, const std::vector<std::array<std::int32_t, 6>>& across) {
+/// `in_column` becomes 1 for the prisms of the columns that stand on boundary triangles.
+std::vector<Layers> measure_layers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, const std::vector<std::array<std::int32_t, 6>>& across,
+                                   std::vector<char>& in_column) {
   std::vector<Layers> made(mesh.markers.size());
+  in_column.assign(mesh.cells.size(), 0);
   for (const auto& face : boundary) {
     const Cell& cell = mesh.cells[face.cell];
     if (cell.kind != 13 || face.nodes.size() != 3) continue;
@@ -443,9 +447,11 @@ std::vector<Layers> measure_layers(const Mesh& mesh, const std::vector<BoundaryF
     }
     int n = 1;
     auto from = face.cell;
+    in_column[from] = 1;
     auto at = across[from][is_lower ? 1 : 0];
     while (at >= 0 && mesh.cells[at].kind == 13 && n < 100000) {
       ++n;
+      in_column[at] = 1;
       const auto back = across[at][0] == from ? 0 : across[at][1] == from ? 1 : -1;
       if (back < 0) break;
       from = at;
@@ -464,6 +470,74 @@ std::string spread(std::vector<T> values) {
   std::snprintf(text, sizeof text, "{\"least\": %.17g, \"median\": %.17g, \"most\": %.17g}", static_cast<double>(values.front()),
                 static_cast<double>(values[values.size() / 2]), static_cast<double>(values.back()));
   return text;
+}
+
+/// Prisms that stand on no boundary triangle: those of wake sheets and opened ridges.
+void print_free_prisms(const Mesh& mesh, const std::vector<char>& in_column) {
+  std::int64_t n = 0;
+  Point low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    if (mesh.cells[c].kind != 13 || in_column[c] != 0) continue;
+    ++n;
+    for (const auto node : mesh.cells[c].nodes)
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], mesh.points[node][k]);
+        high[k] = std::max(high[k], mesh.points[node][k]);
+      }
+  }
+  std::printf("\"free_prisms\": {\"n\": %lld", static_cast<long long>(n));
+  if (n > 0) std::printf(", \"box\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]]", low[0], low[1], low[2], high[0], high[1], high[2]);
+  std::printf("}");
+}
+
+/// Two markers as each other's image, moved by the way between the lower corners of their boxes.
+void print_pair(const Mesh& mesh, const std::string& first, const std::string& second) {
+  const auto named = [&](const std::string& name) {
+    const auto found = std::find_if(mesh.markers.begin(), mesh.markers.end(), [&](const Marker& marker) { return marker.name == name; });
+    return found == mesh.markers.end() ? std::vector<std::vector<std::int64_t>>{} : found->faces;
+  };
+  const auto a = named(first), b = named(second);
+  const auto nodes_in = [](const auto& faces) {
+    std::set<std::int64_t> nodes;
+    for (const auto& face : faces) nodes.insert(face.begin(), face.end());
+    return nodes;
+  };
+  const auto low_of = [&](const std::set<std::int64_t>& nodes) {
+    Point low = {1e300, 1e300, 1e300};
+    for (const auto node : nodes)
+      for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], mesh.points[node][k]);
+    return low;
+  };
+  const auto a_nodes = nodes_in(a), b_nodes = nodes_in(b);
+  const Point a_low = low_of(a_nodes), b_low = low_of(b_nodes);
+  std::map<std::int64_t, std::int64_t> partner;
+  double worst = 0.0;
+  for (const auto node : a_nodes) {
+    double least = HUGE_VAL;
+    for (const auto other : b_nodes) {
+      double off = 0.0;
+      for (int k = 0; k < 3; ++k) off = std::max(off, std::fabs(mesh.points[node][k] + b_low[k] - a_low[k] - mesh.points[other][k]));
+      if (off < least) {
+        least = off;
+        partner[node] = other;
+      }
+    }
+    worst = std::max(worst, least);
+  }
+  std::set<std::vector<std::int64_t>> faces;
+  for (auto face : b) {
+    std::sort(face.begin(), face.end());
+    faces.insert(face);
+  }
+  std::int64_t without = 0;
+  for (auto face : a) {
+    for (auto& node : face) node = partner.contains(node) ? partner[node] : -1;
+    std::sort(face.begin(), face.end());
+    without += faces.contains(face) ? 0 : 1;
+  }
+  std::printf("{\"nodes\": [%zu, %zu], \"faces\": [%zu, %zu], \"translation\": [%.17g, %.17g, %.17g], \"worst\": %.9g, \"faces_without_image\": %lld}",
+              a_nodes.size(), b_nodes.size(), a.size(), b.size(), b_low[0] - a_low[0], b_low[1] - a_low[1], b_low[2] - a_low[2],
+              std::isfinite(worst) ? worst : -1.0, static_cast<long long>(without));
 }
 
 double distance(const Point& at, const Point& a, const Point& b, const Point& c) {
@@ -497,12 +571,26 @@ std::string quoted(const std::string& text) {
   return made + "\"";
 }
 
+/// Of a triangle a, b, c (the first half of a quadrilateral): its area times n n^T.
+void add_normal(const Mesh& mesh, const std::vector<std::int64_t>& nodes, std::array<double, 6>& sum) {
+  const Wide u = minus(mesh.points[nodes[1]], mesh.points[nodes[0]]), v = minus(mesh.points[nodes[2]], mesh.points[nodes[0]]);
+  const Point n = {static_cast<double>(u[1] * v[2] - u[2] * v[1]), static_cast<double>(u[2] * v[0] - u[0] * v[2]),
+                   static_cast<double>(u[0] * v[1] - u[1] * v[0])};
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (!(length > 0)) return;
+  int at = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) sum[at++] += n[i] * n[j] / (2 * length);
+}
+
 void print_markers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, const std::vector<Layers>& layers) {
   std::vector<double> areas(mesh.markers.size(), 0.0);
   std::vector<Real> volumes(mesh.markers.size(), 0);
+  std::vector<std::array<double, 6>> normals(mesh.markers.size(), {0, 0, 0, 0, 0, 0});  // area n n^T: xx, xy, xz, yy, yz, zz
   std::vector<std::array<Point, 2>> boxes(mesh.markers.size(), {Point{1e300, 1e300, 1e300}, Point{-1e300, -1e300, -1e300}});
   for (const auto& face : boundary) {
     areas[face.marker] += area_of(mesh, face.nodes);
+    add_normal(mesh, face.nodes, normals[face.marker]);
     volumes[face.marker] += flux(mesh, face.nodes, mesh.points[boundary.front().nodes.front()]);
     for (const auto node : face.nodes)
       for (int k = 0; k < 3; ++k) {
@@ -516,13 +604,15 @@ void print_markers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, 
     std::printf("%s%s: {\"faces\": %zu, \"area\": %.17g, \"flux\": %.17g, ", m == 0 ? "" : ", ", quoted(mesh.markers[m].name).c_str(),
                 mesh.markers[m].faces.size(), areas[m], static_cast<double>(volumes[m]));
     if (areas[m] > 0) std::printf("\"box\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]], ", low[0], low[1], low[2], high[0], high[1], high[2]);
+    std::printf("\"normals\": [%.17g, %.17g, %.17g, %.17g, %.17g, %.17g], ", normals[m][0], normals[m][1], normals[m][2], normals[m][3], normals[m][4],
+                normals[m][5]);
     std::printf("\"first_edge\": %s, \"first_height\": %s, \"layers\": %s}", spread(layers[m].first).c_str(), spread(layers[m].height).c_str(),
                 spread(layers[m].numbers).c_str());
   }
   std::printf("}");
 }
 
-int audit(const std::string& path, const std::set<std::string>& walls, const std::vector<Point>& near) {
+int audit(const std::string& path, const std::set<std::string>& walls, const std::vector<Point>& near, const std::vector<std::array<std::string, 2>>& pairs) {
   Mesh mesh = read(path);
   Findings findings;
   std::map<int, std::int64_t> kinds;
@@ -538,8 +628,16 @@ int audit(const std::string& path, const std::set<std::string>& walls, const std
     look_at_boundary(mesh, boundary, total, findings);
     look_for_overlaps(mesh, findings);
     std::printf("\"volume\": %.17g, ", static_cast<double>(total));
-    print_markers(mesh, boundary, measure_layers(mesh, boundary, across));
-    std::printf(", \"near\": [");
+    std::vector<char> in_column;
+    print_markers(mesh, boundary, measure_layers(mesh, boundary, across, in_column));
+    std::printf(", ");
+    print_free_prisms(mesh, in_column);
+    std::printf(", \"pairs\": [");
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (i > 0) std::printf(", ");
+      print_pair(mesh, pairs[i][0], pairs[i][1]);
+    }
+    std::printf("], \"near\": [");
     for (std::size_t i = 0; i < near.size(); ++i) {
       double least = HUGE_VAL;
       for (const auto& face : boundary)
@@ -559,6 +657,7 @@ int main(int argc, char** argv) {
   std::string path;
   std::set<std::string> walls;
   std::vector<Point> near;
+  std::vector<std::array<std::string, 2>> pairs;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--wall") == 0 && i + 1 < argc) {
       walls.insert(argv[++i]);
@@ -566,12 +665,15 @@ int main(int argc, char** argv) {
       Point p;
       if (std::sscanf(argv[++i], "%lf,%lf,%lf", &p[0], &p[1], &p[2]) != 3) return std::fputs("--near X,Y,Z\n", stderr), 2;
       near.push_back(p);
+    } else if (std::strcmp(argv[i], "--pair") == 0 && i + 2 < argc) {
+      pairs.push_back({argv[i + 1], argv[i + 2]});
+      i += 2;
     } else {
       path = argv[i];
     }
   }
   try {
-    return audit(path, walls, near);
+    return audit(path, walls, near, pairs);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", path.c_str(), error.what());
     return 2;

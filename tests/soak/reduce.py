@@ -19,7 +19,8 @@ def smaller(case):
         less = copy.deepcopy(case)
         del less["components"][i]
         yield f"without {name}", less
-    for key, plain in (("disc", None), ("tunnel", None), ("attitude", None), ("half", None), ("triangulated", False), ("converted", None), ("offset", None), ("relative_farfield", None), ("output", ""),
+    for key, plain in (("disc", None), ("tunnel", None), ("attitude", None), ("half", None), ("triangulated", False), ("converted", None), ("offset", None), ("relative_farfield", None), ("output", ""), ("continued", None), ("through", None), ("wakes", None),
+                       ("periodic", None), ("deflections", {}),
                        ("scale", "1"), ("farfield", {})):
         if case.get(key) not in (plain, None, False, "", {}):
             less = copy.deepcopy(case)
@@ -29,6 +30,8 @@ def smaller(case):
                     less.pop("convert", None)
             else:
                 less[key] = plain
+                if key == "deflections":
+                    less["turned"] = []
             yield f"{key} left out", less
     for i in range(len(case.get("damage", []))):
         less = copy.deepcopy(case)

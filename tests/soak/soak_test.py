@@ -24,6 +24,16 @@ PLAIN = {"seed": 0, "index": 0, "kind": "parts", "size": 1.0, "triangulated": Fa
                         {"name": "part1", "lua": 'cylinder{ {0.5, 0.5, 0}, {0.5, 0.5, 2}, radius = 0.3, name = "part1" }', "needs": []}],
          "surface": {"max_edge": "0.4", "growth": "1.5"}, "volume": {"layers": "3", "first_height": "0.01"}}
 
+# A wing with a flap, and a pod between sides that match.
+WING = PLAIN | {"kind": "aircraft", "farfield": {}, "surface": {"max_edge": "0.3", "min_edge": "0.06", "curvature_angle": "40*deg", "growth": "1.6"},
+                "volume": {"layers": "3", "first_height": "0.002", "size_growth": "1.8", "improve_rounds": "2"}, "turned": [{"patch": "flap", "angle": "12"}],
+                "components": [{"name": "main_wing", "needs": [], "after": ['main_wing:deflect{ "flap", from = {0.3, 0.7}, to = {0.7, 0.7}, angle = 12*deg }'],
+                                "plain": 'main_wing:control{ "flap", from = {0.3, 0.7}, to = {0.7, 0.7} }',
+                                "lua": 'wing{ name = "wing", symmetric = true, trailing_edge = 0.01, sections = { { y = 0, chord = 1, airfoil = "naca0012" }, { y = 2 } } }'}]}
+ROW = PLAIN | {"farfield": {}, "periodic": [["tunnel_left", "tunnel_right", ["0", "2", "0"]]], "tunnel_box": [["-2", "-1", "-1"], ["3", "1", "1"]],
+               "tunnel": 'test_section{ length = 5, width = 2, height = 2, upstream = 2, max_edge = 0.5, walls = "slip" }',
+               "components": [{"name": "pod", "needs": [], "lua": 'cylinder{ {0, 0.2, 0}, {1, 0.2, 0}, radius = 0.3, name = "pod" }'}]}
+
 # What a program in the place of sterna does to its mesh: Python that changes `lines` of the file.
 SPOIL = {
     "turned": "i = next(i for i, line in enumerate(lines) if line.startswith('10 ')); w = lines[i].split(); w[1], w[2] = w[2], w[1]; lines[i] = ' '.join(w)",
@@ -73,6 +83,31 @@ class Verdicts(unittest.TestCase):
             result = Fake("silent_" + name, text).judged(PLAIN)
             self.assertEqual((result["verdict"], result["why"].partition(":")[0]), ("wrong", "silent"), f"{name}: {result}")
 
+    def test_what_was_asked_beside_layers_is_looked_for(self):
+        surface = {"shape": "surface", "radii": ["9", "8", "7"], "center": ["0", "0", "0"], "n": 12}
+        cylinder = {"shape": "cylinder", "from": "-8", "to": "16", "radius": "8", "sides": True}
+        box = {"shape": "box", "low": ["-8", "-8", "-8"], "high": ["16", "8", "8"], "sides": True}
+        for name, case, change, word in (
+                ("wakes", WING | {"wakes": '"auto"', "wake_reach": "0.2"}, 's/, wakes = "auto"//', "wake sheet"), ("short_wake", WING | {"wakes": '"auto"', "wake_reach": "5"}, "s/x/x/", "long"),
+                ("own_wakes", WING, 's/layers = 3/layers = 3, wakes = "auto"/', "stand on no wall"), ("flap", WING, "s/angle = 12/angle = 2/", "turned by"),
+                ("cylinder", PLAIN | {"farfield": cylinder}, "s/radius = 8/radius = 7/", "cylinder asked"), ("sides", PLAIN | {"farfield": cylinder}, 's/start = "inflow", //', "inflow"),
+                ("box_sides", PLAIN | {"farfield": box}, 's/x_max = "outflow"/x_min = "inflow"/', "outflow"), ("surface", PLAIN | {"farfield": surface}, 's/"far.stl"/sphere{ radius = 20 }/', "surface asked"),
+                ("tunnel", ROW, "s/length = 5/length = 6/", "tunnel asked"), ("periodic", ROW, 's/, periodic = {.*} }/ }/', "do not match"),
+                ("through", PLAIN | {"through": ".step"}, 's/read_cad "model.step"/read_cad{ "model.step", unit = 1.1 }/', "read from")):
+            good = Fake("asked_" + name, f'#!/bin/sh\nexec {STERNA} "$@"\n').judged(case)
+            self.assertIn(good["verdict"], ("VALID", "forced") if name != "short_wake" else ("wrong",), f"{name}: {good}")
+            result = Fake("not_done_" + name, f"#!/bin/sh\nsed -i '{change}' case.lua\nexec {STERNA} \"$@\"\n").judged(case)
+            self.assertEqual((result["verdict"], result["why"].partition(":")[0]), ("wrong", "silent"), f"{name}: {result}")
+            self.assertIn(word, result["why"], name)
+
+    def test_another_mesh_when_continued_is_wrong(self):
+        for step in ("envelope", "tetrahedra"):
+            case = PLAIN | {"continued": step}
+            good = Fake("continued_" + step, f'#!/bin/sh\nexec {STERNA} "$@"\n').judged(case)
+            self.assertIn(good["verdict"], ("VALID", "forced"), good)
+            result = Fake("continues_otherwise_" + step, f'#!/bin/sh\n{STERNA} "$@" || exit 1\n[ ! -f continued.su2 ] || echo >> continued.su2\n').judged(case)
+            self.assertEqual((result["verdict"], result["why"]), ("wrong", f"continued behind the {step}: another mesh"))
+
     def test_crashes_hangs_and_silence_are_wrong(self):
         for name, text, word in (("crash", "kill -SEGV $$", "crash"), ("hang", "while true; do :; done", "hang"), ("mute", "exit 1", "dishonest"), ("idle", "exit 0", "no mesh"),
                                  ("curt", 'echo "error: it failed at (1, 2, 3)" >&2; exit 1', "dishonest"), ("blind", 'printf "error: it failed\\n  try: again\\n" >&2; exit 1', "dishonest")):
@@ -106,9 +141,11 @@ class Generator(unittest.TestCase):
     def test_the_same_number_gives_the_same_case_and_every_kind_comes(self):
         table = cases.options_of(STERNA, "volume_mesh")
         self.assertGreater(len(table), 20)
-        made = [cases.make(1, index, table, None) for index in range(60)]
-        self.assertEqual(json.dumps(made), json.dumps([cases.make(1, index, table, None) for index in range(60)]))
-        self.assertEqual({case["kind"] for case in made}, {"aircraft", "parts", "surface"})
+        made = [cases.make(1, index, table, None) for index in range(120)]
+        self.assertEqual(json.dumps(made), json.dumps([cases.make(1, index, table, None) for index in range(120)]))
+        self.assertEqual({case["kind"] for case in made}, {"aircraft", "parts", "surface", "model"})
+        for what in ("wakes", "through", "periodic", "turned", "continued", "tunnel", "half", "attitude"):
+            self.assertTrue(any(case.get(what) for case in made), what)
         self.assertNotEqual(made[0], cases.make(2, 0, table, None))
 
     def test_damage_changes_a_surface_and_forms_are_closed(self):

@@ -154,6 +154,21 @@ def read_stl(path):
     return [tuple(points[i:i + 3]) for i in range(0, len(points) - 2, 3)]
 
 
+def read_stl_patches(path):
+    """Soups by the names of the solids of a text file."""
+    soups, points = {}, []
+    for line in path.read_text(errors="replace").splitlines():
+        words = line.split()
+        if words[:1] == ["solid"]:
+            soup = soups.setdefault(" ".join(words[1:]), [])
+        elif words[:1] == ["vertex"]:
+            points.append(tuple(map(float, words[1:4])))
+            if len(points) == 3:
+                soup.append(tuple(points))
+                points = []
+    return soups
+
+
 def read_off(path):
     words = [word for line in path.read_text().splitlines() for word in line.partition("#")[0].split()]
     words = words[1:] if words[0].upper() == "OFF" else words
