@@ -1,18 +1,23 @@
-// Steps: find_edges, choose_vertices, walk_chains (which side of a vertex is which), make_fans, close_gaps. Virtual triangles are what a tiny rounding of the
-// edge would be, so all that comes after works as on any wall.
+// Steps: find_edges, choose_vertices, walk_chains (which side of a vertex is which), make_fans, make_corners, close_gaps. Virtual triangles are what a tiny
+// rounding of the edge would be, so all that comes after works as on any wall.
 #include "volmesh/domain/open_ridges.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <queue>
 #include <string>
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
+#include "geom/base/sort_unique.h"
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 
 namespace sterna::volmesh {
@@ -26,14 +31,37 @@ constexpr double k_side_cosine = 0.5;            ///< 60 degrees: between the no
 constexpr double k_far_turn = 182.0 * k_degree;  ///< knife edges turn by 180 degrees up to rounding
 constexpr double k_angle_slack = 1e-6;           ///< of fan_angle: no sector for rounding
 constexpr double k_clear_axis = 0.1;             ///< sine of the turn above which both normals give its axis
+constexpr double k_corner_cosine = 0.3;          ///< between lines of a corner and the virtual triangles there, at least
+constexpr double k_corner_slack = 0.05;          ///< cosine: lines of knife edges are at a right angle to the one in the middle
+
+/// The turn across an edge of a ridge, from the normal of its left side to that of its right one.
+struct Turn {
+  double angle = 0.0;  ///< rad
+  Vec3 axis;           ///< unit: turns the left normal towards the right one
+  /// The left normal turned by so much.
+  Vec3 turned(const Vec3& left, double by) const { return normalized(std::cos(by) * left + std::sin(by) * cross(axis, left)); }
+};
 
 /// One vertex inside a chain, or the one at which it goes on in its mirror image.
 struct Inner {
   HalfedgeId ahead, back;       ///< outgoing edges of the chain; one is invalid in a plane on which the wall ends
-  double turn = 0.0;            ///< rad, between the normals of both sides
+  Turn turn;                    ///< between the normals of both sides
   std::array<Vec3, 2> normal;   ///< unit, of the sides: left and right of the way ahead
-  Vec3 axis;                    ///< unit: turns the left normal towards the right one
   std::vector<VertexId> lines;  ///< from left to right
+};
+
+/// A vertex at which ridges meet, or one bends by too much for the inside of a chain: a line for each side between two of its ridges, those of the fans
+/// between them, and one in the middle.
+struct Corner {
+  std::vector<HalfedgeId> edges;             ///< of ridges, outgoing, counter-clockwise
+  std::vector<Vec3> normal;                  ///< unit, of the side left of each
+  std::vector<Turn> turn;                    ///< across each: between the facets at it
+  std::vector<Vec3> facet;                   ///< unit normal of the left one of these
+  std::vector<int> n_sectors;                ///< of the fan across each; 0: not known yet
+  std::vector<std::vector<VertexId>> lines;  ///< from left to right of each
+  VertexId middle;                           ///< the line in the middle
+  const Vec3& right_normal(std::size_t i) const { return normal[(i + normal.size() - 1) % normal.size()]; }
+  std::size_t edge_number(HalfedgeId h) const { return static_cast<std::size_t>(std::ranges::find(edges, h) - edges.begin()); }
 };
 
 class RidgeOpener {
@@ -49,15 +77,15 @@ class RidgeOpener {
         topology_(domain.wall, context),
         is_chain_(topology_.n_halfedges(), 0) {}
 
-  void open(std::span<const VertexId> closed, const RunContext& context) {
+  void open(std::span<const VertexId> closed) {
     find_edges();
     choose_vertices(closed);
     walk_chains();
     make_fans();
-    close_gaps();
+    make_corners();
     if (domain_.ridges.is_empty()) return;
-    context.info("ridges: " + std::to_string(domain_.ridges.feet.size()) + " vertices of the wall have several normals, " +
-                 std::to_string(wall_.n_vertices() - domain_.ridges.n_given_vertices) + " more lines");
+    number_feet();
+    close_gaps();
   }
 
  private:
@@ -98,8 +126,12 @@ class RidgeOpener {
     return triangles;
   }
 
+  bool is_inner_at(HalfedgeId h) const { return h.is_valid() && inner_[topology_.to(h)]; }
   VertexId vertex_at(HalfedgeId h) const { return h.is_valid() ? topology_.to(h) : VertexId{}; }
-  bool has_fan_at(HalfedgeId h) const { return h.is_valid() && inner_[topology_.to(h)]; }
+  bool has_fan(VertexId v) const { return inner_[v] || corners_.contains(v); }
+  bool has_fan_at(HalfedgeId h) const { return h.is_valid() && has_fan(topology_.to(h)); }
+  /// Fans need a fan beside them; what is beside the last one is the chain's end, which has to be free.
+  bool can_end(HalfedgeId h) const { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); }
 
   /// The normal of one side of a vertex; nothing where it does not see all of it well.
   std::optional<Vec3> side_normal(VertexId v, const std::vector<TriangleId>& side) const {
@@ -122,9 +154,83 @@ class RidgeOpener {
     for (const HalfedgeId h : topology_.outgoing(v))
       if (is_chain_[h]) (n++ == 0 ? inner.ahead : inner.back) = h;
     if (!(n == 2 && is_free(v)) && !(n == 1 && is_in_plane(v))) return {};
-    for (const VertexId w : topology_.neighbours(v))
-      if (distance(point(v), point(w)) > longest_edge_) return {};
+    if (has_long_edge(v)) return {};
     return measured(v, inner);
+  }
+
+  bool has_long_edge(VertexId v) const {
+    return std::ranges::any_of(topology_.neighbours(v), [&](VertexId w) { return distance(point(v), point(w)) > longest_edge_; });
+  }
+
+  /// From one normal to another, rad, 0 to two pi.
+  static double turn_about(const Vec3& along, const Vec3& left, const Vec3& right) {
+    const double angle = std::atan2(dot(cross(left, right), along), dot(left, right));
+    return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
+  }
+
+  /// Whether a vertex can be a corner. \pre it is not inside a chain
+  std::optional<Corner> corner_at(VertexId v) const {
+    Corner corner;
+    for (const HalfedgeId h : topology_.outgoing(v))
+      if (is_chain_[h]) corner.edges.push_back(h);
+    if (corner.edges.size() < 2 || !is_free(v) || has_long_edge(v)) return {};
+    const HalfedgeId first = corner.edges.front();
+    corner.edges.resize(1);
+    for (HalfedgeId h = topology_.twin(previous(first)); h != first; h = topology_.twin(previous(h)))
+      if (is_chain_[h]) corner.edges.push_back(h);
+    const std::size_t n = corner.edges.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::optional<Vec3> side = side_normal(v, sector(corner.edges[i], corner.edges[(i + 1) % n]));
+      if (!side) return {};
+      corner.normal.push_back(*side);
+    }
+    for (const HalfedgeId h : corner.edges) {
+      const Vec3 along = normalized(point(topology_.to(h)) - point(v));
+      corner.facet.push_back(normal(triangle_of(h)));
+      corner.turn.push_back({turn_about(along, corner.facet.back(), normal(triangle_of(topology_.twin(h)))), along});
+    }
+    corner.n_sectors.assign(n, 0);
+    return corner;
+  }
+
+  int n_sectors(double turn) const { return std::max(2, static_cast<int>(std::ceil(turn / options_.fan_angle - k_angle_slack))); }
+
+  /// Normals of a corner's lines from left to right of an edge: around it from facet to facet, moved to the sides' normals at both ends.
+  static std::vector<Vec3> normals_across(const Corner& corner, std::size_t i) {
+    const Turn& turn = corner.turn[i];
+    const Vec3 left = corner.normal[i] - corner.facet[i], right = corner.right_normal(i) - turn.turned(corner.facet[i], turn.angle);
+    std::vector<Vec3> normals = {corner.normal[i]};
+    for (int k = 1; k < corner.n_sectors[i]; ++k) {
+      const double share = static_cast<double>(k) / corner.n_sectors[i];
+      normals.push_back(normalized(turn.turned(corner.facet[i], share * turn.angle) + (1.0 - share) * left + share * right));
+    }
+    normals.push_back(corner.right_normal(i));
+    return normals;
+  }
+
+  /// The middle of the spherical polygon of a corner's lines: its area vector.
+  static Vec3 middle_of(const Corner& corner) {
+    Vec3 sum;
+    for (std::size_t i = 0; i < corner.edges.size(); ++i) {
+      const std::vector<Vec3> n = normals_across(corner, i);
+      for (std::size_t k = 0; k + 1 < n.size(); ++k) sum += cross(n[k + 1], n[k]);
+    }
+    return normalized(sum);
+  }
+
+  /// Whether the triangles between the middle and the polygon cover it and are seen well from their lines.
+  bool is_star(Corner corner) const {
+    for (std::size_t i = 0; i < corner.edges.size(); ++i) corner.n_sectors[i] = n_sectors(corner.turn[i].angle);
+    const Vec3 middle = middle_of(corner);
+    for (std::size_t i = 0; i < corner.edges.size(); ++i) {
+      const std::vector<Vec3> n = normals_across(corner, i);
+      for (std::size_t k = 0; k + 1 < n.size(); ++k) {
+        const Vec3 area = cross(n[k] - n[k + 1], middle - n[k + 1]);
+        if (!(dot(normalized(area), middle) > k_corner_cosine)) return false;
+        if (dot(n[k], middle) < -k_corner_slack) return false;  // a notch: its lines would meet
+      }
+    }
+    return true;
   }
 
   Vec3 mirrored(VertexId v, const Vec3& way) const {
@@ -142,10 +248,9 @@ class RidgeOpener {
     if (!left || !right) return {};
     inner.normal = {*left, *right};
     const Vec3 across = cross(*left, *right);
-    inner.turn = std::atan2(dot(across, along), dot(*left, *right));
-    if (inner.turn < 0.0) inner.turn += 2.0 * std::numbers::pi;
-    if (inner.turn > k_far_turn || inner.turn < 0.5 * options_.open_angle) return {};
-    inner.axis = dot(across, along) > k_clear_axis ? normalized(across) : normalized(along - dot(along, *left) * *left);
+    inner.turn.angle = turn_about(along, *left, *right);
+    if (inner.turn.angle > k_far_turn || inner.turn.angle < 0.5 * options_.open_angle) return {};
+    inner.turn.axis = dot(across, along) > k_clear_axis ? normalized(across) : normalized(along - dot(along, *left) * *left);
     return inner;
   }
 
@@ -163,24 +268,33 @@ class RidgeOpener {
     for (const VertexId v : wall_.points.ids())
       if (has_other[v]) patch_beyond_[v] = {};
     inner_.resize(wall_.n_vertices());
-    for (const VertexId v : wall_.points.ids()) inner_[v] = inner_at(v);
+    for (const VertexId v : wall_.points.ids()) {
+      inner_[v] = inner_at(v);
+      if (inner_[v]) continue;
+      if (std::optional<Corner> corner = corner_at(v); corner && is_star(*corner)) corners_.emplace(v, std::move(*corner));
+    }
     for (const VertexId v : closed) {
       if (v.index() >= wall_.n_vertices())
         throw_bad_argument("opening ridges", "vertex " + std::to_string(v.value()) + " is to stay closed, the wall has " + std::to_string(wall_.n_vertices()),
                            {}, "surface and envelope must come from one run");
       inner_[v].reset();
+      corners_.erase(v);
     }
-    // Fans need a fan beside them; what is beside the last one is the chain's end, which has to be free.
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v]) continue;
         const HalfedgeId ahead = inner_[v]->ahead, back = inner_[v]->back;
-        const auto can_end = [&](HalfedgeId h) { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); };
         if (vertex_at(ahead) != vertex_at(back) && (has_fan_at(ahead) || has_fan_at(back)) && can_end(ahead) && can_end(back)) continue;
         inner_[v].reset();
         has_changed = true;
       }
+      const auto cannot_be = [&](const auto& entry) {
+        const std::vector<HalfedgeId>& edges = entry.second.edges;
+        return std::ranges::count_if(edges, [&](HalfedgeId h) { return has_fan_at(h); }) < 2 ||
+               !std::ranges::all_of(edges, [&](HalfedgeId h) { return can_end(h); });
+      };
+      if (std::erase_if(corners_, cannot_be) > 0) has_changed = true;
     }
   }
 
@@ -191,7 +305,7 @@ class RidgeOpener {
       Inner& inner = *inner_[v];
       std::swap(inner.ahead, inner.back);
       std::swap(inner.normal[0], inner.normal[1]);
-      inner.axis = -inner.axis;
+      inner.turn.axis = -inner.turn.axis;
     };
     const auto walk = [&](VertexId v) {
       std::vector<VertexId>& chain = chains_.emplace_back();
@@ -207,29 +321,42 @@ class RidgeOpener {
     for (const bool from_ends : {true, false})  // what is left then are loops
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v] || is_done[v]) continue;
-        const bool is_first = !has_fan_at(inner_[v]->back), is_last = !has_fan_at(inner_[v]->ahead);
+        const bool is_first = !is_inner_at(inner_[v]->back), is_last = !is_inner_at(inner_[v]->ahead);
         if (from_ends && !is_first && !is_last) continue;
         if (from_ends && !is_first) turn_round(v);
         walk(v);
       }
   }
 
-  /// Along the ridges, m; they do not end in planes.
+  /// To the nearest end along the ridges, m; they do not end in planes.
   Column<VertexId, double> distances_to_ends() const {
     Column<VertexId, double> to_end(wall_.n_vertices(), k_infinity);
-    const auto walk = [&](const std::vector<VertexId>& chain, VertexId end) {
-      double length = 0.0;
-      for (VertexId before = end; const VertexId v : chain) {
-        length += distance(point(before), point(v));
-        to_end[v] = std::min(to_end[v], length);
-        before = v;
-      }
+    using Reached = std::pair<double, VertexId>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
+    const auto reach = [&](VertexId v, double length) {
+      if (!(length < to_end[v])) return;
+      to_end[v] = length;
+      front.emplace(length, v);
     };
-    for (const std::vector<VertexId>& chain : chains_) {
-      const HalfedgeId first = inner_[chain.front()]->back, last = inner_[chain.back()]->ahead;
-      if (has_fan_at(first)) continue;  // a loop
-      if (first.is_valid()) walk(chain, topology_.to(first));
-      if (last.is_valid()) walk({chain.rbegin(), chain.rend()}, topology_.to(last));
+    const auto for_each_edge_of = [&](VertexId v, const auto& f) {
+      if (inner_[v]) {
+        for (const HalfedgeId h : {inner_[v]->back, inner_[v]->ahead})
+          if (h.is_valid()) f(h);
+      } else
+        for (const HalfedgeId h : corners_.at(v).edges) f(h);
+    };
+    for (const VertexId v : wall_.points.ids())
+      if (has_fan(v))
+        for_each_edge_of(v, [&](HalfedgeId h) {
+          if (!has_fan_at(h)) reach(v, distance(point(v), point(topology_.to(h))));
+        });
+    while (!front.empty()) {
+      const auto [length, v] = front.top();
+      front.pop();
+      if (length > to_end[v]) continue;
+      for_each_edge_of(v, [&](HalfedgeId h) {
+        if (has_fan_at(h)) reach(topology_.to(h), length + distance(point(v), point(topology_.to(h))));
+      });
     }
     return to_end;
   }
@@ -239,51 +366,106 @@ class RidgeOpener {
     OpenedRidges& ridges = domain_.ridges;
     ridges.n_given_vertices = wall_.n_vertices();
     ridges.n_given_triangles = wall_.n_triangles();
-    const Column<VertexId, double> to_end = distances_to_ends();
+    to_end_ = distances_to_ends();
+    given_ = wall_.points;
     for (const std::vector<VertexId>& chain : chains_) {
       double most = 0.0;
-      for (const VertexId v : chain) most = std::max(most, inner_[v]->turn);
-      const int n_sectors = std::max(2, static_cast<int>(std::ceil(most / options_.fan_angle - k_angle_slack)));
+      for (const VertexId v : chain) most = std::max(most, inner_[v]->turn.angle);
+      const std::array<HalfedgeId, 2> out = {inner_[chain.front()]->back, inner_[chain.back()]->ahead};
+      for (const HalfedgeId h : out)
+        if (const Corner* const corner = corner_beyond(h)) most = std::max(most, corner->turn[corner->edge_number(topology_.twin(h))].angle);
+      const int n = n_sectors(most);
+      for (const HalfedgeId h : out)
+        if (Corner* const corner = corner_beyond(h)) corner->n_sectors[corner->edge_number(topology_.twin(h))] = n;
       for (const VertexId v : chain) {
         Inner& inner = *inner_[v];
-        const Point foot = point(v);
-        const double half = 0.5 * inner.turn;
-        const Vec3 middle = normalized(std::cos(half) * inner.normal[0] + std::sin(half) * cross(inner.axis, inner.normal[0]));
-        ridges.feet.push_back({v, foot, middle, std::max(0.0, std::cos(half)), to_end[v]});
-        for (int i = 0; i <= n_sectors; ++i) {
-          const double angle = inner.turn * i / n_sectors;
-          const Vec3 n = i == 0           ? inner.normal[0]
-                         : i == n_sectors ? inner.normal[1]
-                                          : normalized(std::cos(angle) * inner.normal[0] + std::sin(angle) * cross(inner.axis, inner.normal[0]));
-          const Point raised = foot + raise_ * n;
-          if (i == 0) {
-            inner.lines.push_back(v);
-            wall_.points[v] = raised;
-          } else {
-            inner.lines.push_back(wall_.points.push_back(raised));
-          }
-        }
-        for (const TriangleId t : sector(inner.back, inner.ahead))
-          for (VertexId& corner : wall_.triangles[t])
-            if (corner == v) corner = inner.lines.back();
+        const double half = 0.5 * inner.turn.angle;
+        ridges.feet.push_back({v, given_[v], inner.turn.turned(inner.normal[0], half), std::max(0.0, std::cos(half)), to_end_[v]});
+        for (int i = 0; i <= n; ++i)
+          inner.lines.push_back(new_line(v, i == 0,
+                                         i == 0   ? inner.normal[0]
+                                         : i == n ? inner.normal[1]
+                                                  : inner.turn.turned(inner.normal[0], inner.turn.angle * i / n)));
+        move_triangles(v, sector(inner.back, inner.ahead), inner.lines.back());
       }
     }
+  }
+
+  Corner* corner_beyond(HalfedgeId h) {
+    if (!h.is_valid()) return nullptr;
+    const auto found = corners_.find(topology_.to(h));
+    return found == corners_.end() ? nullptr : &found->second;
+  }
+
+  /// \param is_first: the vertex itself; else a new one
+  VertexId new_line(VertexId v, bool is_first, const Vec3& normal) {
+    const Point raised = given_[v] + raise_ * normal;
+    if (!is_first) return wall_.points.push_back(raised);
+    wall_.points[v] = raised;
+    return v;
+  }
+
+  void move_triangles(VertexId v, const std::vector<TriangleId>& side, VertexId line) {
+    for (const TriangleId t : side)
+      for (VertexId& corner : wall_.triangles[t])
+        if (corner == v) corner = line;
+  }
+
+  void make_corners() {
+    for (auto& [v, corner] : corners_) {
+      const std::size_t n = corner.edges.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        if (corner.n_sectors[i] > 0) continue;  // a chain's
+        double most = corner.turn[i].angle;
+        if (const Corner* const other = corner_beyond(corner.edges[i]))
+          most = std::max(most, other->turn[other->edge_number(topology_.twin(corner.edges[i]))].angle);
+        corner.n_sectors[i] = n_sectors(most);
+      }
+      std::vector<VertexId> of_side;
+      for (std::size_t i = 0; i < n; ++i) of_side.push_back(new_line(v, i == 0, corner.normal[i]));
+      const Vec3 middle = middle_of(corner);
+      double visibility = 1.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::vector<Vec3> normals = normals_across(corner, i);
+        std::vector<VertexId>& lines = corner.lines.emplace_back();
+        for (std::size_t k = 0; k < normals.size(); ++k) {
+          visibility = std::min(visibility, dot(middle, normals[k]));
+          lines.push_back(k == 0 ? of_side[i] : k + 1 == normals.size() ? of_side[(i + n - 1) % n] : new_line(v, false, normals[k]));
+        }
+        if (i > 0) move_triangles(v, sector(corner.edges[i], corner.edges[(i + 1) % n]), of_side[i]);
+      }
+      corner.middle = new_line(v, false, middle);
+      domain_.ridges.feet.push_back({v, given_[v], middle, std::max(0.0, visibility), to_end_[v]});
+    }
+  }
+
+  void number_feet() {
+    OpenedRidges& ridges = domain_.ridges;
     std::ranges::sort(ridges.feet, {}, &OpenedRidges::Foot::vertex);
-    if (ridges.is_empty()) return;
     ridges.foot.resize(wall_.n_vertices());
     for (const VertexId v : ridges.foot.ids()) ridges.foot[v] = v;
     for (const std::vector<VertexId>& chain : chains_)
       for (const VertexId v : chain)
         for (const VertexId line : inner_[v]->lines) ridges.foot[line] = v;
+    for (const auto& [v, corner] : corners_) {
+      for (const std::vector<VertexId>& lines : corner.lines)
+        for (const VertexId line : lines) ridges.foot[line] = v;
+      ridges.foot[corner.middle] = v;
+    }
   }
 
   /// Whether a ridge goes on in its mirror image there.
-  bool is_at_plane(VertexId v) const { return !inner_[v]->ahead.is_valid() || !inner_[v]->back.is_valid(); }
+  bool is_at_plane(VertexId v) const { return inner_[v] && (!inner_[v]->ahead.is_valid() || !inner_[v]->back.is_valid()); }
 
-  /// Lines of a vertex from left to right of the way along an edge that starts (or ends) there.
-  std::vector<VertexId> lines_along(VertexId v, bool is_ahead) const {
+  /// Lines of a vertex from left to right of the way along an edge that starts there.
+  std::vector<VertexId> lines_along(HalfedgeId h) const {
+    const VertexId v = topology_.from(h);
+    if (!inner_[v]) {
+      const Corner& corner = corners_.at(v);
+      return corner.lines[corner.edge_number(h)];
+    }
     std::vector<VertexId> lines = inner_[v]->lines;
-    if (!is_ahead) std::ranges::reverse(lines);
+    if (h != inner_[v]->ahead) std::ranges::reverse(lines);
     return lines;
   }
 
@@ -291,28 +473,17 @@ class RidgeOpener {
     OpenedRidges& ridges = domain_.ridges;
     for (const std::vector<VertexId>& chain : chains_)
       for (const VertexId v : chain)
-        for (const HalfedgeId h : {inner_[v]->ahead, inner_[v]->back}) {
-          if (!h.is_valid()) continue;
-          const VertexId w = topology_.to(h);
-          if (inner_[w] && w < v) continue;  // from there
-          const std::vector<VertexId> own = lines_along(v, h == inner_[v]->ahead);
-          const PatchId patch = wall_.triangle_patch[triangle_of(h)];
-          if (inner_[w]) {
-            const std::vector<VertexId> other = lines_along(w, topology_.twin(h) == inner_[w]->back);
-            for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-              add_quad({other[i], own[i], own[i + 1], other[i + 1]}, h, patch);
-              const TriangleId last(wall_.n_triangles() - 1);
-              if (is_at_plane(v)) domain_.rim.push_back({halfedge(TriangleId(last.index() - 1), 1), patch_beyond_[v]});
-              if (is_at_plane(w)) domain_.rim.push_back({halfedge(last, 2), patch_beyond_[w]});
-            }
-          } else {
-            for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-              ridges.ends.push_back({w, own[i], own[i + 1]});
-              add_triangle(ridges.ends.back(), h, patch);
-            }
-            ridges.end_vertices.push_back(w);
-          }
+        for (const HalfedgeId h : {inner_[v]->ahead, inner_[v]->back})
+          if (h.is_valid() && !(is_inner_at(h) && topology_.to(h) < v)) close_gap(h);
+    for (const auto& [v, corner] : corners_) {
+      for (const HalfedgeId h : corner.edges)
+        if (!is_inner_at(h) && !(has_fan_at(h) && topology_.to(h) < v)) close_gap(h);
+      for (std::size_t i = 0; i < corner.edges.size(); ++i)
+        for (std::size_t k = 0; k + 1 < corner.lines[i].size(); ++k) {
+          ridges.corners.push_back({corner.lines[i][k + 1], corner.lines[i][k], corner.middle});
+          add_triangle(ridges.corners.back(), corner.edges[i], wall_.triangle_patch[triangle_of(corner.edges[i])]);
         }
+    }
     std::ranges::sort(ridges.end_vertices);
     ridges.end_vertices.erase(std::unique(ridges.end_vertices.begin(), ridges.end_vertices.end()), ridges.end_vertices.end());
     if (!domain_.constraints.vertex.empty())
@@ -321,6 +492,30 @@ class RidgeOpener {
     if (!domain_.constraints.near.empty())
       for (std::size_t i = domain_.constraints.near.size(); i < wall_.n_vertices(); ++i)
         domain_.constraints.near.push_back(domain_.constraints.near[ridges.foot[VertexId(i)]]);
+  }
+
+  /// Virtual triangles along an edge of a ridge that starts at a fan.
+  void close_gap(HalfedgeId h) {
+    OpenedRidges& ridges = domain_.ridges;
+    const VertexId v = topology_.from(h), w = topology_.to(h);
+    const std::vector<VertexId> own = lines_along(h);
+    const PatchId patch = wall_.triangle_patch[triangle_of(h)];
+    if (!has_fan(w)) {
+      for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+        ridges.ends.push_back({w, own[i], own[i + 1]});
+        add_triangle(ridges.ends.back(), h, patch);
+      }
+      ridges.end_vertices.push_back(w);
+      return;
+    }
+    std::vector<VertexId> other = lines_along(topology_.twin(h));
+    std::ranges::reverse(other);
+    for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+      add_quad({other[i], own[i], own[i + 1], other[i + 1]}, h, patch);
+      const TriangleId last(wall_.n_triangles() - 1);
+      if (is_at_plane(v)) domain_.rim.push_back({halfedge(TriangleId(last.index() - 1), 1), patch_beyond_[v]});
+      if (is_at_plane(w)) domain_.rim.push_back({halfedge(last, 2), patch_beyond_[w]});
+    }
   }
 
   void add_quad(const std::array<VertexId, 4>& q, HalfedgeId beside, PatchId patch) {
@@ -347,8 +542,30 @@ class RidgeOpener {
   Column<VertexId, std::uint8_t> is_partner_;
   Column<VertexId, PatchId> patch_beyond_;  ///< of the outer boundary, on which the wall ends there; invalid elsewhere, and where there are several
   Column<VertexId, std::optional<Inner>> inner_;
+  std::map<VertexId, Corner> corners_;
   std::vector<std::vector<VertexId>> chains_;
+  Column<VertexId, double> to_end_;  ///< m
+  Column<VertexId, Point> given_;    ///< points of the wall as it was given
 };
+
+/// Feet of fans at which the opened wall crosses itself, ascending.
+std::vector<VertexId> crossing_fans(const Domain& opened, const RunContext& context) {
+  std::vector<VertexId> feet;
+  const auto is_fan = [&](VertexId foot) { return std::ranges::binary_search(opened.ridges.feet, foot, {}, &OpenedRidges::Foot::vertex); };
+  for (const auto& pair : find_crossings(opened.wall, context).pairs)
+    for (const std::uint32_t t : pair)
+      for (const VertexId v : opened.wall.triangles[TriangleId(t)])
+        if (const VertexId foot = opened.ridges.foot[v]; is_fan(foot)) feet.push_back(foot);
+  sort_unique(feet);
+  return feet;
+}
+
+std::size_t count_corners(const OpenedRidges& ridges) {
+  std::vector<VertexId> feet;
+  for (const auto& t : ridges.corners) feet.push_back(ridges.foot[t[0]]);
+  sort_unique(feet);
+  return feet.size();
+}
 
 }  // namespace
 
@@ -362,7 +579,25 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
     throw_bad_argument("opening ridges",
                        "the first height of " + number_text(first_height, 3) + " m is too small for coordinates of " + number_text(largest, 3) + " m", {},
                        "move the surface to the origin, or open_ridges = \"never\"");
-  RidgeOpener(options, is_open, first_height, raise, domain, context).open(closed, context);
+  std::vector<VertexId> shut(closed.begin(), closed.end());
+  for (;;) {
+    Domain opened = domain;
+    RidgeOpener(options, is_open, first_height, raise, opened, context).open(shut);
+    if (opened.ridges.is_empty()) return;
+    const std::vector<VertexId> crossing = crossing_fans(opened, context);
+    if (crossing.empty()) {
+      domain = std::move(opened);
+      break;
+    }
+    context.warn("ridges stay closed at " + std::to_string(crossing.size()) + " vertices of the wall: lines of several normals would cross it, the first at " +
+                 format_point(domain.wall.points[crossing.front()]));
+    shut.insert(shut.end(), crossing.begin(), crossing.end());
+  }
+  const OpenedRidges& ridges = domain.ridges;
+  const std::size_t n_corners = count_corners(ridges);
+  context.info("ridges: " + std::to_string(ridges.feet.size()) + " vertices of the wall have several normals, " +
+               (n_corners == 0 ? "" : std::to_string(n_corners) + " of them corners, ") + std::to_string(domain.wall.n_vertices() - ridges.n_given_vertices) +
+               " more lines");
 }
 
 }  // namespace sterna::volmesh

@@ -142,8 +142,8 @@ void LayerBase::even_out_fans() {
       sums.area += area[triangle_of(h)];
       sums.n_triangles += 1.0;
     }
-    sums.edges += mean_edge[v];
-    sums.n_lines += 1.0;
+    sums.edges += mean_edge[v];  // lines amid a corner have none
+    sums.n_lines += mean_edge[v] > 0.0 ? 1.0 : 0.0;
   }
   for (const VertexId v : wall.points.ids()) {
     const Sums& sums = of_foot[ridges->foot[v]];

@@ -26,6 +26,7 @@ struct OpenedRidges {
   Column<VertexId, VertexId> foot;                          ///< of every vertex: the first of its fan, itself where it has none; empty: nothing is open
   std::vector<std::array<VertexId, 4>> quads;               ///< seen from the fluid; 0 and 3 have one foot, 1 and 2 the other; two triangles: 012, 023
   std::vector<std::array<VertexId, 3>> ends;                ///< virtual triangles from a fan to the end of its ridge: the end, then two of one foot
+  std::vector<std::array<VertexId, 3>> corners;             ///< virtual triangles between lines of one foot, where ridges meet; seen from the fluid
   std::vector<VertexId> end_vertices;                       ///< of them, ascending: their lines have one layer less, at the wall
   bool is_empty() const { return feet.empty(); }
 };

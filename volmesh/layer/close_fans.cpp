@@ -138,6 +138,7 @@ class FanCloser {
     }
     for (const auto& q : ridges_.quads) add_hexahedra({q[0].value(), q[1].value(), q[2].value(), q[3].value()});
     for (const auto& t : ridges_.ends) add_end({t[0].value(), t[1].value(), t[2].value()});
+    for (const auto& t : ridges_.corners) add_corner({t[0].value(), t[1].value(), t[2].value()});
     mesh_.layers = std::move(block);
 
     LayerRequest& request = mesh_.request;
@@ -181,6 +182,12 @@ class FanCloser {
   /// Over the virtual triangle at the end of a ridge; the first line is the end's.
   void add_end(const std::array<Line, 3>& t) {
     cells_.add_tet({node(t[0], 0), node(t[2], 1), node(t[1], 1), node(t[1], 0)}, t);
+    for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
+  }
+
+  /// Over a virtual triangle of a corner: all three lines have one foot.
+  void add_corner(const std::array<Line, 3>& t) {
+    cells_.add_tet({node(t[0], 1), node(t[2], 1), node(t[1], 1), node(t[0], 0)}, t);
     for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
   }
 

@@ -7,8 +7,6 @@
 #include "geom/math/constants.h"
 
 namespace sterna::volmesh {
-namespace {}  // namespace
-
 VisibilityReport report_visibility(const LayerBase& base) {
   VisibilityReport report;
   report.angle.resize(base.visibility.size());

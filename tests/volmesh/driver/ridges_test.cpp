@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <utility>
@@ -275,6 +277,134 @@ TEST(Ridges, ContinuedMeshesWithClosedFansAreTheSame) {
 TEST(Ridges, WhatIsToStayClosedIsOfTheWall) {
   const TriMesh wall = sharp_wing(30.0, 8);
   test::expect_error(ErrorCode::bad_argument, "one run", [&] { opened(wall, {.open_ridges = "always"}, {VertexId(wall.n_vertices())}); });
+}
+
+/// Unit cube whose edges all turn by 90 degrees: 12 ridges, 8 corners.
+MeshCase cube_case() {
+  MeshCase mesh_case = wing_case(true);
+  mesh_case.ridges.open_angle = 80.0 * test::k_degree;
+  return mesh_case;
+}
+
+/// Two flat pyramids on a square of 2 m, base to base: sharp edges that bend by 90 degrees at its four corners, n edges along each.
+TriMesh double_pyramid(int n) {
+  TriMesh wall;
+  wall.patches.push_back({"wing", PatchKind::wall});
+  std::map<std::array<int, 3>, VertexId> vertices;  // by quarter turns of (n - i, i) on ring j
+  const auto vertex = [&](int x, int y, int side) {
+    const int ring = std::abs(x) + std::abs(y);
+    const auto [at, is_new] = vertices.try_emplace({x, y, ring == n ? 0 : side});
+    if (is_new) at->second = wall.points.push_back({1.0 * x / n, 1.0 * y / n, side * 0.3 * (n - ring) / n});
+    return at->second;
+  };
+  for (const int side : {1, -1})
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const auto at = [&](int along, int across) {  // along from one axis, across from the next one
+        const std::array<std::array<int, 2>, 4> turned = {{{along, across}, {-across, along}, {-along, -across}, {across, -along}}};
+        return vertex(turned[static_cast<std::size_t>(quarter)][0], turned[static_cast<std::size_t>(quarter)][1], side);
+      };
+      const auto add = [&](VertexId a, VertexId b, VertexId c) {
+        wall.triangles.push_back(side > 0 ? TriangleVertices{a, b, c} : TriangleVertices{a, c, b});
+        wall.triangle_patch.push_back(PatchId(0));
+      };
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+          add(at(i, j), at(i + 1, j), at(i, j + 1));
+          if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    }
+  return wall;
+}
+
+void expect_opened_wall_is_the_given_one(const TriMesh& wall, const Domain& domain) {
+  const OpenedRidges& ridges = domain.ridges;
+  const Topology topology(domain.wall, k_context);
+  EXPECT_EQ(topology.n_boundary_halfedges(), 0u);
+  const auto euler = [](const TriMesh& mesh) { return 2 * static_cast<std::int64_t>(mesh.n_vertices()) - static_cast<std::int64_t>(mesh.n_triangles()); };
+  EXPECT_EQ(euler(domain.wall), euler(wall));
+  ASSERT_EQ(ridges.n_given_triangles, wall.n_triangles());
+  for (const TriangleId t : wall.triangles.ids())
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.foot[domain.wall.triangles[t][k]], wall.triangles[t][k]);
+  for (const auto& t : ridges.corners)
+    for (const VertexId v : t) EXPECT_EQ(ridges.foot[v], ridges.foot[t[0]]);
+}
+
+TEST(Ridges, MeetInCorners) {
+  const TriMesh wall = test::cube(6);
+  const RidgeOptions options = cube_case().ridges;
+  const Domain domain = opened(wall, options);
+  expect_opened_wall_is_the_given_one(wall, domain);
+  EXPECT_EQ(domain.ridges.feet.size(), 12u * 5u + 8u);
+  EXPECT_TRUE(domain.ridges.ends.empty());
+  EXPECT_EQ(domain.ridges.corners.size(), 8u * 3u * 3u);  // 90 degrees in three sectors on each of three ridges
+  EXPECT_EQ(domain.wall.n_vertices(), wall.n_vertices() + 12 * 5 * 3 + 8 * 9);
+  // The line in the middle of a corner is that of all three sides.
+  const VertexId first = domain.ridges.foot[domain.ridges.corners.front()[2]];
+  const auto foot = std::ranges::find(domain.ridges.feet, first, &OpenedRidges::Foot::vertex);
+  EXPECT_NEAR(foot->visibility, 1.0 / std::sqrt(3.0), 1e-12);
+  // One that is to stay closed ends its ridges.
+  const VertexId closed = domain.ridges.foot[domain.ridges.corners.front()[0]];
+  const Domain parted = opened(wall, options, {closed});
+  expect_opened_wall_is_the_given_one(wall, parted);
+  EXPECT_EQ(parted.ridges.end_vertices, std::vector<VertexId>{closed});
+  EXPECT_EQ(parted.ridges.corners.size(), 7u * 3u * 3u);
+}
+
+TEST(Ridges, EdgesBetweenTwoCornersAreOpenedToo) {
+  const TriMesh wall = test::cube(1);  // no vertex inside of a ridge
+  const Domain domain = opened(wall, cube_case().ridges);
+  expect_opened_wall_is_the_given_one(wall, domain);
+  EXPECT_EQ(domain.ridges.feet.size(), 8u);
+  EXPECT_EQ(domain.ridges.quads.size(), 12u * 3u);
+}
+
+TEST(Ridges, BendAroundCornersOfSharpEdges) {
+  const TriMesh wall = double_pyramid(6);
+  const Domain domain = opened(wall, {.open_ridges = "always"});
+  expect_opened_wall_is_the_given_one(wall, domain);
+  EXPECT_EQ(domain.ridges.feet.size(), 4u * 6u);
+  EXPECT_TRUE(domain.ridges.ends.empty());
+  EXPECT_FALSE(domain.ridges.corners.empty());
+}
+
+TEST(Ridges, ArrowsHaveACornerAndNotchesHaveNone) {
+  for (const auto& [sweep, n_triangles] : {std::pair(-1.0, 2 * 5), std::pair(1.0, 0)}) {  // forward and back, 45 degrees; the tips have corners, too
+    TriMesh wall = sharp_wing(30.0, 8);
+    for (Point& p : wall.points) p.x += sweep * std::abs(p.y - 0.4);
+    const Domain domain = opened(wall, {.open_ridges = "always"});
+    expect_opened_wall_is_the_given_one(wall, domain);
+    EXPECT_EQ(std::ranges::count_if(domain.ridges.corners, [&](const auto& t) { return std::abs(domain.wall.points[t[0]].y - 0.4) < 1e-3; }), n_triangles)
+        << sweep;
+    EXPECT_TRUE(volume_mesh(wall, wing_case(true), k_context).check.is_valid()) << sweep;
+  }
+}
+
+/// Opened, the wall would cross itself in the notch between two blocks one above the other: fans stay closed there, and the mesh is made.
+TEST(Ridges, ThatWouldCrossTheWallStayClosed) {
+  TriMesh wall = sharp_wing(30.0, 8), beside = wall;
+  for (Point& p : beside.points) p.x += 1.0 + std::tan(15.0 * test::k_degree) + 5e-6;  // a round nose nearer to the trailing edge than lines are raised
+  append(wall, beside);
+  const Domain domain = opened(wall, {.open_ridges = "always"});
+  EXPECT_EQ(domain.ridges.feet.size(), 7u);  // of the other one
+  for (const OpenedRidges::Foot& foot : domain.ridges.feet) EXPECT_GT(foot.point.x, 1.5);
+}
+
+TEST(Ridges, MeshesWithCornersAreValidAndKeepTheWall) {
+  MeshCase closed_case = cube_case();
+  closed_case.ridges.open_ridges = "never";
+  const TriMesh tip = sharp_wing(30.0, 8);
+  for (const TriMesh& wall : {test::cube(6), double_pyramid(6), tip}) {
+    const VolumeMeshResult closed = volume_mesh(wall, closed_case, k_context), open = volume_mesh(wall, cube_case(), k_context);
+    EXPECT_TRUE(open.check.is_valid());
+    EXPECT_EQ(wall_faces(open.mesh), wall_faces(closed.mesh));
+    EXPECT_NEAR(open.check.dual_volume, closed.check.dual_volume, 1e-11 * closed.check.dual_volume);
+    EXPECT_LT(open.layer.visibility.max_angle, 45.0 * test::k_degree);
+    const CheckReport all_explicit = check(explicit_cells(open.mesh), {}, k_context);
+    EXPECT_TRUE(all_explicit.is_valid());
+    EXPECT_EQ(all_explicit.cells.total(), open.check.cells.total());
+    for (const int threads : {1, 7}) EXPECT_EQ(volume_mesh(wall, cube_case(), RunContext({.threads = threads})).mesh.points, open.mesh.points);
+  }
+  expect_continued(test::cube(6), cube_case());
 }
 
 }  // namespace
