@@ -338,7 +338,7 @@ local main_wing = wing{
   sections = {
     { x = 0, y = 0, z = 0, chord = 3, airfoil = section, twist = 0, roll = "automatic", is_break = false, is_reversed = false },
     { span = 5, chord = 1.5, sweep = 0, dihedral = 0 } },
-  winglet = { height = 0.6, cant = 80*deg, taper = 0.4, sweep = 35*deg, toe = 0, bend = 0.25 },
+  winglet = { height = 0.6, cant = 80*deg, taper = 0.4, sweep = 35*deg, toe = 0, bend = 0.3 },
 }
 main_wing:control{ "flap", from = { 0.15, 0.75 }, to = { 0.5, 0.75 },
   kind = "trailing_edge",             -- leading_edge, all_moving

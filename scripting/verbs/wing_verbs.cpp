@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "geom/model/wing_span.h"
 #include "scripting/lua/component_value.h"
 #include "scripting/values/geometry_tools.h"
@@ -43,7 +45,7 @@ struct WingletOptions {
   double taper = 0.4;
   double sweep = 35.0 * std::numbers::pi / 180.0;
   double toe = 0.0;
-  double bend = 0.25;
+  double bend = k_automatic;
 };
 
 }  // namespace sterna::scripting
@@ -121,7 +123,12 @@ struct Schema<scripting::WingletOptions> {
       Field<O>{.name = "taper", .member = &O::taper, .min = 0.01, .max = 2.0, .help = "chord of its tip, of the wing's tip"},
       Field<O>{.name = "sweep", .member = &O::sweep, .unit = Unit::radian, .min = -1.5, .max = 1.5, .help = "aft, as the wing's"},
       Field<O>{.name = "toe", .member = &O::toe, .unit = Unit::radian, .min = -0.5, .max = 0.5, .help = "twist of its tip"},
-      Field<O>{.name = "bend", .member = &O::bend, .min = 0.0, .max = 0.9, .help = "part of the winglet over which it bends up from the wing; 0 = a kink"},
+      Field<O>{.name = "bend",
+               .member = &O::bend,
+               .min = 0.0,
+               .max = 0.9,
+               .help = "part of the winglet over which it bends up from the wing; 0 = a kink",
+               .automatic = "0.25, or more where the skin inside of so tight a bend would fold"},
   };
 };
 
@@ -132,6 +139,11 @@ namespace {
 
 /// Sections of the bend between wing and winglet; an arc in so many straight parts is met to 1 % of its radius.
 constexpr int k_bend_sections = 5;
+/// Part of a winglet's height over which it bends where nothing is said; where that is too tight, the radius is this many times the section's height inside of
+/// it.
+constexpr double k_usual_bend = 0.25, k_bend_margin = 1.5;
+/// Beyond it there is hardly a straight part; and radii of hardly more than the height inside leave hardly a skin there.
+constexpr double k_most_bend = 0.9, k_least_bend_margin = 1.05;
 /// Steeper panels need z or span: y says nothing.
 constexpr double k_steep = 1.5;
 
@@ -166,7 +178,7 @@ class SectionList {
     }
     for (std::size_t i = 0; i < (*list)->items.size(); ++i) add((*list)->items[i], "section " + std::to_string(i + 1));
   }
-  void add_winglet(const ScriptValue& value);
+  void add_winglet(const ScriptValue& value, const Point& position);
 
   std::vector<GivenSection> sections;
   std::string winglet_name;          ///< empty: the winglet is part of the wing's patch, or there is none
@@ -236,8 +248,39 @@ void SectionList::add(const ScriptValue& value, const std::string& where) {
   sections.push_back(std::move(s));
 }
 
+/// The part of a winglet's height over which it has to turn at least, so that the skin inside of the bend does not fold: the bend's radius is more than the
+/// section is high there.
+double least_bend(const GivenSection& tip, double turn, double height) {
+  double inside = 0.0;  // of the chord, from the leading edge, square to the panel
+  for (const Uv& p : tip.airfoil.points) {
+    const double v = (tip.is_reversed ? -p.v : p.v) - p.u * std::sin(tip.twist);
+    inside = std::max(inside, turn > 0.0 ? v : -v);
+  }
+  return inside * tip.chord * std::abs(turn) / height;
+}
+
+/// \throws Error(bad_argument) through the reader where the bend that was asked for, or any, is too tight
+double bend_of(const WingletOptions& o, const GivenSection& tip, double from, const Point& position, TableReader& reader) {
+  const double turn = o.cant - from, least = least_bend(tip, turn, o.height);
+  if (o.bend == 0.0) return o.bend;
+  const double least_allowed = k_least_bend_margin * least;
+  double bend = o.bend;
+  if (is_automatic(bend)) bend = k_usual_bend >= least_allowed ? k_usual_bend : std::min(k_bend_margin * least, k_most_bend);
+  if (bend >= least) return bend;
+  reader.add_problem(
+      fmt::format("winglet: bend: turning by {:.3g} deg over {:.3g} of {:.4g} m, at {}, makes a radius of {:.3g} m; the wing is {:.3g} m thick on the inside "
+                  "there, so its skin would "
+                  "fold: {}",
+                  std::abs(turn) * 180.0 / std::numbers::pi, bend, o.height, format_point(tip.leading + (position - Point{})), bend * o.height / std::abs(turn),
+                  least * o.height / std::abs(turn),
+                  least_allowed <= k_most_bend
+                      ? fmt::format("bend = {:.2g} at least, a larger height, or 0 for a kink", std::ceil(100.0 * least_allowed) / 100.0)
+                      : fmt::format("height = {:.4g} at least, a thinner tip, or bend = 0 for a kink", k_bend_margin * least * o.height / k_most_bend)));
+  return bend;
+}
+
 /// The last section goes on upwards: bent over sections of equal turn, then straight to the winglet's tip.
-void SectionList::add_winglet(const ScriptValue& value) {
+void SectionList::add_winglet(const ScriptValue& value, const Point& position) {
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table) {
     reader_.add_problem("winglet: expected a table { height = 1, cant = 80*deg }, not " + std::string(type_text(value)));
@@ -281,15 +324,16 @@ void SectionList::add_winglet(const ScriptValue& value) {
     sections.push_back(std::move(s));
   };
   sections.back().is_break = true;
-  if (o.bend > 0.0) {
+  const double bend = bend_of(o, tip, from, position, reader_);
+  if (bend > 0.0) {
     for (int i = 1; i <= k_bend_sections; ++i) {
       const double middle = from + (o.cant - from) * (i - 0.5) / k_bend_sections, here = from + (o.cant - from) * i / k_bend_sections;
-      go(o.bend * o.height / k_bend_sections, middle, here, i == k_bend_sections, "winglet " + std::to_string(i));
+      go(bend * o.height / k_bend_sections, middle, here, i == k_bend_sections, "winglet " + std::to_string(i));
     }
   } else {
     sections.back().roll = 0.5 * (from + o.cant);
   }
-  done = o.bend * o.height;
+  done = bend * o.height;
   go(o.height - done, o.cant, o.cant, true, "winglet tip");
 }
 
@@ -342,7 +386,7 @@ ScriptValue make_wing_verb(const ScriptCall& call) {
   if (o.name.empty()) reader.add_problem("name: must not be empty");
   SectionList list(call, reader, o);
   list.read(reader.field("sections"));
-  if (const ScriptValue* winglet = reader.field("winglet")) list.add_winglet(*winglet);
+  if (const ScriptValue* winglet = reader.field("winglet")) list.add_winglet(*winglet, position);
   reader.finish();
   std::vector<GivenSection>& given = list.sections;
   const bool is_root_in_plane = position.y + given.front().leading.y == 0.0 &&

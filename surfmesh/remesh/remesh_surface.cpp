@@ -48,6 +48,8 @@ constexpr double k_finer = 0.5;
 constexpr std::int64_t k_most_crossings = 1;
 /// Triangles made for each one foretold, at most.
 constexpr double k_foretold_share = 1.5;
+/// While edges are halved there may be more for a moment, before the same limit is looked at.
+constexpr double k_halving_share = 3.0;
 constexpr double k_half_turn = std::numbers::pi;
 constexpr int k_angle_digits = 3;
 
@@ -63,6 +65,12 @@ void require_few(double n, double factor, const char* what, const RemeshOptions&
                .attempted = std::string(k_attempted),
                .problem = what + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " + std::to_string(options.max_triangles),
                .hint = "larger max_edge, min_edge or curvature_angle; smooth = false where the triangles are very thin"});
+}
+
+void split_long(Remesher& remesher, const RemeshOptions& options) {
+  const auto most = static_cast<std::int64_t>(k_halving_share * static_cast<double>(std::max<std::int64_t>(options.max_triangles, remesher.n_triangles())));
+  remesher.split_long(k_long, most);
+  if (const std::int64_t n = remesher.n_triangles(); n >= most) require_few(static_cast<double>(n), 1.0, "halving long edges did not end at ", options);
 }
 
 void narrow_strips(const Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes) {
@@ -89,7 +97,7 @@ void grow_rows(Remesher& remesher, const Reference& reference, const RowLines& r
   remesher.refresh_sizes();
   remesher.collapse_short(k_short, false);
   remesher.flip_edges();
-  remesher.split_long(k_long);
+  split_long(remesher, options);
   remesher.regularise();
   remesher.smooth(2);
 }
@@ -101,7 +109,7 @@ void run_passes(Remesher& remesher, const Reference& reference, const RemeshOpti
     for (int again = 0; remesher.collapse_short(k_short, true) > 0 && again < (pass == 0 ? 8 : 1); ++again) {
     }
     remesher.flip_edges();
-    remesher.split_long(k_long);
+    split_long(remesher, options);
     if (pass == 0 || pass == 2) remesher.renumber();
     if (remesher.regularise() > 0) remesher.regularise();
     remesher.smooth(2);
@@ -110,8 +118,7 @@ void run_passes(Remesher& remesher, const Reference& reference, const RemeshOpti
       require_few(sizes.n_expected(), 1.0, "narrow places make it ", options);
       remesher.refresh_sizes();
     }
-    const auto n = std::ranges::count_if(remesher.mesh().triangles, [](const auto& t) { return t[0] != k_none; });
-    require_few(static_cast<double>(n), k_foretold_share, "lines and narrow places made ", options);
+    require_few(static_cast<double>(remesher.n_triangles()), k_foretold_share, "lines and narrow places made ", options);
     context.progress(0.8 * (pass + 1) / k_passes);
   }
   grow_rows(remesher, reference, rows, options, sizes, context);

@@ -255,8 +255,12 @@ bool Remesher::is_split_good(std::uint32_t h, std::uint32_t m) const {
   return true;
 }
 
-std::int64_t Remesher::split_long(double most) {
-  std::int64_t n = 0;
+std::int64_t Remesher::n_triangles() const {
+  return std::ranges::count_if(mesh_.triangles, [](const auto& t) { return t[0] != k_none; });
+}
+
+std::int64_t Remesher::split_long(double most, std::int64_t max_triangles) {
+  std::int64_t n = 0, n_triangles_now = n_triangles();
   for (int round = 0; round < k_split_rounds; ++round) {
     std::vector<std::pair<double, std::uint32_t>> found;
     for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
@@ -267,6 +271,7 @@ std::int64_t Remesher::split_long(double most) {
     std::sort(found.begin(), found.end());
     std::int64_t done = 0;
     for (const auto& [ratio, h] : found) {
+      if (n_triangles_now >= max_triangles) return n + done;
       if (!(length_ratio(h) > most)) continue;
       const WorkVertex v = middle(h);
       // On a face the middle may be held at a line, at the edge's end.
@@ -279,6 +284,7 @@ std::int64_t Remesher::split_long(double most) {
         mesh_.vertices.pop_back();
         continue;
       }
+      n_triangles_now += mesh_.twin[h] == k_none ? 1 : 2;
       mesh_.split(h, m);
       quality_.resize(mesh_.triangles.size());
       update_fan(m);

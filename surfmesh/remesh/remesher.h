@@ -21,8 +21,9 @@ class Remesher {
   /// Edges shorter than `least` (of what is wanted) go; shortest first. Returns how many. The first time triangles may lie against the reference where some
   /// did before: needles of the input do.
   std::int64_t collapse_short(double least, bool is_first);
-  /// Edges longer than `most` are halved; longest first, until none is left.
-  std::int64_t split_long(double most);
+  /// Edges longer than `most` are halved; longest first, until none is left, or there are `max_triangles` and more: very thin sheets ask for without end.
+  std::int64_t split_long(double most, std::int64_t max_triangles);
+  std::int64_t n_triangles() const;
   /// Where that makes the worse of two triangles better.
   std::int64_t flip_edges();
   /// Where that brings vertices nearer to six neighbours (four at lines' sides of a straight line) and leaves good triangles.

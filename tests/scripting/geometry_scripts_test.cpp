@@ -198,6 +198,23 @@ TEST_F(GeometryScripts, AWingletMayBeAPatchOfItsOwn) {
   EXPECT_THAT(error("wing{ name='w', " + sections + ", winglet={ name='w', height=0.5 } }"), HasSubstr("winglet: name: \"w\" is the wing's"));
 }
 
+TEST_F(GeometryScripts, AWingletBendsNoTighterThanTheWingIsThickInsideOfIt) {
+  const auto wing = [](const std::string& winglet) {
+    return "wing{ symmetric=true, position={10, 0, 1}, sections={ {y=0, chord=1, airfoil='naca3417'}, {y=2, airfoil='naca0014'} }, winglet={ " + winglet +
+           " } }";
+  };
+  // 7 % of the chord inside of the bend, a right angle: a radius of 0.07 m, 0.11 m of arc.
+  EXPECT_THAT(error(wing("height=0.25, cant=90*deg, bend=0.25")),
+              AllOf(HasSubstr("winglet: bend: turning by 90 deg over 0.25 of 0.25 m, at (10, 2, 1)"), HasSubstr("would fold: bend = 0.47 at least")));
+  EXPECT_THAT(error(wing("height=0.1, cant=90*deg")), HasSubstr("would fold: height = 0.18"));
+  EXPECT_EQ(run("local w = surface_mesh{ " + wing("height=0.25, cant=90*deg") + ":model(), max_edge=0.08, min_edge=0.01 } print(w.is_closed, w.crossings)"),
+            "true\t0\n");
+  // Downwards it is the lower side that is inside.
+  EXPECT_EQ(run("print(" + wing("height=0.25, cant=-90*deg, bend=0.47") + ".name)"), "wing\n");
+  // Where 0.25 is enough it stays.
+  EXPECT_EQ(number(wing("height=1, cant=90*deg") + ":at(1, 0)[3]"), number(wing("height=1, cant=90*deg, bend=0.25") + ":at(1, 0)[3]"));
+}
+
 TEST_F(GeometryScripts, ABoxHoldsRoundTipsThatControlSurfacesReach) {
   for (const char* to : {"0.95", "1.0"}) {
     const std::string model = "local w = wing{ symmetric=true, sections={ {chord=1.6, airfoil='naca2412'}, {y=5} } } w:deflect{ 'flap', from={0.6, 0.7}, to={" +

@@ -174,6 +174,8 @@ def aircraft(rng, table):
     case["volume"] = layers(rng, size) | draw_options(rng, table, rng.choice([0, 0, 1, 2, 4]))
     if not case.get("tunnel") and rng.random() < 0.12:
         case["through"] = ".step" if "engine" in case else rng.choice(THROUGH)  # the others lose names
+        if case["through"] != ".step":
+            case.pop("turned", None)
     if rng.random() < 0.2:
         wakes(rng, case, chord)
     case["output"] = rng.choice(OUTPUTS)
