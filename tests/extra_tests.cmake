@@ -126,5 +126,7 @@ add_test(NAME soak_again COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --again ${soak_c
 set_tests_properties(soak soak_again soak_self_test PROPERTIES TIMEOUT 900 COST 100)
 
 # What machines do to programs (docs/soak.md): full disks, kills, little memory, damaged files, two at once.
-add_test(NAME faults COMMAND ${CMAKE_SOURCE_DIR}/tools/faults --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/faults)
+add_executable(with_slurm faults/with_slurm_main.cpp scripting/series/slurm_cluster.cpp)
+target_link_libraries(with_slurm PRIVATE sterna_test_support)
+add_test(NAME faults COMMAND ${CMAKE_SOURCE_DIR}/tools/faults --short --sterna $<TARGET_FILE:sterna> --with-slurm $<TARGET_FILE:with_slurm> --folder ${CMAKE_BINARY_DIR}/scratch/faults)
 set_tests_properties(faults PROPERTIES TIMEOUT 900 COST 100)

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -23,6 +24,9 @@ constexpr std::chrono::milliseconds k_look_pause{100};    ///< between two looks
 constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two questions to the queue, which a whole cluster uses
 /// Looks at the queue that must miss a job before it counts as lost: its last files may be on their way through the network's file system.
 constexpr int k_misses = 2;
+/// Questions that may stay without an answer, one after the other: controllers restart, networks are away for a while. Half an hour and more, because squeue
+/// tries for some time itself. Cases that end meanwhile are seen by their folders.
+constexpr int k_deaf_questions = 900;
 constexpr std::size_t k_array_size = 1000;             ///< jobs of an array: clusters allow 1001 unless they say otherwise
 constexpr std::chrono::seconds k_cancel_patience{60};  ///< Slurm kills 30 s after it has asked
 constexpr const char* k_jobs_file = "jobs";            ///< in the folder slurm/: numbers of the arrays that may be in the queue
@@ -80,7 +84,10 @@ std::set<std::size_t> jobs_in_queue(const std::string& array, const RunContext& 
   std::set<std::size_t> jobs;
   if (result.status != 0) {
     if (result.errors.find("Invalid job id") != std::string::npos) return jobs;  // it is over and forgotten
-    throw Error({.code = ErrorCode::internal, .attempted = "running squeue", .problem = result.errors});
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "asking the queue for job " + array,
+                 .problem = "squeue ends with status " + std::to_string(result.status) + ": " + result.errors,
+                 .hint = "the jobs go on: run the script again once squeue --jobs=" + array + " answers"});
   }
   std::istringstream lines(result.output);
   for (std::string id, state; lines >> id >> state;)
@@ -138,8 +145,24 @@ class SlurmArray {
     }
   }
 
+  /// What the queue says; nothing where it does not answer.
+  std::optional<std::set<std::size_t>> ask_queue() {
+    try {
+      std::set<std::size_t> jobs = jobs_in_queue(id_, runner_.run);
+      if (n_deaf_ > 0) runner_.run.info("the queue answers again");
+      n_deaf_ = 0;
+      return jobs;
+    } catch (const Error& error) {
+      if (error.info().code == ErrorCode::cancelled || ++n_deaf_ > k_deaf_questions) throw;
+      if (n_deaf_ == 1) runner_.run.warn(error.info().attempted + ": " + error.info().problem + "; the series goes on, and asks again");
+      return {};
+    }
+  }
+
   void settle_lost() {
-    const std::set<std::size_t> alive = jobs_in_queue(id_, runner_.run);
+    const std::optional<std::set<std::size_t>> answer = ask_queue();
+    if (!answer) return;
+    const std::set<std::size_t>& alive = *answer;
     for (std::size_t i = 0; i < tasks_.size(); ++i) {
       if (is_over_[i]) continue;
       misses_[i] = alive.contains(i + 1) ? 0 : misses_[i] + 1;
@@ -155,6 +178,7 @@ class SlurmArray {
   std::span<const CaseTask> tasks_;
   const RunnerContext& runner_;
   std::vector<int> misses_;
+  int n_deaf_ = 0;  ///< questions in a row that the queue has not answered
   std::vector<bool> is_over_;
   std::size_t n_over_ = 0;
   std::string id_;

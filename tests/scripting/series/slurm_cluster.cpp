@@ -61,7 +61,7 @@ void end(StartedProcess& process) {
 }  // namespace
 
 bool SlurmCluster::is_possible() {
-  for (const char* name : {"munged", "munge", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo"})
+  for (const char* name : {"munged", "munge", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo", "scontrol"})
     if (program(name).empty()) return false;
   return geteuid() == 0;
 }
@@ -72,7 +72,7 @@ SlurmCluster::SlurmCluster() : folder_(temporary_folder()) {
     write_conf();
     setenv("SLURM_CONF", (folder_ / "slurm.conf").c_str(), 1);
     // In the foreground (-D), so that they are children of this process and end with it.
-    controller_ = std::make_unique<StartedProcess>(program("slurmctld"), std::vector<std::string>{"-D", "-f", (folder_ / "slurm.conf").string()}, folder_);
+    start_controller();
     node_ = std::make_unique<StartedProcess>(program("slurmd"), std::vector<std::string>{"-D", "-f", (folder_ / "slurm.conf").string()}, folder_);
     wait_until_idle();
   } catch (...) {
@@ -82,6 +82,32 @@ SlurmCluster::SlurmCluster() : folder_(temporary_folder()) {
 }
 
 SlurmCluster::~SlurmCluster() { stop(); }
+
+void SlurmCluster::start_controller() {
+  controller_ = std::make_unique<StartedProcess>(program("slurmctld"), std::vector<std::string>{"-D", "-f", conf().string()}, folder_);
+}
+
+void SlurmCluster::set_node(const std::string& state) const {
+  const ProcessResult result = run("scontrol", {"update", "nodename=" + host_name(), "state=" + state, "reason=test"}, folder_);
+  if (result.status != 0) throw std::runtime_error("scontrol: " + result.errors);
+}
+
+void SlurmCluster::take_node_down() const { set_node("down"); }
+
+void SlurmCluster::bring_node_back() const { set_node("resume"); }
+
+void SlurmCluster::kill_controller() {
+  controller_->signal(SIGKILL);
+  controller_->wait();
+}
+
+void SlurmCluster::restart_controller() {
+  start_controller();
+  for (const auto begin = Clock::now(); run("squeue", {"--noheader"}, folder_).status != 0;) {  // the node may be busy
+    if (Clock::now() - begin > k_patience) throw std::runtime_error("the controller does not come back:\n" + contents(folder_ / "ctld.log"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
 
 std::string SlurmCluster::queue() const { return run("squeue", {"--noheader"}, folder_).output; }
 

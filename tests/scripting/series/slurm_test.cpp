@@ -42,7 +42,7 @@ class SlurmSeries : public SeriesFixture {
 TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
   STERNA_NEEDS_SHARED_DATA();
   STERNA_NEEDS(test::SlurmCluster::is_possible(), "slurm-wlm with munge, or the right to start it,");
-  const test::SlurmCluster cluster;
+  test::SlurmCluster cluster;
 
   // The whole series: the same bytes as in a pool.
   const test::ProcessResult jobs =
@@ -71,6 +71,23 @@ end }
     EXPECT_EQ(main.wait(), 1);
     EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("is gone from the queue and has left no result"));
     EXPECT_THAT(text_of("s/x=3/status.json"), HasSubstr("done"));
+  }
+  wait_for_empty_queue(cluster);
+
+  // A node that fails takes its jobs with it; a controller that is away is told, and waited for.
+  {
+    std::filesystem::remove(folder_ / "s/x=2/status.json");
+    test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+    ASSERT_TRUE(wait_for("s/x=2/status.json", "\"pid\""));
+    cluster.kill_controller();
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    EXPECT_FALSE(main.has_ended());
+    cluster.restart_controller();
+    EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("running"));
+    cluster.take_node_down();
+    EXPECT_EQ(main.wait(), 1);
+    EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("is gone from the queue and has left no result"));
+    cluster.bring_node_back();
   }
   wait_for_empty_queue(cluster);
 

@@ -1,0 +1,32 @@
+// A Slurm of two tasks on this machine for tools/faults: writes SLURM_CONF to stdout, then does what the lines of stdin say until there is none more:
+// "down", "back", "kill", "restart" (node and controller); each is answered by "done". Exit status 2: there can be no Slurm here.
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "tests/scripting/series/slurm_cluster.h"
+
+int main() {
+  using sterna::test::SlurmCluster;
+  if (!SlurmCluster::is_possible()) {
+    std::cerr << "no slurm-wlm with munge, or not the right to start it\n";
+    return 2;
+  }
+  try {
+    SlurmCluster cluster;
+    std::cout << cluster.conf().string() << std::endl;
+    for (std::string order; std::getline(std::cin, order);) {
+      if (order == "down") cluster.take_node_down();
+      else if (order == "back") cluster.bring_node_back();
+      else if (order == "kill") cluster.kill_controller();
+      else if (order == "restart") cluster.restart_controller();
+      else throw std::runtime_error("no order " + order);
+      std::cout << "done" << std::endl;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
