@@ -631,6 +631,9 @@ int run_command_line(int argc, const char* const* argv) noexcept {
   try {
     std::vector<const char*> arguments(argv, argv + argc);
     if (argc > 0 && std::filesystem::path(argv[0]).filename() == "pentagrow") arguments.insert(arguments.begin() + 1, "pentagrow");
+    // `sterna help --auto` asks for an option, it is not one of help.
+    if (argc == 3 && std::string_view(argv[1]) == "help" && std::string_view(argv[2]).starts_with("--") && std::string_view(argv[2]) != "--help")
+      arguments[2] += 2;
     return parse_and_execute(static_cast<int>(arguments.size()), arguments.data());
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

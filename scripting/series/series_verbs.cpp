@@ -255,8 +255,10 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 5> k_series_verbs = {{
-    {"series", k_series_usage, "Runs a function for many cases, each in a process and a folder of its own; resumes, and ends with one table.", series_verb,
-     help_of<SeriesOptions>, true, "table"},
+    {"series", k_series_usage,
+     "Runs a function for many cases, each in a process and a folder of its own; resumes, and ends with one table. Its name first; over: values of parameters, "
+     "by name; case: the function of these; run: jobs{} or slurm{}; reference: parameters of the case that the others start from; cache: false, or a folder.",
+     series_verb, help_of<SeriesOptions>, true, "table"},
     {"jobs", k_jobs_usage, "Runs the cases of a series in processes on this machine, so many at a time.", jobs_verb, help_of<JobsOptions>, false, "table"},
     {"slurm", k_slurm_usage, "Runs the cases of a series as jobs of a Slurm cluster.", slurm_verb, help_of<SlurmOptions>, false, "table"},
     {"range", k_range_usage, "A list of numbers: first, last, step (1 unless given).", range_verb, nullptr, false, "table"},
