@@ -86,6 +86,7 @@ class RidgeOpener {
     if (domain_.ridges.is_empty()) return;
     number_feet();
     close_gaps();
+    pair_lines();
   }
 
  private:
@@ -95,7 +96,11 @@ class RidgeOpener {
     return normalized(area_vector(a, b, c));
   }
   /// Whether the wall ends in one plane there, on one patch: ridges go on up to it.
-  bool is_in_plane(VertexId v) const { return patch_beyond_[v].is_valid() && domain_.constraints.vertex[v].freedom == Freedom::plane && !is_partner_[v]; }
+  /// (Of periodic sides there are two, and the ridge goes on at the other.)
+  bool is_in_plane(VertexId v) const {
+    if (!patch_beyond_[v].is_valid() || domain_.constraints.vertex[v].freedom != Freedom::plane) return false;
+    return !is_partner_[v] || partner_[v].is_valid();
+  }
   bool is_free(VertexId v) const {
     return (domain_.constraints.vertex.empty() || domain_.constraints.vertex[v].freedom == Freedom::free) && !is_partner_[v] &&
            std::ranges::none_of(topology_.outgoing(v), [&](HalfedgeId h) { return topology_.is_boundary(h) || topology_.is_boundary(previous(h)); });
@@ -133,18 +138,58 @@ class RidgeOpener {
   /// Fans need a fan beside them; what is beside the last one is the chain's end, which has to be free.
   bool can_end(HalfedgeId h) const { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); }
 
-  /// The normal of one side of a vertex; nothing where it does not see all of it well.
-  std::optional<Vec3> side_normal(VertexId v, const std::vector<TriangleId>& side) const {
+  /// Of the triangles of one side of a vertex, by their angles there.
+  Vec3 sum_of_normals(VertexId v, const std::vector<TriangleId>& side) const {
     Vec3 sum;
     for (const TriangleId t : side) {
       const TriangleVertices& c = wall_.triangles[t];
       const std::size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
       sum += corner_angle(point(v), point(c[(k + 1) % 3]), point(c[(k + 2) % 3])) * normal(t);
     }
-    const Vec3 mean = is_in_plane(v) ? constrained(domain_.constraints.vertex[v], sum) : normalized(sum);
-    for (const TriangleId t : side)
-      if (!(dot(mean, normal(t)) > k_side_cosine)) return {};
+    return sum;
+  }
+
+  bool sees(const Vec3& direction, const std::vector<TriangleId>& side) const {
+    return std::ranges::all_of(side, [&](TriangleId t) { return dot(direction, normal(t)) > k_side_cosine; });
+  }
+
+  /// The normal of one side of a vertex; nothing where it does not see all of it well.
+  std::optional<Vec3> side_normal(VertexId v, const std::vector<TriangleId>& side) const {
+    const Vec3 sum = sum_of_normals(v, side), mean = is_in_plane(v) ? constrained(domain_.constraints.vertex[v], sum) : normalized(sum);
+    if (!sees(mean, side)) return {};
     return mean;
+  }
+
+  /// Left and right normals of a vertex on a periodic side: of its triangles and those at its partner, the same to the bit for both.
+  std::optional<std::array<Vec3, 2>> periodic_normals(VertexId v, HalfedgeId ahead, HalfedgeId of_partner) const {
+    struct End {
+      VertexId vertex;
+      HalfedgeId edge;
+    };
+    const VertexId partner = partner_[v];
+    const End first = v < partner ? End{v, ahead} : End{partner, of_partner}, second = v < partner ? End{partner, of_partner} : End{v, ahead};
+    const auto normal_of = [&](const std::vector<TriangleId>& a, const std::vector<TriangleId>& b) -> std::optional<Vec3> {
+      const Vec3 mean = constrained(domain_.constraints.vertex[first.vertex], sum_of_normals(first.vertex, a) + sum_of_normals(second.vertex, b));
+      if (!sees(mean, a) || !sees(mean, b)) return {};
+      return mean;
+    };
+    // The ways ahead are opposite: what is left of one is right of the other.
+    const std::optional<Vec3> left = normal_of(sector(first.edge, {}), sector({}, second.edge)),
+                              right = normal_of(sector({}, first.edge), sector(second.edge, {}));
+    if (!left || !right) return {};
+    if (v == first.vertex) return std::array{*left, *right};
+    return std::array{*right, *left};
+  }
+
+  /// The edge of a ridge at a vertex where that is the only one; else invalid.
+  HalfedgeId only_edge(VertexId v) const {
+    HalfedgeId edge;
+    for (const HalfedgeId h : topology_.outgoing(v)) {
+      if (!is_chain_[h]) continue;
+      if (edge.is_valid()) return {};
+      edge = h;
+    }
+    return edge;
   }
 
   /// Whether a vertex can be one inside a chain; its sides are those of the first edge as the one ahead.
@@ -241,11 +286,20 @@ class RidgeOpener {
   /// \pre the edge ahead is there
   std::optional<Inner> measured(VertexId v, Inner inner) const {
     const Vec3 ahead = normalized(point(topology_.to(inner.ahead)) - point(v));
-    const Vec3 back = inner.back.is_valid() ? normalized(point(topology_.to(inner.back)) - point(v)) : mirrored(v, ahead);
-    if (!(dot(ahead, -back) > k_bend_cosine)) return {};
+    Vec3 back;
+    std::optional<Vec3> left, right;
+    if (!inner.back.is_valid() && partner_[v].is_valid()) {
+      const HalfedgeId beyond = only_edge(partner_[v]);
+      if (!beyond.is_valid() || !is_in_plane(partner_[v])) return {};
+      back = normalized(point(topology_.to(beyond)) - point(partner_[v]));
+      if (const auto both = periodic_normals(v, inner.ahead, beyond)) left = (*both)[0], right = (*both)[1];
+    } else {
+      back = inner.back.is_valid() ? normalized(point(topology_.to(inner.back)) - point(v)) : mirrored(v, ahead);
+      left = side_normal(v, sector(inner.ahead, inner.back));
+      right = side_normal(v, sector(inner.back, inner.ahead));
+    }
+    if (!left || !right || !(dot(ahead, -back) > k_bend_cosine)) return {};
     const Vec3 along = normalized(ahead - back);
-    const std::optional<Vec3> left = side_normal(v, sector(inner.ahead, inner.back)), right = side_normal(v, sector(inner.back, inner.ahead));
-    if (!left || !right) return {};
     inner.normal = {*left, *right};
     const Vec3 across = cross(*left, *right);
     inner.turn.angle = turn_about(along, *left, *right);
@@ -256,8 +310,12 @@ class RidgeOpener {
 
   void choose_vertices(std::span<const VertexId> closed) {
     is_partner_.resize(wall_.n_vertices(), 0);
+    partner_.resize(wall_.n_vertices());
     for (const auto& pair : domain_.partners)
-      for (const VertexId v : pair) is_partner_[v] = 1;
+      for (std::size_t k = 0; k < 2; ++k) {
+        partner_[pair[k]] = is_partner_[pair[k]] == 0 ? pair[1 - k] : VertexId{};  // of one pair of sides
+        is_partner_[pair[k]] = 1;
+      }
     patch_beyond_.resize(wall_.n_vertices());
     Column<VertexId, std::uint8_t> has_other(wall_.n_vertices(), 0);
     for (const RimEdge& edge : domain_.rim)
@@ -285,7 +343,8 @@ class RidgeOpener {
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v]) continue;
         const HalfedgeId ahead = inner_[v]->ahead, back = inner_[v]->back;
-        if (vertex_at(ahead) != vertex_at(back) && (has_fan_at(ahead) || has_fan_at(back)) && can_end(ahead) && can_end(back)) continue;
+        const bool goes_on = !partner_[v].is_valid() || inner_[partner_[v]];
+        if (goes_on && vertex_at(ahead) != vertex_at(back) && (has_fan_at(ahead) || has_fan_at(back)) && can_end(ahead) && can_end(back)) continue;
         inner_[v].reset();
         has_changed = true;
       }
@@ -357,6 +416,7 @@ class RidgeOpener {
       for_each_edge_of(v, [&](HalfedgeId h) {
         if (has_fan_at(h)) reach(topology_.to(h), length + distance(point(v), point(topology_.to(h))));
       });
+      if (partner_[v].is_valid()) reach(partner_[v], length);
     }
     return to_end;
   }
@@ -368,13 +428,30 @@ class RidgeOpener {
     ridges.n_given_triangles = wall_.n_triangles();
     to_end_ = distances_to_ends();
     given_ = wall_.points;
-    for (const std::vector<VertexId>& chain : chains_) {
-      double most = 0.0;
-      for (const VertexId v : chain) most = std::max(most, inner_[v]->turn.angle);
-      const std::array<HalfedgeId, 2> out = {inner_[chain.front()]->back, inner_[chain.back()]->ahead};
-      for (const HalfedgeId h : out)
-        if (const Corner* const corner = corner_beyond(h)) most = std::max(most, corner->turn[corner->edge_number(topology_.twin(h))].angle);
-      const int n = n_sectors(most);
+    std::vector<double> most(chains_.size(), 0.0);  // of the turns along each chain, and along those in which it goes on at periodic sides
+    Column<VertexId, std::size_t> chain_of(wall_.n_vertices(), 0);
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      for (const VertexId v : chains_[c]) {
+        most[c] = std::max(most[c], inner_[v]->turn.angle);
+        chain_of[v] = c;
+      }
+      for (const HalfedgeId h : ways_out(chains_[c]))
+        if (const Corner* const corner = corner_beyond(h)) most[c] = std::max(most[c], corner->turn[corner->edge_number(topology_.twin(h))].angle);
+    }
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (const auto& pair : domain_.partners) {
+        if (!has_fan_pair(pair)) continue;
+        double &one = most[chain_of[pair[0]]], &other = most[chain_of[pair[1]]];
+        if (one == other) continue;
+        one = other = std::max(one, other);
+        has_changed = true;
+      }
+    }
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      const std::vector<VertexId>& chain = chains_[c];
+      const std::array<HalfedgeId, 2> out = ways_out(chain);
+      const int n = n_sectors(most[c]);
       for (const HalfedgeId h : out)
         if (Corner* const corner = corner_beyond(h)) corner->n_sectors[corner->edge_number(topology_.twin(h))] = n;
       for (const VertexId v : chain) {
@@ -390,6 +467,27 @@ class RidgeOpener {
       }
     }
   }
+
+  /// Beyond its first and its last vertex.
+  std::array<HalfedgeId, 2> ways_out(const std::vector<VertexId>& chain) const { return {inner_[chain.front()]->back, inner_[chain.back()]->ahead}; }
+
+  bool has_fan_pair(const std::array<VertexId, 2>& pair) const {
+    return std::ranges::all_of(pair, [&](VertexId v) { return v.index() < inner_.size() && inner_[v] && partner_[v].is_valid(); });
+  }
+
+  /// Lines of fans on periodic sides grow like those of the other side.
+  void pair_lines() {
+    std::vector<std::array<VertexId, 2>> more;
+    for (auto& pair : domain_.partners) {
+      if (!has_fan_pair(pair)) continue;
+      const std::vector<VertexId> one = lines_along(edge_at(pair[0])), other = lines_along(edge_at(pair[1]));
+      pair = {one.front(), other.back()};
+      for (std::size_t i = 1; i < one.size(); ++i) more.push_back({one[i], other[one.size() - 1 - i]});
+    }
+    domain_.partners.insert(domain_.partners.end(), more.begin(), more.end());
+  }
+  /// The edge at a vertex in a plane.
+  HalfedgeId edge_at(VertexId v) const { return inner_[v]->ahead.is_valid() ? inner_[v]->ahead : inner_[v]->back; }
 
   Corner* corner_beyond(HalfedgeId h) {
     if (!h.is_valid()) return nullptr;
@@ -540,6 +638,7 @@ class RidgeOpener {
   Topology topology_;  ///< of the wall as it was given
   Column<HalfedgeId, std::uint8_t> is_chain_;
   Column<VertexId, std::uint8_t> is_partner_;
+  Column<VertexId, VertexId> partner_;      ///< where a vertex has exactly one
   Column<VertexId, PatchId> patch_beyond_;  ///< of the outer boundary, on which the wall ends there; invalid elsewhere, and where there are several
   Column<VertexId, std::optional<Inner>> inner_;
   std::map<VertexId, Corner> corners_;

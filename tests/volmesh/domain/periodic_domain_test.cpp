@@ -1,6 +1,8 @@
 // Periodic sides, from closed surfaces to checked meshes: what is on one side is on the other, node by node and face by face.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +14,7 @@
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/periodic_sides.h"
+#include "volmesh/site/site.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {
@@ -79,6 +82,32 @@ TEST(PeriodicDomain, ABentWingInASkewedRoom) {
   const VolumeMeshResult result = matched(surface, periodic_layers(12, 5e-4));
   EXPECT_GT(result.layer.coverage, 0.8);
   EXPECT_NEAR(norm(result.mesh.periodic[0].translation), std::sqrt(4.0 + 0.36 + 0.04), 1e-12);
+}
+
+/// Several normals along the edges of a wing from side to side, straight, and bent as above: ridges do not end at the sides, and fans there match.
+TEST(PeriodicDomain, RidgesGoOnBeyondTheSides) {
+  for (const double bend : {0.0, 0.25}) {
+    TriMesh surface = room(all_slip, is_wing);
+    for (Point& p : surface.points) p.z += bend * p.y * p.y * (2.0 - p.y) * std::sin(std::numbers::pi * p.z / 2.0) * std::sin(std::numbers::pi * p.x / 4.0);
+    MeshCase options = periodic_layers(10, 1e-3);
+    options.ridges = {.open_ridges = "always", .open_angle = 80.0 * test::k_degree};
+    const VolumeMeshResult result = matched(surface, options);
+    EXPECT_FALSE(result.mesh.hexahedra.empty());
+    // All four edges are open from side to side, in three sectors each, or four where they turn by more than 90 degrees.
+    const MeshingSite site(surface, options, k_context);
+    EXPECT_EQ(site.domain.ridges.feet.size(), 4u * 13u) << bend;
+    EXPECT_TRUE(site.domain.ridges.ends.empty()) << bend;
+    std::array<int, 2> n_triangles = {0, 0};
+    for (const sterna::BoundaryTriangle& face : result.mesh.boundary_triangles)
+      for (const OpenedRidges::Foot& foot : site.domain.ridges.feet)
+        for (std::size_t k = 0; k < 2; ++k)
+          if (result.mesh.patches[face.patch].name == (k == 0 ? "left" : "right"))
+            n_triangles[k] += std::ranges::any_of(face.nodes, [&](NodeId n) { return result.mesh.points[n] == foot.point; }) ? 1 : 0;
+    EXPECT_EQ(n_triangles[0], n_triangles[1]) << bend;
+    EXPECT_GE(n_triangles[0], 12) << bend;
+    const VolumeMeshResult one = volume_mesh(surface, options, RunContext({.threads = 1}));
+    EXPECT_EQ(one.mesh.points, result.mesh.points);
+  }
 }
 
 TEST(PeriodicDomain, ABodyThatTouchesNeitherSide) {
