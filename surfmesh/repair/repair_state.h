@@ -47,6 +47,8 @@ void weld_rounded(RepairState& state, bool is_oriented = false);
 
 /// Parts (connected over edges) whose box is smaller than allowed are dropped.
 void drop_small_parts(RepairState& state, const RepairOptions& options);
+/// Closed parts without thickness (of four facets in one plane, left over where facets were cut or replaced) are dropped: they have no inside.
+void drop_flat_parts(RepairState& state);
 
 /// Rims within a tolerance that grows from rounding to options.gap are joined, vertices to vertices and vertices to edges; never beyond half an edge.
 void zip_seams(RepairState& state, const RepairOptions& options, const RunContext& context);

@@ -133,6 +133,7 @@ bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunCont
     collapse_slivers(state, options, context);
     if (replace_crossings(state, options, context)) break;
   }
+  drop_flat_parts(state);
   return true;
 }
 

@@ -32,6 +32,7 @@ constexpr std::size_t k_least_sheet_edges = 3;  ///< of a chain, with or without
 constexpr double k_longest = 2.5;               ///< of the edge across the stream: an edge along it, so that tops of layers are no needles
 constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< likewise where edges across are finer than this part of the chord
 constexpr double k_spread = 0.3;                                ///< chords, over which lines go to equal distances
+constexpr double k_spread_slope = 0.7;                          ///< of the way along a line: so far it goes aside for that, or cells would lean and cross
 constexpr double k_clear_angle = 0.3;   ///< of the way from the trailing edge: nearer than this, walls are in the way, unless farther than an edge
 constexpr double k_start_share = 0.01;  ///< of the first edge: walls are hit at its start
 constexpr std::size_t k_most_stations = 1000;
@@ -155,20 +156,23 @@ class SheetMaker {
   }
 
   /// What is short across the stream at the trailing edge (beside a tip) need not be behind it: along each row, lines go to equal distances within k_spread
-  /// chords.
+  /// chords, but aside by no more than k_spread_slope of their way.
   void spread_lines() {
     for (std::size_t j = 1; j <= n_rows(); ++j) {
       std::vector<Point> row;
       std::vector<double> at = {0.0};
-      double way = 0.0;  // over the chord
+      double way = 0.0, metres = 0.0;  // over the chord; as it is
       for (std::size_t i = 0; i < n_lines(); ++i) {
         row.push_back(points_[i][j]);
         if (i > 0) at.push_back(at.back() + distance(row[i - 1], row[i]));
-        way += distance(points_[i][j], points_[i][0]) / (chords_[i] * static_cast<double>(n_lines()));
+        const double share = distance(points_[i][j], points_[i][0]) / static_cast<double>(n_lines());
+        way += share / chords_[i];
+        metres += share;
       }
       const double weight = std::min(1.0, way / k_spread);
       for (std::size_t i = 1, k = 0; i + 1 < n_lines(); ++i) {
-        const double wanted = (1.0 - weight) * at[i] + weight * at.back() * static_cast<double>(i) / static_cast<double>(n_cells_);
+        const double even = (1.0 - weight) * at[i] + weight * at.back() * static_cast<double>(i) / static_cast<double>(n_cells_);
+        const double wanted = std::clamp(even, at[i] - k_spread_slope * metres, at[i] + k_spread_slope * metres);
         while (at[k + 1] < wanted) ++k;
         points_[i][j] = row[k] + (wanted - at[k]) / (at[k + 1] - at[k]) * (row[k + 1] - row[k]);
       }

@@ -235,6 +235,15 @@ TEST(RepairSurface, SmallPartsAreDroppedWhereSomethingIsRepaired) {
   EXPECT_EQ(result.report.count(RepairKind::removed_part), 1);
 }
 
+TEST(RepairSurface, ClosedPartsWithoutThicknessAreDropped) {
+  SurfaceSoup soup = without(cube_soup(), {0});
+  const Point a{3, 0, 0}, b{3, 4, 0}, c{3, 2, 1e-14}, d{3, 1, 0.5};  // four facets, nearly in one plane
+  for (const auto& t : {std::array{a, b, d}, std::array{b, a, c}, std::array{b, c, d}, std::array{c, a, d}}) add_facet(soup, t[0], t[1], t[2]);
+  const RepairResult result = repaired({soup});
+  EXPECT_NEAR(volume_of(result.mesh), 1.0, 1e-12);
+  for (const Point& p : result.mesh.points) EXPECT_LE(p.x, 1.0);
+}
+
 TEST(RepairSurface, BodiesThatTouchInAnEdgeAreSeparated) {
   const RepairResult result = repaired({cube_soup(), cube_soup({1, 1, 0})});
   EXPECT_GE(result.report.count(RepairKind::separated), 1);
