@@ -200,6 +200,9 @@ def surroundings(rng, case, d):
     where = rng.choice(["free", "free", "free", "half", "half", "tunnel", "disc"])
     if where == "half":
         case["half"] = True
+        for part in case["components"]:
+            if part["name"] == "fin":  # half of a twisted fin is half of no aircraft
+                part["lua"] = re.sub(r"twist = [^,} ]+", "twist = 0", part["lua"])
     elif rng.random() < 0.4:
         case["attitude"] = {"about": [num(rng.choice([0, 1]) * size), "0", "0"], "pitch": num(rng.uniform(-5, 14)), "yaw": num(rng.choice([0, rng.uniform(-6, 6)]))}
     if where == "tunnel":

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -52,18 +53,66 @@ double upstream_edge(const TriMesh& wall, const Topology& topology, VertexId v, 
   return n > 0 ? sum / n : 0.0;
 }
 
+/// A plane in which an open wall ends, and on which side of it the wall is.
+struct BorderPlane {
+  std::size_t axis = 0;
+  double at = 0.0;
+  double side = 1.0;
+  bool is_beyond(const Point& p) const { return (p[axis] - at) * side < 0.0; }
+};
+
+std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topology) {
+  std::map<std::pair<std::size_t, double>, std::size_t> n_edges;  // of an axis and a coordinate
+  std::vector<std::array<VertexId, 2>> border;
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
+    const HalfedgeId h(i);
+    if (!topology.is_boundary(h)) continue;
+    border.push_back({topology.from(h), topology.to(h)});
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const double at = wall.points[border.back()[0]][k]; at == wall.points[border.back()[1]][k]) ++n_edges[{k, at}];
+  }
+  // An edge along an axis lies in two such planes: it is of the one with more edges.
+  std::map<std::pair<std::size_t, double>, BorderPlane> planes;
+  for (const auto& [a, b] : border) {
+    std::optional<std::pair<std::size_t, double>> best;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (wall.points[a][k] == wall.points[b][k] && (!best || n_edges[{k, wall.points[a][k]}] > n_edges[*best])) best = {k, wall.points[a][k]};
+    if (best) planes[*best] = {best->first, best->second, 1.0};
+  }
+  Box box;
+  for (const Point& p : wall.points) box.add(p);
+  std::vector<BorderPlane> found;
+  for (auto& [key, plane] : planes) {
+    plane.side = 0.5 * (box.min[plane.axis] + box.max[plane.axis]) < plane.at ? -1.0 : 1.0;
+    found.push_back(plane);
+  }
+  return found;
+}
+
 /// A sheet of n x m cells behind the chain's n edges.
 class SheetMaker {
  public:
   SheetMaker(const WakeSheet& wake, const Vec3& stream, double raise, const TrailingEdge& chain, SheetsOnWall& made, TriMesh& wall, const RunContext& context)
-      : wake_(wake), stream_(stream), raise_(raise), chain_(chain), made_(made), wall_(wall), topology_(wall, context), tree_(wall, context) {}
+      : wake_(wake),
+        stream_(stream),
+        raise_(raise),
+        chain_(chain),
+        made_(made),
+        wall_(wall),
+        context_(context),
+        topology_(wall, context),
+        tree_(wall, context) {}
 
-  void make() {
+  /// \return whether there is one: none behind a trailing edge whose sheet would be in a plane in which the wall ends (the half of a fin in the plane of
+  /// symmetry), which a warning tells
+  bool make() {
     shape();
+    if (is_in_border_plane()) return false;
     keep_cells();
     number();
     open_edge();
     add_triangles();
+    return true;
   }
 
  private:
@@ -218,6 +267,20 @@ class SheetMaker {
     return points;
   }
 
+  /// Whether most of its lines go through such a plane.
+  bool is_in_border_plane() {
+    planes_ = border_planes(wall_, topology_);
+    for (const BorderPlane& plane : planes_) {
+      const auto n = std::ranges::count_if(
+          points_, [&](const std::vector<Point>& of_line) { return std::ranges::any_of(of_line, [&](const Point& p) { return plane.is_beyond(p); }); });
+      if (2 * static_cast<std::size_t>(n) <= n_lines()) continue;
+      context_.warn("no wake sheet behind the trailing edge at " + format_point(point(n_lines() / 2, 0)) + ": it would be in the plane " + "xyz"[plane.axis] +
+                    std::string(" = ") + number_text(plane.at, 6) + ", in which the wall ends");
+      return true;
+    }
+    return false;
+  }
+
   // ---- Which of its cells there are ------------------------------------------------------------------------------------------------------
 
   std::size_t n_rows() const { return points_.front().size() - 1; }
@@ -227,6 +290,10 @@ class SheetMaker {
   bool has_room(std::size_t i, const Point& p, double way) const {
     const double reach = std::min(k_clear_angle * way, spacing_[line(i)]);
     return !tree_.nearest(p, reach).triangle.is_valid();
+  }
+
+  bool is_beyond_a_plane(const Point& p) const {
+    return std::ranges::any_of(planes_, [&](const BorderPlane& plane) { return plane.is_beyond(p); });
   }
 
   /// No wall between two neighbours on a line.
@@ -245,7 +312,9 @@ class SheetMaker {
         const double way = std::min(distance(a, point(i, 0)), distance(b, point(i + 1, 0)));
         const double way_of_middle = 0.5 * std::min(distance(a, point(i, 0)) + distance(point(i, j), point(i, 0)),
                                                     distance(b, point(i + 1, 0)) + distance(point(i + 1, j), point(i + 1, 0)));
-        if (!is_free(i, j) || !is_free(i + 1, j) || !has_room(i, a, way) || !has_room(i + 1, b, way) || !has_room(i, middle, way_of_middle)) break;
+        if (!is_free(i, j) || !is_free(i + 1, j) || !has_room(i, a, way) || !has_room(i + 1, b, way) || !has_room(i, middle, way_of_middle) ||
+            is_beyond_a_plane(a) || is_beyond_a_plane(b))
+          break;
         kept_[i] = j + 1;
       }
     for (bool has_changed = true; has_changed;) {
@@ -403,8 +472,10 @@ class SheetMaker {
   const TrailingEdge& chain_;
   SheetsOnWall& made_;
   TriMesh& wall_;
+  const RunContext& context_;
   Topology topology_;  ///< of the wall without this sheet
   TriangleTree tree_;  ///< likewise
+  std::vector<BorderPlane> planes_;
   std::size_t n_cells_ = 0;
   std::vector<double> chords_, spacing_;    ///< m, of each line: local chord, edge across the stream
   std::vector<std::vector<Point>> points_;  ///< of each line, from the trailing edge on
@@ -492,9 +563,10 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
                          {}, "check the direction of the free stream");
     // Before the wall is changed: makers double its vertices, half-edges stay.
     for (TrailingEdge& chain : chains) chain = without_short_ends(wall, topology, stream, std::move(chain));
-    for (const TrailingEdge& chain : chains) SheetMaker(wake, stream, raise, chain, made, wall, context).make();
-    n_chains += chains.size();
+    for (const TrailingEdge& chain : chains) n_chains += SheetMaker(wake, stream, raise, chain, made, wall, context).make() ? 1 : 0;
   }
+  if (n_chains == 0)
+    throw_bad_argument(k_wake_attempt, "all sheets would be in planes in which the wall ends", {}, "leave wakes out, or ask for them behind the wing only");
   std::ranges::sort(made.sheets.feet, {}, [](const DoubledSheets::Foot& foot) { return foot.sides[0]; });
   sort_unique(made.sheets.rims);
   context.info("wake sheets behind " + std::to_string(n_chains) + " trailing edges: " + std::to_string(made.sources.size() / 2) + " triangles");

@@ -29,7 +29,7 @@ struct SheetsOnWall {
 /// edge.
 /// \pre wall manifold; borders exactly in planes; first_height in m, the smallest of all
 /// \param stream: unit, for sheets that have no direction of their own
-/// \throws Error(bad_argument) where a pattern matches no patch, or no trailing edge, where the stream is none, where a sheet has no room for two rows of
+/// \throws Error(bad_argument) where a pattern matches no patch, or no trailing edge, or only such as have no sheet, where the stream is none, where a sheet has no room for two rows of
 /// cells, and for first heights that are too small for the coordinates
 SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& stream, double first_height, TriMesh& wall, const RunContext& context);
 
