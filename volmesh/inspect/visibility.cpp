@@ -60,6 +60,10 @@ void survey_visibility(const Survey& survey, const LayerBase& base, const WallMa
                    " deg at the worst): the layer is skewed and gets thin there";
     finding.advice =
         "make sharp edges blunt (a trailing edge a few first heights thick), or refine along the edge so that the turn is spread over several facets";
+    if (base.ridges == nullptr)
+      finding.advice +=
+          "; or several lines on each vertex there (open_ridges = \"always\", --open-ridges always), or layers that go on behind trailing edges (wakes = "
+          "\"auto\", --wake-sheet auto): docs/ridges.md and docs/wake_sheets.md tell what each is good for";
     add_vertices(survey, base, map, std::move(finding), hard);
   }
 }
