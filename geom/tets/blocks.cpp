@@ -29,7 +29,7 @@ Blocks::Blocks(std::vector<Vec3> points, int n_halvings, double share, const Run
             const std::size_t n_low = std::min(static_cast<std::size_t>(share * static_cast<double>(own.size())), own.size() - 1);
             std::ranges::nth_element(own, own.begin() + static_cast<std::ptrdiff_t>(n_low), {}, [&](const Vec3& p) { return p[plane.axis]; });
             plane.at = own[n_low][plane.axis];
-            const auto middle = std::ranges::partition(own, [&](const Vec3& p) { return p[plane.axis] < plane.at; }).begin();
+            const auto middle = std::partition(own.begin(), own.end(), [&](const Vec3& p) { return p[plane.axis] < plane.at; });
             next[2 * i + 1] = first[i] + static_cast<std::size_t>(middle - own.begin());
           }
           halves[2 * i].high[plane.axis] = std::min(halves[2 * i].high[plane.axis], plane.at);

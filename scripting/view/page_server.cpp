@@ -107,10 +107,9 @@ bool has_short_head(socket_t socket) {
     if (std::string_view(head.data(), n_now).find("\r\n\r\n") != std::string_view::npos) return true;
     if (n_now == head.size() || Clock::now() > end) return false;
     // poll() returns at once while bytes are there that were seen already.
-    if (n_now > n_before || n_now == 0) {
-      pollfd entry{socket, POLLIN, 0};
-      poll(&entry, 1, 100);
-    }
+    pollfd entry{socket, POLLIN | POLLRDHUP, 0};
+    poll(&entry, 1, n_now > n_before || n_now == 0 ? 100 : 0);
+    if ((entry.revents & POLLRDHUP) != 0 && n_now == n_before) return false;  // nothing more will come
     if (n_now > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     n_before = n_now;
   }

@@ -72,7 +72,7 @@ inline std::set<std::array<std::array<double, 3>, 3>> boundary_of(const tets::Te
         const Vec3& p = mesh.points[mesh.nodes[t][tets::k_face[i][k]]];
         face[k] = {p.x, p.y, p.z};
       }
-      std::ranges::rotate(face, std::ranges::min_element(face));
+      std::rotate(face.begin(), std::ranges::min_element(face), face.end());
       faces.insert(face);
     }
   }
