@@ -19,6 +19,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
+#include "volmesh/domain/ridge_corner.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -31,37 +32,13 @@ constexpr double k_side_cosine = 0.5;            ///< 60 degrees: between the no
 constexpr double k_far_turn = 182.0 * k_degree;  ///< knife edges turn by 180 degrees up to rounding
 constexpr double k_angle_slack = 1e-6;           ///< of fan_angle: no sector for rounding
 constexpr double k_clear_axis = 0.1;             ///< sine of the turn above which both normals give its axis
-constexpr double k_corner_cosine = 0.3;          ///< between lines of a corner and the virtual triangles there, at least
-constexpr double k_corner_slack = 0.05;          ///< cosine: lines of knife edges are at a right angle to the one in the middle
-
-/// The turn across an edge of a ridge, from the normal of its left side to that of its right one.
-struct Turn {
-  double angle = 0.0;  ///< rad
-  Vec3 axis;           ///< unit: turns the left normal towards the right one
-  /// The left normal turned by so much.
-  Vec3 turned(const Vec3& left, double by) const { return normalized(std::cos(by) * left + std::sin(by) * cross(axis, left)); }
-};
 
 /// One vertex inside a chain, or the one at which it goes on in its mirror image.
 struct Inner {
   HalfedgeId ahead, back;       ///< outgoing edges of the chain; one is invalid in a plane on which the wall ends
-  Turn turn;                    ///< between the normals of both sides
+  RidgeTurn turn;               ///< between the normals of both sides
   std::array<Vec3, 2> normal;   ///< unit, of the sides: left and right of the way ahead
   std::vector<VertexId> lines;  ///< from left to right
-};
-
-/// A vertex at which ridges meet, or one bends by too much for the inside of a chain: a line for each side between two of its ridges, those of the fans
-/// between them, and one in the middle.
-struct Corner {
-  std::vector<HalfedgeId> edges;             ///< of ridges, outgoing, counter-clockwise
-  std::vector<Vec3> normal;                  ///< unit, of the side left of each
-  std::vector<Turn> turn;                    ///< across each: between the facets at it
-  std::vector<Vec3> facet;                   ///< unit normal of the left one of these
-  std::vector<int> n_sectors;                ///< of the fan across each; 0: not known yet
-  std::vector<std::vector<VertexId>> lines;  ///< from left to right of each
-  VertexId middle;                           ///< the line in the middle
-  const Vec3& right_normal(std::size_t i) const { return normal[(i + normal.size() - 1) % normal.size()]; }
-  std::size_t edge_number(HalfedgeId h) const { return static_cast<std::size_t>(std::ranges::find(edges, h) - edges.begin()); }
 };
 
 class RidgeOpener {
@@ -214,8 +191,8 @@ class RidgeOpener {
   }
 
   /// Whether a vertex can be a corner. \pre it is not inside a chain
-  std::optional<Corner> corner_at(VertexId v) const {
-    Corner corner;
+  std::optional<RidgeCorner> corner_at(VertexId v) const {
+    RidgeCorner corner;
     for (const HalfedgeId h : topology_.outgoing(v))
       if (is_chain_[h]) corner.edges.push_back(h);
     if (corner.edges.size() < 2 || !is_free(v) || has_long_edge(v)) return {};
@@ -240,42 +217,10 @@ class RidgeOpener {
 
   int n_sectors(double turn) const { return std::max(2, static_cast<int>(std::ceil(turn / options_.fan_angle - k_angle_slack))); }
 
-  /// Normals of a corner's lines from left to right of an edge: around it from facet to facet, moved to the sides' normals at both ends.
-  static std::vector<Vec3> normals_across(const Corner& corner, std::size_t i) {
-    const Turn& turn = corner.turn[i];
-    const Vec3 left = corner.normal[i] - corner.facet[i], right = corner.right_normal(i) - turn.turned(corner.facet[i], turn.angle);
-    std::vector<Vec3> normals = {corner.normal[i]};
-    for (int k = 1; k < corner.n_sectors[i]; ++k) {
-      const double share = static_cast<double>(k) / corner.n_sectors[i];
-      normals.push_back(normalized(turn.turned(corner.facet[i], share * turn.angle) + (1.0 - share) * left + share * right));
-    }
-    normals.push_back(corner.right_normal(i));
-    return normals;
-  }
-
-  /// The middle of the spherical polygon of a corner's lines: its area vector.
-  static Vec3 middle_of(const Corner& corner) {
-    Vec3 sum;
-    for (std::size_t i = 0; i < corner.edges.size(); ++i) {
-      const std::vector<Vec3> n = normals_across(corner, i);
-      for (std::size_t k = 0; k + 1 < n.size(); ++k) sum += cross(n[k + 1], n[k]);
-    }
-    return normalized(sum);
-  }
-
-  /// Whether the triangles between the middle and the polygon cover it and are seen well from their lines.
-  bool is_star(Corner corner) const {
+  /// Whether its lines make an open corner, with as many sectors as each of its ridges would have alone.
+  bool is_open_corner(RidgeCorner corner) const {
     for (std::size_t i = 0; i < corner.edges.size(); ++i) corner.n_sectors[i] = n_sectors(corner.turn[i].angle);
-    const Vec3 middle = middle_of(corner);
-    for (std::size_t i = 0; i < corner.edges.size(); ++i) {
-      const std::vector<Vec3> n = normals_across(corner, i);
-      for (std::size_t k = 0; k + 1 < n.size(); ++k) {
-        const Vec3 area = cross(n[k] - n[k + 1], middle - n[k + 1]);
-        if (!(dot(normalized(area), middle) > k_corner_cosine)) return false;
-        if (dot(n[k], middle) < -k_corner_slack) return false;  // a notch: its lines would meet
-      }
-    }
-    return true;
+    return corner.is_star();
   }
 
   Vec3 mirrored(VertexId v, const Vec3& way) const {
@@ -329,7 +274,7 @@ class RidgeOpener {
     for (const VertexId v : wall_.points.ids()) {
       inner_[v] = inner_at(v);
       if (inner_[v]) continue;
-      if (std::optional<Corner> corner = corner_at(v); corner && is_star(*corner)) corners_.emplace(v, std::move(*corner));
+      if (std::optional<RidgeCorner> corner = corner_at(v); corner && is_open_corner(*corner)) corners_.emplace(v, std::move(*corner));
     }
     for (const VertexId v : closed) {
       if (v.index() >= wall_.n_vertices())
@@ -436,7 +381,7 @@ class RidgeOpener {
         chain_of[v] = c;
       }
       for (const HalfedgeId h : ways_out(chains_[c]))
-        if (const Corner* const corner = corner_beyond(h)) most[c] = std::max(most[c], corner->turn[corner->edge_number(topology_.twin(h))].angle);
+        if (const RidgeCorner* const corner = corner_beyond(h)) most[c] = std::max(most[c], corner->turn[corner->edge_number(topology_.twin(h))].angle);
     }
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
@@ -453,7 +398,7 @@ class RidgeOpener {
       const std::array<HalfedgeId, 2> out = ways_out(chain);
       const int n = n_sectors(most[c]);
       for (const HalfedgeId h : out)
-        if (Corner* const corner = corner_beyond(h)) corner->n_sectors[corner->edge_number(topology_.twin(h))] = n;
+        if (RidgeCorner* const corner = corner_beyond(h)) corner->n_sectors[corner->edge_number(topology_.twin(h))] = n;
       for (const VertexId v : chain) {
         Inner& inner = *inner_[v];
         const double half = 0.5 * inner.turn.angle;
@@ -489,7 +434,7 @@ class RidgeOpener {
   /// The edge at a vertex in a plane.
   HalfedgeId edge_at(VertexId v) const { return inner_[v]->ahead.is_valid() ? inner_[v]->ahead : inner_[v]->back; }
 
-  Corner* corner_beyond(HalfedgeId h) {
+  RidgeCorner* corner_beyond(HalfedgeId h) {
     if (!h.is_valid()) return nullptr;
     const auto found = corners_.find(topology_.to(h));
     return found == corners_.end() ? nullptr : &found->second;
@@ -515,16 +460,16 @@ class RidgeOpener {
       for (std::size_t i = 0; i < n; ++i) {
         if (corner.n_sectors[i] > 0) continue;  // a chain's
         double most = corner.turn[i].angle;
-        if (const Corner* const other = corner_beyond(corner.edges[i]))
+        if (const RidgeCorner* const other = corner_beyond(corner.edges[i]))
           most = std::max(most, other->turn[other->edge_number(topology_.twin(corner.edges[i]))].angle);
         corner.n_sectors[i] = n_sectors(most);
       }
       std::vector<VertexId> of_side;
       for (std::size_t i = 0; i < n; ++i) of_side.push_back(new_line(v, i == 0, corner.normal[i]));
-      const Vec3 middle = middle_of(corner);
+      const Vec3 middle = corner.middle_normal();
       double visibility = 1.0;
       for (std::size_t i = 0; i < n; ++i) {
-        const std::vector<Vec3> normals = normals_across(corner, i);
+        const std::vector<Vec3> normals = corner.normals_across(i);
         std::vector<VertexId>& lines = corner.lines.emplace_back();
         for (std::size_t k = 0; k < normals.size(); ++k) {
           visibility = std::min(visibility, dot(middle, normals[k]));
@@ -559,7 +504,7 @@ class RidgeOpener {
   std::vector<VertexId> lines_along(HalfedgeId h) const {
     const VertexId v = topology_.from(h);
     if (!inner_[v]) {
-      const Corner& corner = corners_.at(v);
+      const RidgeCorner& corner = corners_.at(v);
       return corner.lines[corner.edge_number(h)];
     }
     std::vector<VertexId> lines = inner_[v]->lines;
@@ -641,7 +586,7 @@ class RidgeOpener {
   Column<VertexId, VertexId> partner_;      ///< where a vertex has exactly one
   Column<VertexId, PatchId> patch_beyond_;  ///< of the outer boundary, on which the wall ends there; invalid elsewhere, and where there are several
   Column<VertexId, std::optional<Inner>> inner_;
-  std::map<VertexId, Corner> corners_;
+  std::map<VertexId, RidgeCorner> corners_;
   std::vector<std::vector<VertexId>> chains_;
   Column<VertexId, double> to_end_;  ///< m
   Column<VertexId, Point> given_;    ///< points of the wall as it was given
