@@ -93,7 +93,7 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
   return result;
 }
 
-JoinFaults check_joins(const Model& model, const SurfaceMesh& surface, const RunContext& context) {
+JoinFaults check_joins(const Model& model, const ModelTopology& topology, const SurfaceMesh& surface, const RunContext& context) {
   const TriMesh& mesh = surface.mesh;
   std::vector<EdgeEntry> entries(3 * mesh.n_triangles());
   JoinFaults faults;
@@ -107,7 +107,11 @@ JoinFaults check_joins(const Model& model, const SurfaceMesh& surface, const Run
   parallel_sort(context, entries, std::less<>{});
   Column<FaceId, std::uint8_t> has_free_edge(model.faces.size(), 0);
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
-  for (const EdgeId e : free_edges(model)) has_free_edge[uses[e].front().face] = 1;
+  Column<EdgeId, std::uint8_t> is_free(model.edges.size(), 0);
+  for (const EdgeId e : free_edges(model)) is_free[e] = 1;
+  for (const EdgeId e : model.edges.ids())
+    if (is_free[topology.same_as[e].edge] != 0)
+      for (const EdgeUsePlace& place : uses[e]) has_free_edge[place.face] = 1;
   for (std::size_t i = 0; i < entries.size();) {
     std::size_t end = i + 1;
     while (end < entries.size() && entries[end].low == entries[i].low && entries[end].high == entries[i].high) ++end;

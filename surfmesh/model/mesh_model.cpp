@@ -236,11 +236,11 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
       if (is_last) throw_failures(meshing);
       continue;
     }
-    JoinFaults faults = check_joins(model, mesh, context);
+    JoinFaults faults = check_joins(model, meshing.topology, mesh, context);
     if (!faults.triangles.empty() && split_doubled_edges(model, mesh, faults.triangles, meshing.faces) > 0) {
       mesh = join_faces(model, meshing.topology, meshing.cuts, number_border(model, meshing.topology, meshing.cuts), meshing.faces);
       mesh.report.n_rounds = round;
-      faults = check_joins(model, mesh, context);
+      faults = check_joins(model, meshing.topology, mesh, context);
     }
     mesh.report.n_free_edges = faults.n_free_edges;
     if (!faults.triangles.empty()) {

@@ -164,7 +164,7 @@ class Judge:
             return "wrong", "unreadable: " + trouble
         if found["findings"]:
             return "wrong", "audit: " + json.dumps(found["findings"])
-        for look in (self.asked_layers, self.asked_patches, self.asked_farfield, self.asked_tunnel, self.asked_attitude, self.asked_volume, self.asked_wakes, self.asked_periodic):
+        for look in (self.asked_layers, self.asked_truncation, self.asked_patches, self.asked_farfield, self.asked_tunnel, self.asked_attitude, self.asked_volume, self.asked_wakes, self.asked_periodic):
             if why := look(case, manifest, found, told, done.out + done.err):
                 return "wrong", "silent: " + why
         if why := self.asked_deflections(case, folder, found):
@@ -199,6 +199,16 @@ class Judge:
                 return f'first height on {name} {off * height:g}, asked for {height:g}'
             if marker["layers"]["median"] < int(asked["layers"]) and "truncate" not in asked and not is_told:
                 return f'{marker["layers"]["median"]:.0f} layers on {name}, asked for {asked["layers"]}'
+        return ""
+
+    def asked_truncation(self, case, manifest, found, told, text):
+        """Where lines are lower than asked for, though not collapsed, `truncate = "always"` leaves columns of fewer prisms."""
+        if case["volume"].get("truncate") != '"always"' or case.get("tunnel"):
+            return ""
+        for patch in manifest["layer"]["patches"]:
+            layers = found["markers"].get(patch["name"], {}).get("layers")
+            if layers and 1 - patch["full"] - patch["collapsed"] > 0.1 and layers["least"] >= layers["most"]:
+                return f'{patch["name"]} has lines of less than their full height, all of its columns have {layers["most"]:.0f} prisms'
         return ""
 
     def asked_patches(self, case, manifest, found, told, text):
@@ -285,6 +295,8 @@ class Judge:
             reach = free["box"][1][0] - free["box"][0][0]
             return "" if reach >= float(case["wake_reach"]) else f"wake sheets are {reach:g} long, {case['wake_reach']} and more were asked for"
         if "open_ridges" in case["volume"]:
+            if any(part["name"] == "main_wing" and "trailing_edge = 0," in part["lua"] for part in case.get("components", [])) and "several normals" not in text and "stay closed" not in text:
+                return "a sharp trailing edge and open_ridges, and not a word about normals"
             is_opened = "several normals" in text and "stay closed" not in text
             return "several normals are told, no cell has them" if is_opened and not free["n"] and not found["hexahedra"] else ""
         return f"{free['n']} prisms stand on no wall" if free["n"] else ""

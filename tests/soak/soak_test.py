@@ -30,6 +30,12 @@ WING = PLAIN | {"kind": "aircraft", "farfield": {}, "surface": {"max_edge": "0.3
                 "components": [{"name": "main_wing", "needs": [], "after": ['main_wing:deflect{ "flap", from = {0.3, 0.7}, to = {0.7, 0.7}, angle = 12*deg }'],
                                 "plain": 'main_wing:control{ "flap", from = {0.3, 0.7}, to = {0.7, 0.7} }',
                                 "lua": 'wing{ name = "wing", symmetric = true, trailing_edge = 0.01, sections = { { y = 0, chord = 1, airfoil = "naca0012" }, { y = 2 } } }'}]}
+SHARP = WING | {"turned": [], "volume": WING["volume"] | {"open_ridges": '"always"'},
+                "components": [WING["components"][0] | {"lua": WING["components"][0]["lua"].replace("trailing_edge = 0.01", "trailing_edge = 0"), "after": []}]}
+# Two blocks with a gap that is too narrow for the layers of both.
+LOW = PLAIN | {"volume": {"layers": "5", "first_height": "0.01", "truncate": '"always"'},
+               "components": [{"name": "part0", "lua": 'box{ {0, 0, 0}, {1, 1, 1}, name = "part0" }', "needs": []},
+                              {"name": "part1", "lua": 'box{ {0, 0, 1.08}, {1, 1, 1.3}, name = "part1" }', "needs": []}]}
 ROW = PLAIN | {"farfield": {}, "periodic": [["tunnel_left", "tunnel_right", ["0", "2", "0"]]], "tunnel_box": [["-2", "-1", "-1"], ["3", "1", "1"]],
                "tunnel": 'test_section{ length = 5, width = 2, height = 2, upstream = 2, max_edge = 0.5, walls = "slip" }',
                "components": [{"name": "pod", "needs": [], "lua": 'cylinder{ {0, 0.2, 0}, {1, 0.2, 0}, radius = 0.3, name = "pod" }'}]}
@@ -93,6 +99,8 @@ class Verdicts(unittest.TestCase):
                 ("cylinder", PLAIN | {"farfield": cylinder}, "s/radius = 8/radius = 7/", "cylinder asked"), ("sides", PLAIN | {"farfield": cylinder}, 's/start = "inflow", //', "inflow"),
                 ("box_sides", PLAIN | {"farfield": box}, 's/x_max = "outflow"/x_min = "inflow"/', "outflow"), ("surface", PLAIN | {"farfield": surface}, 's/"far.stl"/sphere{ radius = 20 }/', "surface asked"),
                 ("tunnel", ROW, "s/length = 5/length = 6/", "tunnel asked"), ("periodic", ROW, 's/, periodic = {.*} }/ }/', "do not match"),
+                ("truncate", LOW, 's/truncate = "always"/truncate = "never"/', "less than their full height"),
+                ("ridges", SHARP, 's/open_ridges = "always"/open_ridges = "never"/', "not a word about normals"),
                 ("through", PLAIN | {"through": ".step"}, 's/read_cad "model.step"/read_cad{ "model.step", unit = 1.1 }/', "read from")):
             good = Fake("asked_" + name, f'#!/bin/sh\nexec {STERNA} "$@"\n').judged(case)
             self.assertIn(good["verdict"], ("VALID", "forced") if name != "short_wake" else ("wrong",), f"{name}: {good}")
