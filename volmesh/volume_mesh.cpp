@@ -118,6 +118,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
+  domain.has_wakes = !site.domain.sheets.is_empty();
   const CellCounts cells = count_cells(layer.mesh);
   Forecast forecast{.n_triangles = static_cast<double>(site.base.wall.n_triangles()), .n_prisms = static_cast<double>(cells.total())};
   SizeSupply sizes(domain, site.options.sources, site.options.size, context, [&](const SizeField& field, const RunContext& side) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -39,6 +40,9 @@ constexpr double k_share_expected = 0.75;  ///< of the tetrahedra for which ther
 // States of tetrahedra; from k_waiting on the number of points that it has proposed in vain.
 constexpr std::uint8_t k_unseen = 0, k_right = 1, k_given_up = 2, k_waiting = 3;
 constexpr int k_most_proposals = 3;
+
+/// Wanted lengths: a tetrahedron that nothing could part reaches far with an edge in the volume, and its sphere with a radius, beyond these.
+constexpr double k_far_edge = 5.0, k_far_radius = 20.0;
 
 struct Sphere {
   Vec3 center;
@@ -102,6 +106,7 @@ class Refiner {
       needs_front = true;
     }
     report_.n_left = std::ranges::count(inserter_.state(), k_given_up);
+    report_.n_far = count_far();
     report_.n_serial = inserter_.n_serial();
     report_.bytes = bytes();
     return report_;
@@ -120,6 +125,7 @@ class Refiner {
     context_.progress(n < all ? n / all : n / (n + 0.1 * all));
   }
   void judge();
+  std::int64_t count_far() const;
   void drop_hopeless(std::vector<Seed>& proposed);
   void count_proposal(std::uint32_t t) {
     std::uint8_t& state = inserter_.state()[t];
@@ -161,6 +167,25 @@ void Refiner::judge() {
         }
       },
       1);
+}
+
+std::int64_t Refiner::count_far() const {
+  const auto reaches_far = [&](std::size_t t) {
+    const std::array<Vec3, 4> p = corners(t);
+    const double length = length_at(0.25 * (p[0] + p[1] + p[2] + p[3]));
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (mesh_.nodes[t][i] >= n_corners_ || mesh_.nodes[t][j] >= n_corners_) longest = std::max(longest, distance(p[i], p[j]));
+    return longest > k_far_edge * length && circumsphere(p).radius > k_far_radius * length;
+  };
+  const auto count = [&](std::size_t begin, std::size_t end) {
+    std::int64_t n = 0;
+    for (std::size_t t = begin; t < end; ++t)
+      if (inserter_.state()[t] == k_given_up && mesh_.is_alive(static_cast<std::uint32_t>(t)) && reaches_far(t)) ++n;
+    return n;
+  };
+  return parallel_reduce(context_, mesh_.nodes.size(), std::int64_t{0}, count, std::plus());
 }
 
 /// The point in front of a face, between its circle's centre and that of the sphere.

@@ -29,6 +29,7 @@ struct RefineReport {
   std::int64_t n_inserted = 0;
   std::int64_t n_serial = 0;   ///< candidates that no block could take
   std::int64_t n_left = 0;     ///< tetrahedra that are larger than wanted, and no point helped
+  std::int64_t n_far = 0;      ///< of these, with corners far apart and a sphere that is far larger: flat ones that lie over many triangles of the boundary
   double bytes = 0.0;          ///< of the arrays at their largest
   bool is_over_limit = false;  ///< more bytes than were allowed: unfinished
 };

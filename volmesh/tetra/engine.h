@@ -41,6 +41,7 @@ enum class SplitMode {
 struct EngineOutcome {
   std::optional<TetraResult> result;
   EngineFailure failure;
+  double stuck_share = 0.0;  ///< of the result's tetrahedra: flat ones that lie over many triangles of the boundary, because refinement could not part them
 };
 
 /// What an engine gets. `parts` are those of the boundary, or of the joined one; there may be no sizes.

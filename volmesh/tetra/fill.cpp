@@ -5,6 +5,7 @@
 
 #include "geom/base/alongside.h"
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/boundary_parts.h"
@@ -41,6 +42,9 @@ std::string text_of(const LadderRung& rung) {
 constexpr double k_needle_cosine = 0.990268;  // 8 degrees
 /// Where needles are at most this share, our engine is no worse than HXT (docs/tetrahedra.md).
 constexpr double k_most_needles = 0.02;
+
+/// On tops of wake sheets more of its tetrahedra than this, flat and long, are worse than what HXT makes of it.
+constexpr double k_most_stuck = 1e-3;
 
 bool is_needle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto has_narrow_corner = [](const Vec3& p, const Vec3& q, const Vec3& r) {
@@ -180,16 +184,43 @@ struct TetraLadder::State {
       look.reset();
       if (!outcome.result) {
         add(std::move(outcome.failure));
+        if (!second_best) continue;
+        context.warn("taking the tetrahedra of our own engine as they are");
+        return taken(std::move(*second_best));
+      }
+      if (is_stuck(rung, outcome)) {
+        add(stuck(outcome.stuck_share));
+        second_best = std::move(*outcome.result);
         continue;
       }
-      ++next_rung;
-      for (const EngineFailure& failure : failures) {
-        outcome.result->failures.push_back(failure.error.problem);
-        outcome.result->is_reproducible &= failure.kind != FailureKind::limit;
-      }
-      return std::move(*outcome.result);
+      return taken(std::move(*outcome.result));
     }
     throw_failures();
+  }
+
+  /// With what became of the attempts before it.
+  TetraResult taken(TetraResult result) {
+    ++next_rung;
+    second_best.reset();
+    for (const EngineFailure& failure : failures) {
+      result.failures.push_back(failure.error.problem);
+      result.is_reproducible &= failure.kind != FailureKind::limit;
+    }
+    return result;
+  }
+
+  /// Whether another engine is to be asked, although there is an answer.
+  bool is_stuck(const LadderRung& rung, const EngineOutcome& outcome) const {
+    return rung.engine == EngineKind::sterna && boundary.has_wakes && outcome.stuck_share > k_most_stuck && options.engine == "automatic" &&
+           options.try_other_engine && next_rung + 1 < rungs.size();
+  }
+
+  static EngineFailure stuck(double share) {
+    return {FailureKind::deterministic,
+            {.code = ErrorCode::tetra_engine_failed,
+             .attempted = "filling the volume with tetrahedra (our own engine)",
+             .problem = "refinement got stuck on the tops of wake sheets: " + number_text(100.0 * share, 2) +
+                        " % of the tetrahedra lie flat over many triangles, limit " + number_text(100.0 * k_most_stuck, 2) + " %"}};
   }
 
   void add(EngineFailure failure) {
@@ -221,6 +252,7 @@ struct TetraLadder::State {
   BoundaryParts parts;
   std::optional<Alongside<PreflightReport>> look;
   std::vector<EngineFailure> failures;
+  std::optional<TetraResult> second_best;  ///< a sound answer that got stuck, until another engine has one
 };
 
 TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context)

@@ -82,8 +82,9 @@ EngineOutcome recover_elsewhere(const EngineInput& input, const TetraOptions& op
 std::string told(const tets::RefineReport& report, std::size_t n_tets, double recovery_seconds, double seconds) {
   char text[300];
   std::snprintf(text, sizeof text,
-                "refinement: %lld points in %d rounds, %zu tetrahedra; %lld larger than wanted; %.0f bytes for each; recovery %.2f s, refinement %.2f s",
-                static_cast<long long>(report.n_inserted), report.rounds, n_tets, static_cast<long long>(report.n_left),
+                "refinement: %lld points in %d rounds, %zu tetrahedra; %lld larger than wanted, %lld of them flat and long; %.0f bytes for each; recovery %.2f "
+                "s, refinement %.2f s",
+                static_cast<long long>(report.n_inserted), report.rounds, n_tets, static_cast<long long>(report.n_left), static_cast<long long>(report.n_far),
                 report.bytes / static_cast<double>(std::max<std::size_t>(n_tets, 1)), recovery_seconds, seconds);
   return text;
 }
@@ -127,7 +128,7 @@ std::string rounded(double value, const char* unit) {
 double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
 
 /// The mesh of the boundary with points in the volume. False: it would need more than `most_bytes`.
-bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes, TetraResult& result, const RunContext& context) {
+bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes, EngineOutcome& outcome, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/refinement");
   const auto start = std::chrono::steady_clock::now();
   const std::size_t n_boundary = input.boundary.points.size();
@@ -136,6 +137,8 @@ bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes
   const tets::RefineReport report =
       tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes, static_cast<std::size_t>(std::min(expected, k_most_places)));
   if (report.is_over_limit) return false;
+  TetraResult& result = *outcome.result;
+  outcome.stuck_share = static_cast<double>(report.n_far) / static_cast<double>(std::max<std::size_t>(mesh.nodes.size(), 1));
   const double seconds = seconds_since(start);
   context.debug(told(report, mesh.nodes.size(), result.engine_seconds, seconds));
   result.new_points.assign(mesh.points.begin() + static_cast<std::ptrdiff_t>(n_boundary), mesh.points.end());
@@ -167,7 +170,7 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
     }
     TetraResult& result = *outcome.result;
     result.failures.insert(result.failures.begin(), failures.begin(), failures.end());
-    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, result, deadline.context().part("refinement", refinement_begins, k_refinement_ends)))
+    if (!refine_mesh(input, std::move(*mesh), options.memory_limit, outcome, deadline.context().part("refinement", refinement_begins, k_refinement_ends)))
       return over_limit("out of memory: the limit is " + rounded(options.memory_limit / 1e6, "MB"), "memory_limit");
     if (!is_automatic(options.max_new_points) && static_cast<double>(result.new_points.size()) > options.max_new_points)
       return failed(FailureKind::deterministic, {.code = ErrorCode::tetra_engine_failed,

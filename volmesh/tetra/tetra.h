@@ -31,6 +31,8 @@ struct TetraBoundary {
   /// are two, but on a rim that ends free in the domain: there both sides share one, and every triangle has a corner that is not. A rim may also lie on edges
   /// of the rest of the boundary, which has two points at each place there, too. All triangles together are closed and manifold by their indices.
   bool has_sheets = false;
+  /// Some of it is the tops of layers on wake sheets: wide, flat and fine, where our own engine's refinement may get stuck.
+  bool has_wakes = false;
   std::span<const double> layer_volumes = {};  ///< of the last prism under each triangle, m^3; 0 where there is none; may be missing
 };
 

@@ -114,5 +114,39 @@ TEST_F(ReferenceSeries, ADamagedReferenceFileIsAnErrorOfTheCasesThatNeedIt) {
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"), HasSubstr("\"done\""));
 }
 
+/// A wing in two bends: as it is, with fans along its sharp edges, and with a sheet behind its trailing edge.
+constexpr const char* k_kinds_series = R"lua(
+local model = aircraft{ wing{ name = "wing", symmetric = true, trailing_edge = 0, sections = {
+  { y = 0, chord = 1, airfoil = "naca0012" }, { y = 1, chord = 0.8 } } } }
+series{ "kinds", over = { kind = { "fans", "plain", "wakes" }, bend = { 0, 0.03 } }, reference = { kind = "plain", bend = 0 }, case = function(p)
+  local bent = model:deform{ function(x, y, z) return 0, 0, p.bend*y^2 end }
+  local wall = surface_mesh{ bent, max_edge = 0.15, min_edge = 0.04, curvature_angle = 40*deg }
+  local mesh = volume_mesh{ wall, layers = 6, first_height = 2e-3, max_growth = 1.4, farfield = sphere{ radius = 20 },
+    ridges = { open_ridges = p.kind == "fans" and "always" or "never" }, wakes = p.kind == "wakes" and "auto" or nil }
+  mesh:check()
+  mesh:write "mesh.su2"
+end }
+)lua";
+
+TEST_F(ReferenceSeries, FansAndSheetsAreMadeAnewOnTheBentWingAndResumed) {
+  const std::filesystem::path at_once = folder_ / "at_once", stopped = folder_ / "stopped";
+  const test::ProcessResult result = run(k_kinds_series, {"--tasks", "2"}, at_once);
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto all = results_only(snapshot(at_once / "kinds"));
+  for (const char* kind : {"fans", "plain", "wakes"})
+    for (const char* bend : {"0", "0.03"}) {
+      const std::string name = std::string("bend=") + bend + "_kind=" + kind;
+      EXPECT_THAT(contents(at_once / "kinds" / name / "status.json"), HasSubstr("VALID")) << name;
+      EXPECT_GT(contents(at_once / "kinds" / name / "mesh.su2").size(), 100'000u) << name;
+    }
+  EXPECT_THAT(contents(at_once / "kinds/bend=0.03_kind=plain/measure.json"), HasSubstr(": started from bend=0_kind=plain"));
+  for (const char* kind : {"fans", "wakes"})  // another wall than the reference's
+    EXPECT_THAT(contents(at_once / ("kinds/bend=0.03_kind=" + std::string(kind) + "/measure.json")),
+                AllOf(HasSubstr(": topology of bend=0_kind=plain"), HasSubstr("made from scratch")));
+  run(k_kinds_series, {"--tasks", "1"}, stopped, 1.5);  // s; where that is too late nothing is left to do
+  ASSERT_EQ(run(k_kinds_series, {"--tasks", "2", "--threads", "2"}, stopped).status, 0);
+  EXPECT_EQ(difference(all, results_only(snapshot(stopped / "kinds"))), "");
+}
+
 }  // namespace
 }  // namespace sterna::scripting
