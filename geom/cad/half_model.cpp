@@ -174,6 +174,18 @@ void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const
     outcome.problem = number_text(area) + " m^2 of faces are left, but should be " + number_text(least) + " to " + number_text(most);
 }
 
+/// The corner that is off the plane by the least, where a cut that fails says no place: faces there touch the plane, or run along it.
+ErrorPlace nearest_to(const Plane& plane, const Model& model) {
+  double least = std::numeric_limits<double>::infinity();
+  Point nearest;
+  for (const ModelCorner& corner : model.corners)
+    if (const double off = std::abs(plane.height(corner.point)); off > plane.tolerance && off < least) {
+      least = off;
+      nearest = corner.point;
+    }
+  return {nearest, "the corner nearest to the plane, " + number_text(least) + " m off"};
+}
+
 /// The part of a closed model in the half space, without the faces that close it in the plane.
 Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, const HalfModelOptions& options, const RunContext& context) {
   const std::vector<Model> models = {model, half_space(plane, box)};
@@ -188,12 +200,16 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
   std::vector<UniteTry> tries;
   std::optional<BooleanTry> result = climb(
       task, parts, cad::longest_side(parts.front().shape->content().shape), [&](BooleanTry& t) { judge_half(parts, t, context); }, tries, context);
-  if (!result)
+  if (!result) {
+    std::vector<ErrorPlace> places = tries.back().places;
+    if (places.empty()) places.push_back(nearest_to(plane, model));
     fail_half(
         ErrorCode::geometry_failed,
-        "the cut at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " + std::to_string(tries.back().tolerance) + " m",
-        tries.back().places,
+        "the cut of \"" + part_name(model) + "\" at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " +
+            std::to_string(tries.back().tolerance) + " m",
+        std::move(places),
         "faces that touch the plane without crossing it, or run along it nearly, are hard to cut: move the plane a little, or cut the triangulated surface");
+  }
   const std::vector<FaceOrigin>& origins = result->origin_of_face;
   return select_faces(result->model, [&](FaceId f) { return origins[f.index()].part == 0; });
 }

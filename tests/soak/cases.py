@@ -523,7 +523,7 @@ def surface_script(case, folder, data):
 def only_possible(case):
     """Takes out what was drawn together though the program says that it cannot be had together."""
     volume = case["volume"]
-    if volume.get("boundary_splits") == '"always"' and (case.get("half") or case.get("tunnel") or case.get("wakes") or case.get("periodic") or case.get("disc") or case["kind"] in ("surface", "model")):
+    if volume.get("boundary_splits") == '"always"' and (case.get("half") or case.get("tunnel") or case.get("wakes") or case.get("periodic") or case.get("disc") or "open_ridges" in volume or case["kind"] in ("surface", "model")):
         del volume["boundary_splits"]  # engines may not split triangles of boundaries with rims
     return case
 

@@ -49,6 +49,10 @@ def draw(rng, data, num):
             case["turned"] += [{"patch": patch, "angle": num(angle)} for patch in controls[name]]
         if rng.random() < 0.25 and "nacelle" not in case["file"]:
             case["half"] = True
+        if case.get("half"):  # half of a turned rudder is half of no aircraft
+            for name in [name for name in case["deflections"] if "udder" in name]:
+                del case["deflections"][name]
+                case["turned"] = [entry for entry in case["turned"] if entry["patch"] not in controls[name]]
         if not case.get("half") and rng.random() < 0.3:
             case["attitude"] = {"about": ["0", "0", "0"], "pitch": num(rng.uniform(-5, 14)), "yaw": num(rng.uniform(-6, 6))}
     else:

@@ -195,7 +195,7 @@ class Judge:
             off = min((marker[which]["median"] / height for which in ("first_edge", "first_height")), key=lambda share: abs(math.log(share)))
             least = 0.98 * float(asked.get("height_floor", "0.938"))  # to which smoothing may lower heights
             is_told = is_told or marker["faces"] < 100  # at edges and corners heights of facets differ from those of vertices
-            if off > 1.5 or (not least < off < 1.2 and not is_told):
+            if (off > 1.5 and marker["faces"] >= 10) or (not least < off < 1.2 and not is_told):
                 return f'first height on {name} {off * height:g}, asked for {height:g}'
             if marker["layers"]["median"] < int(asked["layers"]) and "truncate" not in asked and not is_told:
                 return f'{marker["layers"]["median"]:.0f} layers on {name}, asked for {asked["layers"]}'
