@@ -23,11 +23,11 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
     for (const OutlineUse& entry : uses) {
       const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
       const ModelEdge& edge = model.edges[use.edge];
-      if (topology.is_point[use.edge] != 0 && !edge.is_degenerate()) continue;
       const Interval range = edge.range;
+      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;  // of absorbed edges, too: the last one may close a ring
+      if (topology.is_point[use.edge] != 0 && !edge.is_degenerate()) continue;
       const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
       loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
-      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;
       result.ids.push_back(numbers.of_corner[corner]);
       result.edges.push_back(use.edge);
       const EdgeCut& cut = cuts[use.edge];

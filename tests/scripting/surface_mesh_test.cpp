@@ -216,6 +216,16 @@ TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile
   EXPECT_THAT(log_, HasSubstr("does not count"));
 }
 
+/// The tail of this fuselage ends in a ring of 3 mm, whose edges are absorbed. United, the face begins with the seam and ends with that ring.
+TEST_F(SurfaceMeshVerb, RingsThatAreAbsorbedCloseTheirFaces) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string file = (test::shared_data() / "cpacs/boxWing.xml").string();
+  EXPECT_EQ(run("local w = surface_mesh{ aircraft{ read_cpacs '" + file +
+                "' }, max_edge = 2, min_edge = 0.17, growth = 1.46, curvature_angle = 38*deg } "
+                "print(w.is_closed, w.absorbed > 2)"),
+            "true\ttrue\n");
+}
+
 TEST_F(SurfaceMeshVerb, SplitsOfTheBoundaryPutNewVerticesOnTheModel) {
   run("local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } "
       "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, sources={ sphere{ {3,0,0}, radius=1, size=0.1 } }, tetrahedra={ "
