@@ -51,6 +51,17 @@ fs::path temporary_folder() {
   return name;
 }
 
+/// Jobs that outlive their node: whatever was started with this cluster's file of settings.
+void kill_jobs(const fs::path& conf) {
+  const std::string setting = "SLURM_CONF=" + conf.string();
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos || std::stoi(name) == getpid()) continue;
+    if (contents(entry.path() / "environ").find(setting) != std::string::npos) kill(std::stoi(name), SIGKILL);
+  }
+}
+
 /// Ends a daemon: asks first.
 void end(StartedProcess& process) {
   process.signal(SIGTERM);
@@ -87,14 +98,24 @@ void SlurmCluster::start_controller() {
   controller_ = std::make_unique<StartedProcess>(program("slurmctld"), std::vector<std::string>{"-D", "-f", conf().string()}, folder_);
 }
 
-void SlurmCluster::set_node(const std::string& state) const {
-  const ProcessResult result = run("scontrol", {"update", "nodename=" + host_name(), "state=" + state, "reason=test"}, folder_);
-  if (result.status != 0) throw std::runtime_error("scontrol: " + result.errors);
+std::string SlurmCluster::set_node(const std::string& state) const {
+  return run("scontrol", {"update", "nodename=" + host_name(), "state=" + state, "reason=test"}, folder_).errors;
 }
 
-void SlurmCluster::take_node_down() const { set_node("down"); }
+void SlurmCluster::take_node_down() const {
+  // A controller that has just come back may not know the node yet.
+  std::string errors;
+  for (const auto begin = Clock::now(); !(errors = set_node("down")).empty();) {
+    if (Clock::now() - begin > k_patience) throw std::runtime_error("scontrol: " + errors);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
 
-void SlurmCluster::bring_node_back() const { set_node("resume"); }
+void SlurmCluster::bring_node_back() const {
+  // One that is back by itself, because its daemon has spoken to the controller (ReturnToService), is no state to resume from.
+  const std::string errors = set_node("resume");
+  if (!errors.empty() && errors.find("Invalid node state") == std::string::npos) throw std::runtime_error("scontrol: " + errors);
+}
 
 void SlurmCluster::kill_controller() {
   controller_->signal(SIGKILL);
@@ -156,6 +177,10 @@ void SlurmCluster::stop() noexcept {
   if (node_) end(*node_);
   if (controller_) end(*controller_);
   if (munge_) end(*munge_);
+  try {
+    kill_jobs(conf());
+  } catch (...) {  // of a machine without memory, say: there is nothing more to do
+  }
   unsetenv("SLURM_CONF");
   std::error_code ignored;  // what stays in /tmp does no harm
   fs::remove_all(folder_, ignored);

@@ -23,7 +23,7 @@ class SlurmCluster {
   /// What squeue says of all jobs; empty once there is none.
   std::string queue() const;
   std::filesystem::path conf() const { return folder_ / "slurm.conf"; }
-  /// The node fails: what runs there is lost, and nothing starts until it is back. \throws std::runtime_error where scontrol refuses
+  /// The node fails: what runs there is lost, and nothing starts until it is back. \throws std::runtime_error where scontrol refuses for a minute
   void take_node_down() const;
   void bring_node_back() const;
   /// The controller is killed, and comes back with what it has saved.
@@ -34,7 +34,7 @@ class SlurmCluster {
   void start_munge();
   void write_conf();
   void start_controller();
-  void set_node(const std::string& state) const;
+  std::string set_node(const std::string& state) const;  ///< what scontrol says against it
   void wait_until_idle();
   void stop() noexcept;
 
