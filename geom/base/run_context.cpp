@@ -46,7 +46,19 @@ std::uint64_t RunContext::seed() const { return state_->settings.seed; }
 const std::filesystem::path& RunContext::dump_directory() const { return state_->settings.dump_directory; }
 std::stop_token RunContext::stop_token() const { return state_->settings.stop; }
 
+void RunContext::tell_if_long() const {
+  if (stage_.empty() || is_beside_) return;
+  const std::int64_t now = now_ns(), taken = now - begin_ns_;
+  std::int64_t silent_until = state_->silent_until_ns.load(std::memory_order_relaxed);
+  if (static_cast<double>(taken) < 1e9 * state_->settings.long_step || now < silent_until) return;
+  if (!state_->silent_until_ns.compare_exchange_strong(silent_until, now + taken)) return;  // another thread tells it
+  const std::int64_t minutes = taken / 60'000'000'000;
+  warn(stage_.substr(0, stage_.find('/')) + " has taken " + (minutes > 0 ? std::to_string(minutes) + " min" : std::to_string(taken / 1'000'000'000) + " s") +
+       " so far, now at " + stage_ + ", and goes on; Ctrl-C stops it, nothing half-written stays");
+}
+
 void RunContext::check_stop() const {
+  tell_if_long();
   if (!state_->settings.stop.stop_requested() && !beside_stop_.stop_requested()) return;
   throw Error({.code = ErrorCode::cancelled, .attempted = stage_.empty() ? "run" : stage_, .problem = "stopped on request"});
 }
@@ -60,6 +72,7 @@ void RunContext::log(LogLevel level, std::string_view text) const {
 RunContext RunContext::part(std::string_view stage, double from, double to) const {
   RunContext result = *this;
   result.stage_ = stage_.empty() ? std::string(stage) : stage_ + "/" + std::string(stage);
+  result.begin_ns_ = stage_.empty() ? now_ns() : begin_ns_;
   result.from_ = from_ + from * (to_ - from_);
   result.to_ = from_ + to * (to_ - from_);
   result.progress(0.0);

@@ -43,6 +43,7 @@ struct RunSettings {
   std::filesystem::path dump_directory;                 ///< where VTUs of trouble go; empty = none is written
   std::function<void(LogLevel, std::string_view)> log;  ///< empty = quiet; may be called from one thread at a time only
   std::function<void(const ProgressState&)> progress;   ///< empty = none; called at most about ten times a second
+  double long_step = 600.0;                             ///< s: a step that takes longer says so while it runs, then at twice, four times ... of it
 };
 
 class RunContext {
@@ -54,7 +55,7 @@ class RunContext {
   const std::filesystem::path& dump_directory() const;
   std::stop_token stop_token() const;
 
-  /// \throws Error(cancelled) once a stop was requested. Cheap; call it in every outer loop.
+  /// \throws Error(cancelled) once a stop was requested. Cheap; call it in every outer loop: what takes long is told from here, too.
   void check_stop() const;
 
   void debug(std::string_view text) const { log(LogLevel::debug, text); }
@@ -80,11 +81,13 @@ class RunContext {
 
  private:
   friend ThreadPool& pool_of(const RunContext& context);
+  void tell_if_long() const;
   std::shared_ptr<State> state_;
   std::shared_ptr<ThreadPool> pool_;  ///< that of the state, or one of its own
   bool is_beside_ = false;
   std::stop_token beside_stop_;
   std::string stage_;
+  std::int64_t begin_ns_ = 0;  ///< of the outermost stage
   double from_ = 0.0;
   double to_ = 1.0;
 };

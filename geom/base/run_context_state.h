@@ -20,6 +20,7 @@ struct RunContext::State {
   std::mutex mutex;  ///< guards log, progress and times
   std::vector<StageTime> times;
   std::chrono::steady_clock::time_point last_progress{};
+  std::atomic<std::int64_t> silent_until_ns = 0;  ///< no word of a long step before
 };
 
 }  // namespace sterna
