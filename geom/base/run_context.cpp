@@ -72,7 +72,11 @@ void RunContext::log(LogLevel level, std::string_view text) const {
 RunContext RunContext::part(std::string_view stage, double from, double to) const {
   RunContext result = *this;
   result.stage_ = stage_.empty() ? std::string(stage) : stage_ + "/" + std::string(stage);
-  result.begin_ns_ = stage_.empty() ? now_ns() : begin_ns_;
+  result.begin_ns_ = begin_ns_;
+  if (stage_.empty()) {
+    result.begin_ns_ = now_ns();
+    state_->silent_until_ns = 0;  // what was said of the step before is no word of this one
+  }
   result.from_ = from_ + from * (to_ - from_);
   result.to_ = from_ + to * (to_ - from_);
   result.progress(0.0);
