@@ -21,23 +21,26 @@ class WakeScripts : public ScriptFixture {
     const std::string text(std::istreambuf_iterator<char>(file), {});
     return text.substr(0, text.find("local mesh ="));
   }
-  /// What the log of a check says between "FAIL: " and the next semicolon.
-  std::string failed() const {
-    const std::size_t begin = log_.find("quality FAIL: ");
-    return begin == std::string::npos ? "" : log_.substr(begin, log_.find(';', begin) - begin);
+  /// What a check says between "FAIL: " and the next semicolon.
+  static std::string failed(const std::string& told) {
+    const std::size_t begin = told.find("quality FAIL: ");
+    return begin == std::string::npos ? "" : told.substr(begin, told.find(';', begin) - begin);
   }
 };
 
-TEST_F(WakeScripts, five_sheets_of_an_aircraft_do_not_leave_flat_tetrahedra) {  // with this farfield our own refinement gets stuck below the wing's sheet
-  run(aircraft() +
+TEST_F(WakeScripts, FiveSheetsOfAnAircraftDoNotLeaveFlatTetrahedra) {  // with this farfield our own refinement gets stuck below the wing's sheet
+  const std::string told = run(
+      aircraft() +
           "local mesh = volume_mesh{ wall, layers = 20, first_height = 1e-5, farfield = sphere{ radius = 200 }, wakes = 'auto', improve = { improve_rounds = 0 "
           "} "
           "} mesh:check{ cell_centred = false }",
       {}, 2);
   EXPECT_THAT(log_, HasSubstr("wake sheets behind 5 trailing edges"));
-  EXPECT_THAT(log_, HasSubstr("VALID"));
-  EXPECT_THAT(log_, Not(HasSubstr("INVALID")));
-  EXPECT_THAT(failed() + " ", Not(HasSubstr("G5 ")));  // of the nodes on the tetrahedra over the sheets: 0.6 degrees, where they are flat
+  // Where this is not told any more, the case has lost its point: find another, or test that refinement gets through.
+  EXPECT_THAT(log_, HasSubstr("refinement got stuck on the tops of wake sheets"));
+  EXPECT_THAT(told, HasSubstr("VALID, quality FAIL: "));
+  EXPECT_THAT(told, Not(HasSubstr("INVALID")));
+  EXPECT_THAT(failed(told) + " ", Not(HasSubstr("G5 ")));  // of the nodes on the tetrahedra over the sheets: 0.6 degrees, where they are flat
 }
 
 }  // namespace
