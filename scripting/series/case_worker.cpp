@@ -132,7 +132,14 @@ void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& 
   const fs::path folder = plan.folder_of(c);
   fs::create_directories(folder);
   CaseStatus status{.state = CaseState::running, .key = case_key(plan, c, session), .process = getpid(), .host = host_name()};
-  status.found = clear_case_folder(folder, read_status(folder, session.context));
+  const CaseStatus before = read_status(folder, session.context);
+  if (is_current(before, folder, status.key)) {
+    session.context.warn("case " + c.name + " is over already: this is a job of an earlier run that a queue has started once more");
+    series.is_case_over = true;
+    series.is_case_done = before.state == CaseState::done;
+    return;
+  }
+  status.found = clear_case_folder(folder, before);
   write_status(status, folder);
   io::write_whole(folder / "case.json", case_json(plan, c, session));
 

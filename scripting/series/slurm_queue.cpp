@@ -48,23 +48,21 @@ CommandResult run_or_throw(const std::vector<std::string>& words, const RunConte
   return result;
 }
 
-/// Line n of the list is job n: the number of the case, and its folder.
-std::string list_of(std::span<const CaseTask> tasks) {
-  std::string list;
-  for (const CaseTask& task : tasks) list += std::to_string(task.of->index) + " " + task.folder.string() + "\n";
-  return list;
-}
-
-std::string job_script(std::size_t n_tasks, const fs::path& list, const RunnerContext& runner) {
+/// Holds the list of its cases: Slurm keeps a copy of the script, and a controller that comes back may start a job of an earlier run once more. (A list in a
+/// file would be the next run's by then, and the job would work on another case.)
+std::string job_script(std::span<const CaseTask> tasks, const RunnerContext& runner) {
+  const std::size_t n_tasks = tasks.size();
   std::string text = "#!/bin/sh\n#SBATCH --job-name=" + runner.plan.name + "\n#SBATCH --array=1-" + std::to_string(n_tasks);
   if (runner.tasks > 0) text += "%" + std::to_string(runner.tasks);
   text += "\n#SBATCH --ntasks=1\n#SBATCH --no-requeue\n#SBATCH --output=/dev/null\n#SBATCH --cpus-per-task=" + std::to_string(runner.threads) + "\n";
   text += "cd " + quoted(fs::current_path().string()) + " || exit 1\n";
-  text += "line=$(sed -n \"${SLURM_ARRAY_TASK_ID}p\" " + quoted(list.string()) + ")\n";
+  text += "case $SLURM_ARRAY_TASK_ID in\n";
+  for (std::size_t i = 0; i < n_tasks; ++i)
+    text += std::to_string(i + 1) + ") case=" + std::to_string(tasks[i].of->index) + " folder=" + quoted(tasks[i].folder.string()) + " ;;\n";
+  text += "*) exit 1 ;;\nesac\n";
   text += "exec";
   for (const std::string& word : runner.worker) text += " " + quoted(word);
-  text += " --threads " + std::to_string(runner.threads) + " --series-case " + quoted(runner.plan.name) + "/\"${line%% *}\" >\"${line#* }/" + k_log_file +
-          "\" 2>&1\n";
+  text += " --threads " + std::to_string(runner.threads) + " --series-case " + quoted(runner.plan.name) + "/\"$case\" >>\"$folder/" + k_log_file + "\" 2>&1\n";
   return text;
 }
 
@@ -100,11 +98,12 @@ class SlurmArray {
  public:
   SlurmArray(std::span<const CaseTask> tasks, std::size_t number, const RunnerContext& runner)
       : tasks_(tasks), runner_(runner), misses_(tasks.size(), 0), is_over_(tasks.size(), false) {
-    const fs::path folder = runner.plan.folder / "slurm", list = folder / ("cases-" + std::to_string(number)),
-                   script = folder / ("array-" + std::to_string(number) + ".sh");
-    for (const CaseTask& task : tasks) prepare(task, runner.run);
-    io::write_whole(list, list_of(tasks));
-    io::write_whole(script, job_script(tasks.size(), list, runner));
+    const fs::path folder = runner.plan.folder / "slurm", script = folder / ("array-" + std::to_string(number) + ".sh");
+    for (const CaseTask& task : tasks) {
+      prepare(task, runner.run);
+      fs::remove(task.folder / k_log_file);  // jobs write on behind what is there
+    }
+    io::write_whole(script, job_script(tasks, runner));
     id_ = run_or_throw(sbatch_command(script, runner.plan), runner.run).output;
     id_ = id_.substr(0, id_.find_first_of(";\n"));
     io::write_whole(folder / k_jobs_file, id_ + "\n");

@@ -3,6 +3,7 @@
 #include <pwd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -51,15 +52,29 @@ fs::path temporary_folder() {
   return name;
 }
 
-/// Jobs that outlive their node: whatever was started with this cluster's file of settings.
-void kill_jobs(const fs::path& conf) {
+/// Folders in /proc of whatever was started with this cluster's file of settings.
+std::vector<fs::path> processes_of(const fs::path& conf) {
   const std::string setting = "SLURM_CONF=" + conf.string();
+  std::vector<fs::path> found;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos || std::stoi(name) == getpid()) continue;
-    if (contents(entry.path() / "environ").find(setting) != std::string::npos) kill(std::stoi(name), SIGKILL);
+    if (contents(entry.path() / "environ").find(setting) != std::string::npos) found.push_back(entry.path());
   }
+  return found;
+}
+
+/// Jobs that outlive their node.
+void kill_jobs(const fs::path& conf) {
+  for (const fs::path& process : processes_of(conf)) kill(std::stoi(process.filename()), SIGKILL);
+}
+
+/// The last lines of a log.
+std::string tail(const fs::path& path) {
+  constexpr std::size_t k_letters = 4000;
+  const std::string all = contents(path);
+  return "---- " + path.filename().string() + "\n" + (all.size() > k_letters ? all.substr(all.size() - k_letters) : all);
 }
 
 /// Ends a daemon: asks first.
@@ -118,6 +133,8 @@ void SlurmCluster::bring_node_back() const {
 }
 
 void SlurmCluster::kill_controller() {
+  constexpr std::chrono::seconds k_saved{7};  // it saves its state every five seconds; what it does not know of by then it starts once more
+  std::this_thread::sleep_for(k_saved);
   controller_->signal(SIGKILL);
   controller_->wait();
 }
@@ -131,6 +148,33 @@ void SlurmCluster::restart_controller() {
 }
 
 std::string SlurmCluster::queue() const { return run("squeue", {"--noheader"}, folder_).output; }
+
+std::string SlurmCluster::running_cases() const {
+  std::string text;
+  std::error_code ignored;
+  for (const fs::path& process : processes_of(conf())) {
+    std::string words = contents(process / "cmdline");
+    std::ranges::replace(words, '\0', ' ');
+    if (words.find("--series-case") == std::string::npos) continue;
+    text += process.filename().string() + ": " + words + "\n";
+    for (const auto& thread : fs::directory_iterator(process / "task", ignored)) {
+      const std::string status = contents(thread.path() / "status"), state = status.substr(std::min(status.find("State:"), status.size()));
+      text += "  thread " + thread.path().filename().string() + " " + state.substr(0, state.find('\n')) + ", waits in " + contents(thread.path() / "wchan") +
+              ", system call " + contents(thread.path() / "syscall");
+    }
+  }
+  return text;
+}
+
+std::string SlurmCluster::account() const {
+  return run("scontrol", {"show", "job"}, folder_).output + run("scontrol", {"show", "node"}, folder_).output + tail(folder_ / "ctld.log") +
+         tail(folder_ / "d.log");
+}
+
+void SlurmCluster::cancel_all() const {
+  run("scancel", {"--user=root", "--full"}, folder_);
+  run("scancel", {"--user=root", "--signal=KILL"}, folder_);
+}
 
 void SlurmCluster::start_munge() {
   if (run("munge", {"-n"}, folder_).status == 0) return;  // the machine has one

@@ -22,6 +22,12 @@ class SlurmCluster {
 
   /// What squeue says of all jobs; empty once there is none.
   std::string queue() const;
+  /// What jobs of cases that still run are doing (state, system call, threads of each); empty where none runs, whatever the queue says.
+  std::string running_cases() const;
+  /// For a message: what the daemons know and have written.
+  std::string account() const;
+  /// Takes all jobs out of the queue.
+  void cancel_all() const;
   std::filesystem::path conf() const { return folder_ / "slurm.conf"; }
   /// The node fails: what runs there is lost, and nothing starts until it is back. \throws std::runtime_error where scontrol refuses for a minute
   void take_node_down() const;
