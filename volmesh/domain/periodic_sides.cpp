@@ -25,7 +25,8 @@ using Edge = std::array<VertexId, 2>;
 
 class Joiner {
  public:
-  Joiner(TriMesh& mesh, const PeriodicNames& names) : mesh_(mesh), names_(names), tolerance_(k_side_tolerance * bounding_box(mesh).longest_side()) {
+  Joiner(TriMesh& mesh, const PeriodicNames& names, Column<TriangleId, TriangleId>& sources)
+      : mesh_(mesh), names_(names), sources_(sources), tolerance_(k_side_tolerance * bounding_box(mesh).longest_side()) {
     error_.code = ErrorCode::bad_argument;
     error_.attempted = "making \"" + names.first + "\" and \"" + names.second + "\" periodic";
     error_.hint = "periodic sides must be flat, face each other, and have the same border vertices, moved by one translation: make one and copy it";
@@ -268,10 +269,13 @@ class Joiner {
     context.info("periodic side \"" + names_.second + "\" gets the triangles of \"" + names_.first + "\"");
     Column<TriangleId, TriangleVertices> triangles;
     Column<TriangleId, PatchId> patches;
+    Column<TriangleId, TriangleId> sources;
+    const auto keep_source = [&](TriangleId t) { sources.push_back(sources_.empty() ? t : sources_[t]); };
     for (const TriangleId t : mesh_.triangles.ids()) {
       if (mesh_.triangle_patch[t] == result_.second) continue;
       triangles.push_back(mesh_.triangles[t]);
       patches.push_back(mesh_.triangle_patch[t]);
+      keep_source(t);
     }
     for (const TriangleId t : triangles_of(result_.first)) {
       TriangleVertices v = mesh_.triangles[t];
@@ -282,13 +286,16 @@ class Joiner {
       }
       triangles.push_back({v[0], v[2], v[1]});
       patches.push_back(result_.second);
+      keep_source(t);
     }
+    sources_ = std::move(sources);
     mesh_.triangles = std::move(triangles);
     mesh_.triangle_patch = std::move(patches);
   }
 
   TriMesh& mesh_;
   const PeriodicNames& names_;
+  Column<TriangleId, TriangleId>& sources_;  ///< of the boundary's triangles, as JoinedSides has them
   double tolerance_;
   ErrorInfo error_;
   PeriodicPatches result_;
@@ -308,11 +315,11 @@ void require_one_pair_each(std::span<const PeriodicNames> names) {
 
 }  // namespace
 
-std::vector<PeriodicPatches> join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
+JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
   require_one_pair_each(names);
-  std::vector<PeriodicPatches> result;
-  for (const PeriodicNames& pair : names) result.push_back(Joiner(boundary, pair).join(context));
-  return result;
+  JoinedSides joined;
+  for (const PeriodicNames& pair : names) joined.pairs.push_back(Joiner(boundary, pair, joined.sources).join(context));
+  return joined;
 }
 
 }  // namespace sterna::volmesh

@@ -18,6 +18,12 @@ struct PeriodicPatches {
   std::vector<std::array<VertexId, 2>> vertices;  ///< partners, ascending by the first; all vertices of both
 };
 
+/// All pairs of a boundary.
+struct JoinedSides {
+  std::vector<PeriodicPatches> pairs;
+  Column<TriangleId, TriangleId> sources;  ///< of each triangle of the boundary: before; of those that a second side gets: of its image. Empty where all stayed
+};
+
 /// Files keep 6 to 7 digits: vertices may be off their plane and off their image by this share of the boundary's box.
 inline constexpr double k_side_tolerance = 1e-6;
 
@@ -28,6 +34,6 @@ inline constexpr double k_side_tolerance = 1e-6;
 /// second side go to the end). Several pairs may share edges.
 /// \throws Error(bad_argument) for a name that is no patch (with those there are), a patch in several pairs, sides that are not flat, do not face each other or
 /// do not match: with places and distances
-std::vector<PeriodicPatches> join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
+JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -36,9 +36,10 @@ struct UserPart {
   TriMesh mesh;
   std::vector<TriangleId> triangles;  ///< of the boundary
   std::vector<LeftOut> left_out;
+  Column<VertexId, VertexId> partner;  ///< of vertices that have one on another periodic side
 };
 
-UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles) {
+UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic) {
   UserPart part;
   part.mesh.patches = complete.patches;
   Column<VertexId, VertexId> number(complete.n_vertices());
@@ -50,6 +51,15 @@ UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSpl
   for (const PatchId p : complete.patches.ids())
     if (complete.patches[p].kind == PatchKind::symmetry && has_given[p])
       if (const std::optional<LeftOut> plane = in_plane(complete, p)) part.left_out.push_back(*plane);
+  for (const PeriodicPatches& sides : periodic)
+    for (const PatchId side : {sides.first, sides.second}) {
+      if (!has_given[side]) continue;
+      const std::optional<LeftOut> plane = in_plane(complete, side);
+      if (!plane)
+        throw_bad_argument("making wake sheets", "the periodic side \"" + complete.patches[side].name + "\" is in no plane x, y or z = constant", {},
+                           "leave the wakes out, or turn the model");
+      part.left_out.push_back(*plane);
+    }
   Column<VertexId, Point> points = complete.points;
   for (const LeftOut& plane : part.left_out)
     for (const TriangleId t : complete.triangles.ids())
@@ -70,6 +80,13 @@ UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSpl
     part.mesh.triangle_patch.push_back(complete.triangle_patch[t]);
     part.triangles.push_back(t);
   }
+  part.partner.resize(part.mesh.n_vertices());
+  for (const PeriodicPatches& sides : periodic)
+    for (const auto& [a, b] : sides.vertices)
+      if (is_used[a] && is_used[b]) {
+        part.partner[number[a]] = number[b];
+        part.partner[number[b]] = number[a];
+      }
   // Patches that completion adds come after the user's own.
   std::size_t n_own = complete.patches.size();
   while (n_own > 0 && !has_given[PatchId(n_own - 1)]) --n_own;
@@ -94,10 +111,10 @@ void give_back_patches(const std::vector<LeftOut>& left_out, std::size_t n_befor
 
 }  // namespace
 
-SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const WakeSheet> wakes,
-                                 double first_height, const OuterOptions& options, const RunContext& context) {
-  UserPart part = user_part(complete, n_given, needles);
-  SheetsOnWall made = add_wake_sheets(wakes, stream_of(complete), first_height, part.mesh, context);
+SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
+                                 std::span<const WakeSheet> wakes, double first_height, const OuterOptions& options, const RunContext& context) {
+  UserPart part = user_part(complete, n_given, needles, periodic);
+  SheetsOnWall made = add_wake_sheets(wakes, stream_of(complete), first_height, part.partner, part.mesh, context);
   SheetedBoundary result;
   result.boundary = complete_boundary(part.mesh, options, context);
   give_back_patches(part.left_out, part.mesh.n_triangles(), result.boundary);

@@ -4,6 +4,7 @@
 #include "volmesh/case/wake_sheet.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/domain_parts.h"
+#include "volmesh/domain/periodic_sides.h"
 #include "volmesh/domain/split_needles.h"
 #include "volmesh/domain/wake_sheets.h"
 
@@ -16,11 +17,12 @@ struct SheetedBoundary {
 };
 
 /// Takes what came from the user out of a boundary that is complete, with its needles split, adds wake sheets and completes it again. Given symmetry patches in
-/// a plane x, y or z = constant are triangulated anew, as those that are added are.
+/// a plane x, y or z = constant are triangulated anew, as those that are added are, and so are given periodic sides, whose borders stay images of each other.
 /// \p n_given: triangles of the user's surface, the first ones of the boundary before needles were split
-/// \throws as add_wake_sheets() and complete_boundary()
-SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const WakeSheet> wakes,
-                                 double first_height, const OuterOptions& options, const RunContext& context);
+/// \p periodic: sides of the boundary, whose vertices are on their images
+/// \throws as add_wake_sheets() and complete_boundary(); Error(bad_argument) for given periodic sides in no such plane
+SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
+                                 std::span<const WakeSheet> wakes, double first_height, const OuterOptions& options, const RunContext& context);
 
 /// The sheets in numbers of a domain's wall; vertices on their rims get no layer there.
 /// \pre domain of split_domain() on the boundary, all walls at the sheets have layers

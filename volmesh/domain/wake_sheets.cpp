@@ -92,11 +92,13 @@ std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topo
 /// A sheet of n x m cells behind the chain's n edges.
 class SheetMaker {
  public:
-  SheetMaker(const WakeSheet& wake, const Vec3& stream, double raise, const TrailingEdge& chain, SheetsOnWall& made, TriMesh& wall, const RunContext& context)
+  SheetMaker(const WakeSheet& wake, const Vec3& stream, double raise, const TrailingEdge& chain, const Column<VertexId, VertexId>& partner, SheetsOnWall& made,
+             TriMesh& wall, const RunContext& context)
       : wake_(wake),
         stream_(stream),
         raise_(raise),
         chain_(chain),
+        partner_(partner),
         made_(made),
         wall_(wall),
         context_(context),
@@ -175,7 +177,29 @@ class SheetMaker {
     const std::vector<double> shares = stations(first);
     points_.resize(n_lines());
     for (std::size_t i = 0; i < n_lines(); ++i) points_[i] = points_along(i, starts[i], shares);
+    if (is_from_side_to_side()) equalise_ends();
     if (!chain_.is_loop) spread_lines();
+  }
+
+  /// Whether the chain's ends are images of each other on two periodic sides. \throws where one has its image elsewhere
+  bool is_from_side_to_side() const {
+    if (chain_.is_loop) return false;
+    const VertexId first = edge_vertex(0), last = edge_vertex(n_cells_);
+    for (const auto& [end, other] : {std::array{first, last}, std::array{last, first}})
+      if (partner_of(end).is_valid() && partner_of(end) != other)
+        fail("a trailing edge ends at a periodic side, and its other end is not the image there", "leave its patch out of the wake", wall_.points[end]);
+    return partner_of(first).is_valid();
+  }
+  VertexId partner_of(VertexId v) const { return v.index() < partner_.size() ? partner_[v] : VertexId(); }
+
+  /// The lines at both ends get the same course, the mean of theirs.
+  void equalise_ends() {
+    std::vector<Point>&first = points_[0], &last = points_[n_cells_];
+    for (std::size_t j = 1; j < first.size(); ++j) {
+      const Vec3 way = 0.5 * ((first[j] - first[0]) + (last[j] - last[0]));
+      first[j] = first[0] + way;
+      last[j] = last[0] + way;
+    }
   }
 
   /// Makes directions of normals: means over some of the trailing edge, so that a round tip does not turn the last lines, and without a part along the edge, so
@@ -317,8 +341,10 @@ class SheetMaker {
           break;
         kept_[i] = j + 1;
       }
+    const bool has_images = is_from_side_to_side();
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
+      if (has_images) kept_.front() = kept_.back() = std::min(kept_.front(), kept_.back());
       for (std::size_t i = 0; i < n_cells_; ++i)
         while (kept_[i] > 0 && !is_sound(i, kept_[i])) {
           --kept_[i];
@@ -421,11 +447,12 @@ class SheetMaker {
   /// Both sides apart by a hair; triangles of the wing on the right get their own vertices.
   void open_edge() {
     std::vector<std::pair<VertexId, Vec3>> moved;
+    const bool has_images = is_from_side_to_side();
     for (std::size_t i = 0; i < n_lines(); ++i)
       for (std::size_t j = 0; j <= n_rows(); ++j) {
         const auto [left, right] = sides_[i][j];
         if (!left.is_valid() || left == right) continue;
-        Vec3 normal = normal_at(i, j);
+        Vec3 normal = has_images && (i == 0 || i == n_cells_) ? normal_at(0, j) + normal_at(n_cells_, j) : normal_at(i, j);
         if (!chain_.is_loop && (i == 0 || i == n_cells_))
           if (const auto axis = border_axis(edge_vertex(i))) normal[*axis] = 0.0;
         moved.push_back({left, raise_ * normalized(normal)});
@@ -470,6 +497,7 @@ class SheetMaker {
   const Vec3 stream_;
   double raise_;  ///< m
   const TrailingEdge& chain_;
+  const Column<VertexId, VertexId>& partner_;  ///< of the wall's given vertices, or empty
   SheetsOnWall& made_;
   TriMesh& wall_;
   const RunContext& context_;
@@ -542,7 +570,8 @@ Vec3 stream_of(const TriMesh& boundary) {
   return norm(sum) > k_one_way * area ? normalized(sum) : k_along_x;
 }
 
-SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_domain, double first_height, TriMesh& wall, const RunContext& context) {
+SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_domain, double first_height, const Column<VertexId, VertexId>& partner,
+                             TriMesh& wall, const RunContext& context) {
   SheetsOnWall made;
   made.sheets.n_given_vertices = wall.n_vertices();
   made.sheets.n_given_triangles = wall.n_triangles();
@@ -563,7 +592,7 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
                          {}, "check the direction of the free stream");
     // Before the wall is changed: makers double its vertices, half-edges stay.
     for (TrailingEdge& chain : chains) chain = without_short_ends(wall, topology, stream, std::move(chain));
-    for (const TrailingEdge& chain : chains) n_chains += SheetMaker(wake, stream, raise, chain, made, wall, context).make() ? 1 : 0;
+    for (const TrailingEdge& chain : chains) n_chains += SheetMaker(wake, stream, raise, chain, partner, made, wall, context).make() ? 1 : 0;
   }
   if (n_chains == 0)
     throw_bad_argument(k_wake_attempt, "all sheets would be in planes in which the wall ends", {}, "leave wakes out, or ask for them behind the wing only");

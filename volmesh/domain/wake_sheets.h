@@ -25,12 +25,14 @@ struct SheetsOnWall {
 /// along the stream start as long as the wing's there and grow, all lines have as many. Where a line comes near to another wall or sheet, the sheet ends, and
 /// it gets narrower rather than thinner than two cells. Edges at the free ends of a trailing edge (round tips) that are shorter than a quarter of the edges
 /// upstream of it, and of its median, have no sheet behind them. At the border of an open wall (a half model) the sheet has a border, too, in the same plane x,
-/// y or z = constant. Vertices on an opened trailing edge are doubled; the one of the left side keeps its number. Triangles have the patch of the wall at the
-/// edge.
+/// y or z = constant. A trailing edge from periodic side to periodic side has the same line at both. Vertices on an opened trailing edge are doubled; the one
+/// of the left side keeps its number. Triangles have the patch of the wall at the edge.
 /// \pre wall manifold; borders exactly in planes; first_height in m, the smallest of all
 /// \param stream: unit, for sheets that have no direction of their own
+/// \param partner: of each vertex of the wall: its image on another periodic side, equal to the bit but for the translation, or none; empty: none has
 /// \throws Error(bad_argument) where a pattern matches no patch, or no trailing edge, or only such as have no sheet, where the stream is none, where a sheet has no room for two rows of
-/// cells, and for first heights that are too small for the coordinates
-SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& stream, double first_height, TriMesh& wall, const RunContext& context);
+/// cells, where a trailing edge ends at one periodic side alone, and for first heights that are too small for the coordinates
+SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& stream, double first_height, const Column<VertexId, VertexId>& partner,
+                             TriMesh& wall, const RunContext& context);
 
 }  // namespace sterna::volmesh

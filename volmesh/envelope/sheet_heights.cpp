@@ -38,6 +38,7 @@ class SheetGrower {
 
   void grow() {
     for (const DoubledSheets::Foot& foot : sheets_.feet) lines_.push_back(line_of(foot));
+    share_with_images();
     LayerDemand demand = base_.demand;
     if (demand.total_height.empty()) {
       demand.total_height.assign(base_.wall.n_vertices(), k_automatic);
@@ -79,6 +80,27 @@ class SheetGrower {
     line.first_height = std::min(tallest, before * std::pow(std::min(foot.height_growth, line.growth), foot.row));
     line.layers = layers_for(line, all);
     return line;
+  }
+
+  /// Feet on periodic sides get what their images get, to the bit.
+  void share_with_images() {
+    constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+    Column<VertexId, std::size_t> line_at(base_.wall.n_vertices(), k_none);
+    for (std::size_t i = 0; i < lines_.size(); ++i) line_at[sheets_.feet[i].sides[0]] = i;
+    for (const std::vector<VertexId>& group : base_.groups) {
+      std::vector<std::size_t> members;
+      for (const VertexId v : group)
+        if (line_at[v] != k_none) members.push_back(line_at[v]);
+      if (members.empty()) continue;
+      SheetLine shared = lines_[members.front()];
+      for (const std::size_t i : members) {
+        shared.first_height = std::min(shared.first_height, lines_[i].first_height);
+        shared.height = std::min(shared.height, lines_[i].height);
+        shared.growth = std::min(shared.growth, lines_[i].growth);
+        shared.layers = std::max(shared.layers, lines_[i].layers);
+      }
+      for (const std::size_t i : members) lines_[i] = shared;
+    }
   }
 
   /// The least number of layers that grow by no more than those before the edge.

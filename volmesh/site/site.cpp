@@ -37,7 +37,6 @@ void require_no_others(const MeshCase& options) {
   const auto refuse = [](std::string what, std::string hint) { throw_bad_argument("making wake sheets", std::move(what), {}, std::move(hint)); };
   if (opens_ridges(options)) refuse("layers cannot have several normals at ridges, too", "leave wakes out, or open_ridges = \"never\"");
   if (!options.discs.empty()) refuse("there are actuator discs, too", "leave one of them out");
-  if (!options.periodic.empty()) refuse("there are periodic sides, too", "leave one of them out");
 }
 
 }  // namespace
@@ -80,6 +79,18 @@ double least_first_height(const MeshCase& options) {
   return least;
 }
 
+/// Moves vertices of periodic sides onto their images, without a change of triangles. \return the sides, without vertices inside the second that would be new
+std::vector<PeriodicPatches> images_on_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
+  if (names.empty()) return {};
+  TriMesh joined = boundary;
+  std::vector<PeriodicPatches> sides =
+      join_periodic_sides(joined, names, RunContext({.threads = context.threads()})).pairs;  // told when they are joined for good
+  for (PeriodicPatches& side : sides)
+    std::erase_if(side.vertices, [&](const std::array<VertexId, 2>& pair) { return pair[1].index() >= boundary.n_vertices(); });
+  std::copy_n(joined.points.begin(), boundary.n_vertices(), boundary.points.begin());
+  return sides;
+}
+
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options) {
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
@@ -103,8 +114,9 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
-    sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, options.wakes, least_first_height(options), {options.farfield, options.farfield_surface},
-                               context);
+    const std::vector<PeriodicPatches> sides = images_on_sides(boundary, options.periodic, context);
+    sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, sides, options.wakes, least_first_height(options),
+                               {options.farfield, options.farfield_surface}, context);
     apply_patch_kinds(sheeted.boundary, options.patches);
     boundary = sheeted.boundary;
     has_layer = patches_with_layers(boundary, options);
@@ -112,8 +124,8 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   }
   require_own_names(options.discs, boundary.patches, {});
   const DiscCuts cuts = cut_discs(boundary, has_layer, options.discs, context);
-  const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
-  Domain domain = split_domain(boundary, has_layer, context, periodic);
+  const JoinedSides periodic = join_periodic_sides(boundary, options.periodic, context);
+  Domain domain = split_domain(boundary, has_layer, context, periodic.pairs);
   if (domain.wall.n_triangles() == 0)
     throw Error({.code = ErrorCode::empty_surface,
                  .attempted = "volume_mesh",
@@ -127,6 +139,8 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
     domain.links.surface.resize(domain.outer.n_triangles(), -1);
   }
   add_slits(boundary, cuts, options.discs, options.size.size_growth, context, domain);
+  if (!periodic.sources.empty())
+    for (TriangleId& t : domain.wall2surface) t = periodic.sources[t];
   if (!cuts.sources.empty())
     for (TriangleId& t : domain.wall2surface) t = cuts.sources[t];
   if (!options.wakes.empty()) hold_sheets(sheeted, domain);

@@ -155,11 +155,35 @@ TEST(PeriodicDomain, ADifferentTriangulationOfTheSecondSideIsReplaced) {
   ASSERT_TRUE(inner.is_valid());
   surface.points[inner].x += 0.03;
   const std::size_t n_vertices = surface.n_vertices();
-  std::vector<PeriodicPatches> joined = join_periodic_sides(surface, std::array{PeriodicNames{"left", "right"}}, k_context);
+  std::vector<PeriodicPatches> joined = join_periodic_sides(surface, std::array{PeriodicNames{"left", "right"}}, k_context).pairs;
   ASSERT_EQ(joined.size(), 1u);
   EXPECT_EQ(surface.n_vertices(), n_vertices + 23 * 11);
   EXPECT_EQ(joined[0].vertices.size(), 25u * 13u);
   EXPECT_NO_THROW(match_periodic(surface, joined[0].first, joined[0].second, 1e-12));
+}
+
+TEST(PeriodicDomain, TheWallKnowsItsTrianglesWhereASideIsReplaced) {
+  TriMesh surface = room(all_slip, is_wing);
+  const auto right = PatchId(static_cast<std::size_t>(std::ranges::find(surface.patches, "right", &Patch::name) - surface.patches.begin()));
+  // The second side's come first, and one vertex inside it is elsewhere, so that its triangles are replaced and all others have other numbers.
+  TriMesh sorted = surface;
+  sorted.triangles.clear();
+  sorted.triangle_patch.clear();
+  for (const bool is_right : {true, false})
+    for (const TriangleId t : surface.triangles.ids())
+      if ((surface.triangle_patch[t] == right) == is_right) {
+        sorted.triangles.push_back(surface.triangles[t]);
+        sorted.triangle_patch.push_back(surface.triangle_patch[t]);
+      }
+  for (Point& p : sorted.points)
+    if (distance(p, {0.5, 2.0, 0.5}) < 1e-9) p.x += 0.03;
+  TriMesh joined = sorted;
+  ASSERT_FALSE(join_periodic_sides(joined, std::array{PeriodicNames{"left", "right"}}, k_context).sources.empty());
+  const MeshingSite site(sorted, periodic_layers(4, 1e-3), k_context);
+  for (const TriangleId t : site.domain.wall.triangles.ids()) {
+    const auto of_wall = corners(site.domain.wall, t), of_surface = corners(sorted, site.domain.wall2surface[t]);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(distance(of_wall[k], of_surface[k]), 1e-12);
+  }
 }
 
 TEST(PeriodicDomain, VerticesFromFilesWithSixDigitsAreMovedOntoTheirImages) {
@@ -181,7 +205,7 @@ TEST(PeriodicDomain, VerticesOfAMesherGoAlongTheirBorderToTheImages) {
   for (Point& p : surface.points)
     if (p.y == 2.0 && (p.z == 0.0 || std::abs(p.z - 5.0 / 6.0) < 1e-9) && p.x > 1.4 && p.x < 2.3) p.x += 0.25 / 6.0;
   TriMesh joined = surface;
-  const std::vector<PeriodicPatches> sides = join_periodic_sides(joined, std::array{PeriodicNames{"left", "right"}}, k_context);
+  const std::vector<PeriodicPatches> sides = join_periodic_sides(joined, std::array{PeriodicNames{"left", "right"}}, k_context).pairs;
   EXPECT_EQ(sides[0].translation, Vec3(0, 2, 0));
   EXPECT_NO_THROW(match_periodic(joined, sides[0].first, sides[0].second, 1e-12));
   matched(surface, periodic_layers(8, 1e-3));

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "geom/mesh/periodic.h"
 #include "geom/mesh/topology.h"
 #include "tests/support/constants.h"
 #include "tests/support/error_of.h"
@@ -125,7 +126,7 @@ TEST(TrailingEdges, OfAWingItIsTheSharpOne) {
 TEST(WakeSheets, TheWallIsAThinBodyThen) {
   const TriMesh given = sharp_wing(20.0, 8);
   TriMesh wall = given;
-  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{}}, k_stream, 1e-3, wall, k_context);
+  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{}}, k_stream, 1e-3, {}, wall, k_context);
   const DoubledSheets& sheets = made.sheets;
   ASSERT_FALSE(sheets.is_empty());
   EXPECT_EQ(Topology(wall, k_context).n_boundary_halfedges(), 0u);
@@ -234,13 +235,13 @@ TEST(WakeSheets, BehindABluntBaseItStartsAtTheUpperEdge) {
 TEST(WakeSheets, EndWhereAWallIsInTheWay) {
   const TriMesh wing = sharp_wing(20.0, 8), free = [&] {
     TriMesh wall = wing;
-    add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, k_stream, 1e-3, wall, k_context);
+    add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, k_stream, 1e-3, {}, wall, k_context);
     return wall;
   }();
   EXPECT_GT(end_of(free), 3.0);
   const auto sheets_before = [&](const TriMesh& given) {
     TriMesh wall = given;
-    const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, k_stream, 1e-3, wall, k_context);
+    const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.wing = "wing"}}, k_stream, 1e-3, {}, wall, k_context);
     Box box;
     for (std::size_t t = made.sheets.n_given_triangles; t < wall.n_triangles(); ++t)
       for (const Point& p : corners(wall, TriangleId(t))) box.add(p);
@@ -268,6 +269,65 @@ TEST(WakeSheets, AGivenPlaneOfSymmetryIsMadeAnew) {
   for (const BoundaryQuad& quad : with.mesh.boundary_quads) EXPECT_EQ(with.mesh.patches[quad.patch].name, "symmetry");
 }
 
+/// Without caps, and bent between the sides, so that the wing meets them at other angles.
+TriMesh wing_from_side_to_side(double wedge_angle, double bend) {
+  constexpr int k_span = 10;
+  const TriMesh wall = sharp_wing(wedge_angle, k_span);
+  TriMesh open;
+  open.points = wall.points;
+  open.patches = wall.patches;
+  for (const TriangleId t : wall.triangles.ids()) {
+    const auto [a, b, c] = corners(wall, t);
+    if (a.y == b.y && b.y == c.y) continue;
+    open.triangles.push_back(wall.triangles[t]);
+    open.triangle_patch.push_back(wall.triangle_patch[t]);
+  }
+  for (Point& p : open.points) p.z += bend * p.y * p.y * (0.1 * k_span - p.y);
+  return open;
+}
+
+TEST(WakeSheets, FromPeriodicSideToPeriodicSideTheyMatch) {
+  for (const double bend : {0.0, 0.3})
+    for (const char* truncate : {"never", "auto"})
+      for (const bool has_given_sides : {false, true}) {
+        TriMesh wall = wing_from_side_to_side(20.0, bend);
+        MeshCase mesh_case = wake_case({{.length = 1.0}});
+        mesh_case.farfield.farfield_shape = "box";
+        mesh_case.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
+        mesh_case.prisms.truncate = truncate;
+        if (has_given_sides) {
+          wall = complete_boundary(wall, {mesh_case.farfield, nullptr}, k_context);
+          mesh_case.farfield = {};
+        }
+        const VolumeMeshResult result = volume_mesh(wall, mesh_case, k_context);
+        ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);
+        ASSERT_EQ(result.mesh.periodic.size(), 1u);
+        const PeriodicMatch match = match_periodic(result.mesh, result.mesh.periodic[0].first, result.mesh.periodic[0].second, periodic_tolerance(result.mesh));
+        EXPECT_LT(distance(match.translation, Vec3(0.0, 1.0, 0.0)), 1e-12);
+        // Layers behind the trailing edge reach both sides.
+        std::array<double, 2> end = {0.0, 0.0};
+        for (const BoundaryQuad& quad : result.mesh.boundary_quads)
+          for (const NodeId node : quad.nodes) {
+            const Point& p = result.mesh.points[node];
+            end[p.y > 0.5 ? 1 : 0] = std::max(end[p.y > 0.5 ? 1 : 0], p.x);
+          }
+        EXPECT_GT(end[0], 1.8) << bend << truncate;
+        EXPECT_NEAR(end[0], end[1], 1e-12);
+      }
+}
+
+TEST(WakeSheets, BetweenPeriodicSidesThereMayBeOtherWings) {
+  MeshCase mesh_case = wake_case({{}});
+  mesh_case.farfield.farfield_shape = "box";
+  mesh_case.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
+  TriMesh wall = wing_from_side_to_side(20.0, 0.0);
+  // Another wing ends between the sides: its sheet has rims.
+  TriMesh tip = sharp_wing(20.0, 4);
+  for (Point& p : tip.points) p += Vec3{5.0, 0.3, 0.0};
+  append(wall, tip);
+  EXPECT_TRUE(volume_mesh(wall, mesh_case, k_context).check.is_valid());
+}
+
 TEST(WakeSheets, FollowTheInflowOfATunnel) {
   TriMesh tunnel = room([](const std::string&) { return PatchKind::slip; });
   EXPECT_EQ(stream_of(tunnel), (Vec3{1.0, 0.0, 0.0}));
@@ -284,7 +344,7 @@ TEST(WakeSheets, TheirDirectionIsTheStreamUnlessGiven) {
   const auto end_height = [](const WakeSheet& wake, const Vec3& stream) {
     TriMesh wall = sharp_wing(20.0, 8);
     const std::size_t n_given = wall.n_vertices();
-    add_wake_sheets(std::array{wake}, stream, 1e-3, wall, k_context);
+    add_wake_sheets(std::array{wake}, stream, 1e-3, {}, wall, k_context);
     double highest = 0.0;
     for (std::size_t i = n_given; i < wall.n_vertices(); ++i) highest = std::max(highest, wall.points[VertexId(i)].z);
     return highest;
@@ -300,7 +360,7 @@ TEST(WakeSheets, BeginWhereEdgesOfATipAreNotShort) {
   for (Point& p : wall.points)
     if (p.y > 0.65) p.y = p.y > 0.75 ? 0.64 : 0.62;
   const std::size_t n_given = wall.n_vertices();
-  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.length = 0.5}}, k_stream, 1e-3, wall, k_context);
+  const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.length = 0.5}}, k_stream, 1e-3, {}, wall, k_context);
   double farthest = 0.0;
   for (const VertexId v : made.sheets.rims)
     if (v.index() < n_given) farthest = std::max(farthest, wall.points[v].y);
