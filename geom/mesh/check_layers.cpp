@@ -46,9 +46,16 @@ struct LayerScan {
 class LineScanner {
  public:
   /// `line_heights` has one entry per line, which is set where the mesh's request can be used.
-  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const MirrorFeet& feet, const GateTable& limits, bool is_request_usable,
-              std::vector<LineHeight>& line_heights)
-      : mesh_(mesh), lines_(lines), fans_(fans), feet_(feet), line_heights_(line_heights), is_request_usable_(is_request_usable), scan_(limits) {}
+  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const FacetsOfExplicitPrisms& beside, const MirrorFeet& feet,
+              const GateTable& limits, bool is_request_usable, std::vector<LineHeight>& line_heights)
+      : mesh_(mesh),
+        lines_(lines),
+        fans_(fans),
+        beside_(beside),
+        feet_(feet),
+        line_heights_(line_heights),
+        is_request_usable_(is_request_usable),
+        scan_(limits) {}
 
   LayerScan take() { return std::move(scan_); }
 
@@ -90,6 +97,10 @@ class LineScanner {
       } else if (line < next || !is_shared(line, next)) {
         scan_.step.add(step, line);
       }
+    }
+    for (const FacetsOfExplicitPrisms::Facet& facet : beside_.around(line)) {
+      normals_.push_back(facet.normal);
+      vertex_normal_ += facet.angle * facet.normal;
     }
     vertex_normal_ = feet_.mirrored(lines_.node(line, 0), vertex_normal_);
     if (n_level > 0.0) scan_.step.add(0.0, line, n_level);
@@ -140,6 +151,7 @@ class LineScanner {
   const HybridMesh& mesh_;
   const LayerLines& lines_;
   const Fans& fans_;
+  const FacetsOfExplicitPrisms& beside_;
   const MirrorFeet& feet_;
   std::vector<LineHeight>& line_heights_;
   bool is_request_usable_;
@@ -318,13 +330,14 @@ std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots,
     return {};
   }
   const Fans fans(lines);
+  const FacetsOfExplicitPrisms beside(mesh, lines);
   const MirrorFeet feet(mesh);
   const bool is_usable = lines.are_columns() && is_request_usable(mesh);
   std::vector<LineHeight> heights(lines.n_lines());
   const LayerScan scan = parallel_reduce(
       context, lines.n_lines(), LayerScan(limits),
       [&](std::size_t begin, std::size_t end) {
-        LineScanner scanner(mesh, lines, fans, feet, limits, is_usable, heights);
+        LineScanner scanner(mesh, lines, fans, beside, feet, limits, is_usable, heights);
         for (std::size_t k = begin; k < end; ++k) scanner.add(static_cast<std::uint32_t>(k));
         return scanner.take();
       },

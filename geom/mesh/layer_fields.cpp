@@ -22,6 +22,7 @@ struct LineFigures {
 
 std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   const Fans fans(lines);
+  const FacetsOfExplicitPrisms beside(mesh, lines);
   const MirrorFeet feet(mesh);
   const bool has_target = lines.are_columns() && is_request_usable(mesh);
   std::vector<LineFigures> all(lines.n_lines());
@@ -49,6 +50,11 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
           const std::size_t c = corner[0] == line ? 0 : corner[1] == line ? 1 : 2;
           wall_normal += corner_angle(foot(c), foot((c + 1) % 3), foot((c + 2) % 3)) * normals.back();
         }
+        if (!normals.empty())
+          for (const FacetsOfExplicitPrisms::Facet& facet : beside.around(line)) {
+            normals.push_back(facet.normal);
+            wall_normal += facet.angle * facet.normal;
+          }
         if (!normals.empty()) normal_height = dot(point(n) - point(0), feet.mirrored(lines.node(line, 0), wall_normal));
         if (!normals.empty()) figures.angle = k_degrees * stack_angle(mesh, lines, line, normals);
       }

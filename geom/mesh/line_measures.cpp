@@ -52,6 +52,30 @@ void MirrorFeet::add_images(NodeId node, std::vector<Vec3>& normals) const {
     for (std::size_t i = 0, n = normals.size(); i < n; ++i) normals.push_back(normals[i] - 2.0 * dot(normals[i], foot.normal) * foot.normal);
 }
 
+FacetsOfExplicitPrisms::FacetsOfExplicitPrisms(const HybridMesh& mesh, const LayerLines& lines) {
+  if (!lines.are_columns() || mesh.prisms.empty()) return;
+  constexpr std::uint32_t k_none = ~0u;
+  std::vector<std::uint32_t> line_at(mesh.points.size(), k_none);  // of nodes
+  for (std::uint32_t line = 0; line < lines.n_lines(); ++line)
+    if (lines.n_layers(line) > 0) line_at[lines.node(line, 0).index()] = line;
+  for (const std::array<NodeId, 6>& prism : mesh.prisms)
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::size_t base = k < 3 ? 0 : 3;
+      const NodeId foot = prism[k], above = prism[(k + 3) % 6];
+      const std::uint32_t line = line_at[foot.index()];
+      if (line == k_none || lines.node(line, 1) != above) continue;
+      const Point &p = mesh.points[foot], &a = mesh.points[prism[base + (k + 1) % 3]], &b = mesh.points[prism[base + (k + 2) % 3]];
+      const Vec3 normal = normalized(area_vector(p, a, b));
+      facets_.push_back({line, dot(normal, mesh.points[above] - p) < 0.0 ? -normal : normal, corner_angle(p, a, b)});
+    }
+  std::ranges::stable_sort(facets_, {}, &Facet::line);
+}
+
+std::span<const FacetsOfExplicitPrisms::Facet> FacetsOfExplicitPrisms::around(std::uint32_t line) const {
+  const auto [first, last] = std::ranges::equal_range(facets_, line, {}, &Facet::line);
+  return {first, last};
+}
+
 double worst_growth(std::span<const double> heights) {
   double worst = 1.0;
   for (std::size_t j = 1; j < heights.size(); ++j) {

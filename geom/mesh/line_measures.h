@@ -1,6 +1,7 @@
 // What the checks and the fields of surfaces measure along lines of layers, in one place.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,22 @@ class MirrorFeet {
   };
   std::span<const Foot> of(NodeId node) const;
   std::vector<Foot> feet_;  ///< ascending by node and patch
+};
+
+/// Facets around the feet of columns' lines that carry explicit prisms and no column: of wake sheets, and of walls beside lines that were added. A line sees
+/// them, too. None where lines are no columns.
+class FacetsOfExplicitPrisms {
+ public:
+  struct Facet {
+    std::uint32_t line;
+    Vec3 normal;   ///< unit, into the prism
+    double angle;  ///< of the facet's corner at the foot
+  };
+  FacetsOfExplicitPrisms(const HybridMesh& mesh, const LayerLines& lines);
+  std::span<const Facet> around(std::uint32_t line) const;
+
+ private:
+  std::vector<Facet> facets_;  ///< ascending by line
 };
 
 /// The larger over the smaller of consecutive heights, at worst (G8); 1 for fewer than two.
