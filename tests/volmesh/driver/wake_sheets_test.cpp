@@ -231,7 +231,7 @@ TEST(WakeSheets, BehindABluntBaseItStartsAtTheUpperEdge) {
   EXPECT_TRUE(with.check.is_valid());
   EXPECT_EQ(faces_of_wing(with.mesh), faces_of_wing(without.mesh));
   // Lines at the base's edges have columns on one side and cells of the sheet on the other: their first heights are right along the normal of all facets.
-  EXPECT_LT(with.check.gate(Measure::first_height).worst, 0.2);  // the gate; by the columns alone more than half
+  EXPECT_LT(with.check.gate(Measure::first_height).worst, 0.2);  // the gate's
 }
 
 TEST(WakeSheets, EndWhereAWallIsInTheWay) {
