@@ -375,7 +375,7 @@ void WingBuilder::make_panels() {
 }
 
 const std::string& WingBuilder::name_at_end(std::size_t section, std::size_t neighbour) const {
-  const auto [from, to] = std::minmax(static_cast<double>(section), static_cast<double>(neighbour));
+  const auto [from, to] = std::minmax({static_cast<double>(section), static_cast<double>(neighbour)});
   const double middle = 0.5 * (from + to);
   const WingPatch* patch = section < neighbour ? patch_over(ControlKind::all_moving, from, middle) : patch_over(ControlKind::all_moving, middle, to);
   return patch && !patch->slot ? patch->name : wing_.name;
