@@ -333,7 +333,7 @@ void find_line_bulges(const Reference& r, FeatureLine& line) {
   }
   // An end goes on as the line bends from there, if it still does so behind the next vertex.
   const auto rise_at_end = [&](std::size_t near, std::size_t far, const Vec3& rise, double length) {
-    if (far == 0 || far + 1 >= n) return Vec3{};
+    if (far == 0 || far >= n - 1) return Vec3{};  // also of a line of one edge, behind which there is no vertex
     const double behind = distance(at(near), at(far));
     const double bend = angle_between(tangents[near], tangents[far]) * 0.5 * length / behind;
     return norm(rise) > 0.0 ? std::min(1.0, bend / norm(rise)) * rise : rise;
