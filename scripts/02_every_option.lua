@@ -452,7 +452,7 @@ print(skin)
 -- A row of bodies: two sides of the tunnel are each other's image, node by node.
 local stub = cylinder{ {-0.4, 0, 0}, {0.4, 0, 0}, radius = 0.3, name = "stub" }
 local row = test_section{ length = 4, width = 2, height = 2, walls = "slip", max_edge = 0.5 }
-print(volume_mesh{ surface_mesh{ stub, row, max_edge = 0.3, growth = 1.4 }, layers = 4, first_height = 2e-3, periodic = { { "tunnel_left", "tunnel_right" } } })
+print(volume_mesh{ surface_mesh{ stub, row, max_edge = 0.3, growth = 1.4, periodic = { { "tunnel_left", "tunnel_right" } } }, layers = 4, first_height = 2e-3, periodic = { { "tunnel_left", "tunnel_right" } } })
 
 -- Cases, each in a process and a folder of its own.
 local here = jobs{ tasks = 2, threads = 1 }

@@ -334,9 +334,10 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.wakes = sheets_of(command);
-  volume_options.periodic = periodic_of(command);
+  volume_options.periodic = asked.periodic = periodic_of(command);
   const RunContext surface_part = context.run.part("surface", 0.0, k_surface_end);
-  SurfaceValue wall = command.is_auto ? auto_triangles(inputs, asked, reuse, surface_part) : mesh_model_files(inputs, reading, recipe, surface_part, reuse);
+  SurfaceValue wall = command.is_auto ? auto_triangles(inputs, asked, reuse, surface_part)
+                                      : mesh_model_files(inputs, reading, recipe, surface_part, reuse, volume_options.periodic);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);

@@ -5,6 +5,7 @@
 
 #include "geom/base/glob.h"
 #include "surfmesh/model/join_parts.h"
+#include "surfmesh/model/periodic_rims.h"
 
 namespace sterna::scripting {
 namespace {
@@ -35,6 +36,26 @@ std::vector<surfmesh::PatchSurfaceOptions> rules_for(const Model& part, const Mo
   return result;
 }
 
+bool has_face(const Model& model, const std::string& name) {
+  return std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; });
+}
+
+/// Whether both sides of each pair are faces of one part only, or of none, which mesh_model refuses.
+bool are_pairs_within_parts(const ModelValue& value, const std::vector<ModelPart>& parts, const std::vector<surfmesh::SidePair>& pairs) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Model own = own_model(value, parts, i);
+    for (const surfmesh::SidePair& pair : pairs)
+      if (has_face(own, pair[0]) != has_face(own, pair[1]) && has_face(value.model, pair[0]) && has_face(value.model, pair[1])) return false;
+  }
+  return true;
+}
+
+/// Those that a part has, or nobody.
+std::string pairs_for(const Model& part, const Model& all, std::vector<surfmesh::SidePair> pairs) {
+  std::erase_if(pairs, [&](const surfmesh::SidePair& pair) { return has_face(all, pair[0]) && has_face(all, pair[1]) && !has_face(part, pair[0]); });
+  return surfmesh::side_pairs_text(pairs);
+}
+
 std::string name_of(const Model& part) { return part.components.size() == 0 ? part.faces.raw().front().name : part.components.raw().front().name; }
 
 PartsMesh mesh_in_place(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context) {
@@ -56,10 +77,16 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
     context.info("gap_cells: gaps between parts ask for sizes, so all parts are meshed together, where they are");
     return mesh_in_place(value, recipe, sizes, in_place, context);
   }
+  const std::vector<surfmesh::SidePair> pairs = surfmesh::side_pairs(recipe.options.periodic);
+  if (!pairs.empty() && !are_pairs_within_parts(value, parts, pairs)) {
+    context.info("periodic sides belong to different parts, so all parts are meshed together, where they are");
+    return mesh_in_place(value, recipe, sizes, in_place, context);
+  }
   std::vector<PartTask> tasks;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     PartTask task{own_model(value, parts, i), recipe.options, {}, in_frame(sizes, parts[i].placement), says_something(sizes), parts[i].placement, parts[i].key};
     task.patches = rules_for(task.model, value.model, recipe.patches);
+    task.options.periodic = pairs_for(task.model, value.model, pairs);
     tasks.push_back(std::move(task));
   }
   std::vector<surfmesh::SurfaceMesh> meshes;

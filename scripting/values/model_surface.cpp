@@ -17,9 +17,11 @@
 #include "scripting/values/fluid_model.h"
 #include "scripting/values/mesh_parts.h"
 #include "scripting/values/patch_rules.h"
+#include "scripting/values/periodic_sides.h"
 #include "scripting/values/start_from_reference.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/value_keys.h"
+#include "surfmesh/model/periodic_rims.h"
 #include "volmesh/case/size_sources.h"
 
 namespace sterna {
@@ -125,6 +127,18 @@ std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSu
     return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
   });
   return rules;
+}
+
+void add_periodic_faces(const std::vector<ModelHandle>& models, std::span<const volmesh::PeriodicNames> periodic, SurfaceRecipe& recipe) {
+  const auto is_face = [&](const std::string& name) {
+    if (surfmesh::is_open_plane(name)) return std::ranges::any_of(models, [](const ModelHandle& model) { return !free_edges(model->model).empty(); });
+    return std::ranges::any_of(
+        models, [&](const ModelHandle& model) { return std::ranges::any_of(model->model.faces, [&](const ModelFace& face) { return face.name == name; }); });
+  };
+  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(recipe.options.periodic);
+  for (const volmesh::PeriodicNames& pair : periodic)
+    if (is_face(pair.first) && is_face(pair.second)) pairs.push_back(pair);
+  recipe.options.periodic = periodic_text(pairs);
 }
 
 std::string indented(std::string text) {
@@ -295,7 +309,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
 }
 
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse) {
+                              const Reuse& reuse, std::span<const volmesh::PeriodicNames> periodic) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
       throw Error(
@@ -318,6 +332,7 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
     }
     models.push_back(std::move(model));
   }
+  add_periodic_faces(models, periodic, with_files);
   return mesh_or_unite(models, with_files, context.part("surface_mesh", k_unite_end, 1.0), reuse);
 }
 

@@ -25,9 +25,10 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
                          const RunContext& context, const Reuse& reuse = {});
 
 /// Reads files of models and meshes their surface. Components of .smx and CPACS files are united first; CAD stays as it is. `reading` counts for CAD.
+/// \p periodic: pairs of sides of the volume; those that are faces of the models go into the recipe.
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse = {});
+                              const Reuse& reuse = {}, std::span<const volmesh::PeriodicNames> periodic = {});
 
 /// Several lines: the report of the mesher with the places where the surface is open and what was absorbed.
 /// \pre surface.mesh_report

@@ -12,6 +12,11 @@ namespace sterna::scripting {
 /// The entry "periodic" of a table: a list of pairs of names, or one pair. Notes problems with the reader.
 std::vector<volmesh::PeriodicNames> read_periodic(TableReader& reader);
 
+/// Pairs as SurfaceMeshOptions::periodic has them, and back.
+/// \throws Error(bad_argument) for text that is none
+std::string periodic_text(const std::vector<volmesh::PeriodicNames>& pairs);
+std::vector<volmesh::PeriodicNames> periodic_of_surface(const std::string& text);
+
 /// A pair of the command line, "left,right".
 /// \throws Error(bad_argument)
 volmesh::PeriodicNames periodic_of_text(const std::string& text);

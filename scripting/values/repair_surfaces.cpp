@@ -145,7 +145,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   try {
     const RunContext as_it_is = context.part("as it is", 0.0, k_as_it_is_end);
     if (!are_models(files)) return read_wall(files, stitching, as_it_is);
-    SurfaceValue surface = mesh_model_files(files, options.reading, options.recipe, as_it_is, reuse);
+    SurfaceValue surface = mesh_model_files(files, options.reading, options.recipe, as_it_is, reuse, options.periodic);
     if (surface.report.is_closed) return surface;
     first = {.code = ErrorCode::open_surface, .attempted = "meshing the model's surface", .problem = "it is open"};
     open = std::move(surface);
@@ -160,7 +160,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     SurfaceRecipe recipe = options.recipe;
     recipe.options.crossings = "ignore";
     const RunContext part = context.part("triangles", k_as_it_is_end, k_triangles_end);
-    of_model = std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse));
+    of_model = std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse, options.periodic));
     items = {of_model};
     stitching.unit = 1.0;
   }

@@ -32,9 +32,10 @@ std::string repair_json(const surfmesh::RepairReport& report);
 struct AutoSurface {
   surfmesh::StitchOptions stitching = {};
   surfmesh::RepairOptions repair = {};
-  surfmesh::WrapOptions wrap = {};  ///< its unit, fluid and split_angle are those of `stitching`
-  ReadCadOptions reading = {};      ///< of models
-  SurfaceRecipe recipe = {};        ///< of models
+  surfmesh::WrapOptions wrap = {};                    ///< its unit, fluid and split_angle are those of `stitching`
+  ReadCadOptions reading = {};                        ///< of models
+  SurfaceRecipe recipe = {};                          ///< of models
+  std::vector<volmesh::PeriodicNames> periodic = {};  ///< of the volume; those that are faces of models are cut alike
   surfmesh::RemeshOptions remesh = {};
 };
 

@@ -21,6 +21,7 @@
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/wake_verbs.h"
+#include "surfmesh/model/periodic_rims.h"
 #include "volmesh/case/body_wake.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/case/thin_layers.h"
@@ -406,10 +407,26 @@ OptionTable envelope_options(volmesh::MeshCase& options) { return volmesh::optio
 OptionTable tetrahedra_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_tetrahedra_step); }
 OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_finish_step); }
 
+namespace {
+
+/// Sides that the mesher of the wall cut alike, as long as the triangles are its own.
+std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
+  if (!wall.recipe || wall.remesh_options || wall.repair_options || wall.wrap_options || wall.union_options) return {};
+  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(wall.recipe->options.periodic);
+  const auto has = [&](const std::string& name) {
+    return surfmesh::is_open_plane(name) || std::ranges::any_of(wall.mesh.patches, [&](const Patch& patch) { return patch.name == name; });
+  };
+  std::erase_if(pairs, [&](const volmesh::PeriodicNames& pair) { return !has(pair.first) || !has(pair.second); });
+  return pairs;
+}
+
+}  // namespace
+
 volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options) {
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
   if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
   options.patches = rules_of(wall, options);
+  if (options.periodic.empty()) options.periodic = periodic_of_wall(wall);
   return options;
 }
 

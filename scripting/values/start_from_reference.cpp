@@ -78,6 +78,7 @@ std::string objection(const KeptPart& like, const PartTask& task) {
     return "options differ from the reference's: " + names;
   if (KeyMaker("rules").add(like.patches).key() != KeyMaker("rules").add(task.patches).key()) return "rules of patches differ from the reference's";
   if (like.has_sizes_by_place || task.has_sizes_by_place) return "sources and size functions ask for sizes where the part is now";
+  if (!task.options.periodic.empty()) return "borders of periodic sides are cut alike where they are now";
   if (task.options.gap_cells > 0.0) return "gap_cells asks for sizes by what is near now";
   return {};
 }

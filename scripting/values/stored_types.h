@@ -37,7 +37,7 @@ inline constexpr std::size_t k_members<surfmesh::WrapOptions> = 10;
 template <>
 inline constexpr std::size_t k_members<surfmesh::RemeshOptions> = 18;
 template <>
-inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 22;
+inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 23;
 template <>
 inline constexpr std::size_t k_members<surfmesh::PatchSurfaceOptions> = 14;
 template <>

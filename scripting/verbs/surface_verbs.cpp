@@ -8,6 +8,7 @@
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
+#include "scripting/values/periodic_sides.h"
 #include "scripting/values/remeshed_surface.h"
 #include "scripting/verbs/source_verbs.h"
 #include "volmesh/envelope/patch_layers.h"
@@ -17,6 +18,12 @@ namespace {
 
 constexpr std::string_view k_surface_mesh_usage =
     "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
+
+/// The options of a surface mesh in a script: pairs of sides are a list there.
+OptionTable without_pairs(OptionTable table) {
+  std::erase_if(table, [](const Option& option) { return option.name == "periodic"; });
+  return table;
+}
 
 /// What patches ask for: of their triangles, and of the layers that volume_mesh puts on them.
 struct SurfaceRules {
@@ -57,7 +64,7 @@ std::function<double(const Point&)> read_size_function(TableReader& reader) {
 ScriptValue make_surface_mesh(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_surface_mesh_usage);
   SurfaceRecipe recipe;
-  const OptionTable schema = with_edge_tables(sterna::options_of(recipe.options));
+  const OptionTable schema = without_pairs(with_edge_tables(sterna::options_of(recipe.options)));
   TableReader reader(table, call.attempted());
   std::vector<ModelHandle> models;
   const std::vector<ScriptValue>& items = reader.items();
@@ -73,6 +80,7 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   SurfaceRules rules = read_rules(reader);
   recipe.patches = std::move(rules.sizes);
   recipe.sources = read_sources(reader, call);
+  recipe.options.periodic = periodic_text(read_periodic(reader));
   const std::function<double(const Point&)> size = read_size_function(reader);
   apply_overrides(call, sterna::options_of(recipe.options));
   reader.finish();
@@ -85,10 +93,12 @@ std::string surface_mesh_help() {
   surfmesh::SurfaceMeshOptions options;
   surfmesh::PatchSurfaceOptions rule;
   volmesh::PatchRule layers;
-  return options_help(sterna::options_of(options)) +
+  return options_help(without_pairs(sterna::options_of(options))) +
          "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" +
          options_help(surface_and_layer_options(rule, layers)) +
-         "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long\n";
+         "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long. "
+         "periodic = "
+         "{ { \"left\", \"right\" }, ... }: flat faces that are each other's image, moved; their borders are cut alike, and volume_mesh makes them periodic\n";
 }
 
 constexpr std::string_view k_remesh_usage =

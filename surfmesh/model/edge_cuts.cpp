@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -22,15 +23,16 @@ struct Station {
   double metric = 0.0;  ///< length in sizes from the start
 };
 
-/// Sum of length / size along the edge, at stations near enough for the trapezoid rule.
-std::vector<Station> measure(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, const SurfaceSizes& field) {
+/// Sum of length / size along the edge, at stations near enough for the trapezoid rule. `size_at`: metres, by the parameter.
+template <class SizeAt>
+std::vector<Station> measure(const ModelEdge& edge, const EdgeSamples& samples, const SizeAt& size_at) {
   std::vector<Station> stations{{samples.samples.front().t, 0.0}};
   struct End {
     double t;
     Point point;
     double size;
   };
-  const auto end_at = [&](double t, const Point& p) { return End{t, p, field.on_edge(e, t)}; };
+  const auto end_at = [&](double t, const Point& p) { return End{t, p, size_at(t)}; };
   struct Piece {
     End a, b;
     int depth;
@@ -65,6 +67,20 @@ EdgeSamples part_of(const ModelEdge& edge, const EdgeSamples& whole, double from
   for (const EdgeSample& s : whole.samples)
     if (s.t > from && s.t < to) part.samples.push_back(s);
   part.samples.push_back({to, edge.curve->point(to), 0.0});
+  return part;
+}
+
+/// The same with length and turning of the part.
+EdgeSamples measured_part_of(const ModelEdge& edge, const EdgeSamples& whole, double from, double to) {
+  if (from == whole.samples.front().t && to == whole.samples.back().t) return whole;
+  EdgeSamples part = part_of(edge, whole, from, to);
+  Vec3 before;
+  for (std::size_t i = 0; i + 1 < part.samples.size(); ++i) {
+    const Vec3 step = part.samples[i + 1].point - part.samples[i].point;
+    part.length += norm(step);
+    if (norm2(step) > 0.0 && norm2(before) > 0.0) part.turning += angle_between(before, step);
+    if (norm2(step) > 0.0) before = step;
+  }
   return part;
 }
 
@@ -196,10 +212,127 @@ EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut
   return result;
 }
 
+/// So many segments by lengths in sizes; edges of bands are cut finer rather than coarser.
+std::size_t segments_by_size(double metric, bool is_band) {
+  constexpr double k_whole = 0.02;  // of a segment: so much more than wanted is as wanted
+  return static_cast<std::size_t>(std::max(1.0, is_band ? std::ceil(metric - k_whole) : std::round(metric)));
+}
+
+std::size_t segments_by_turning(double turning) { return static_cast<std::size_t>(std::max(1.0, std::ceil(turning / k_largest_turn - 0.01))); }
+
+/// Cuts of pieces that are each other's images: one of a kind is measured by the least of all sizes there and cut, its cuts are moved to the others.
+class PeriodicCutter {
+ public:
+  PeriodicCutter(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands, const PeriodicRims& rims,
+                 const SurfaceSizes& field)
+      : model_(model),
+        edges_(edges),
+        topology_(topology),
+        bands_(bands),
+        rims_(rims),
+        field_(field),
+        samples_(rims.pieces.size()),
+        stations_(rims.pieces.size()),
+        n_(rims.pieces.size(), 1),
+        n_even_(rims.pieces.size(), 0) {
+    of_kind_.resize(rims.pieces.size());
+    for (std::size_t i = 0; i < rims.pieces.size(); ++i) of_kind_[rims.pieces[i].like].push_back(i);
+  }
+
+  bool has(EdgeId e) const { return !rims_.empty() && rims_.of_edge[e][1] > 0; }
+
+  void measure_all(const RunContext& context) {
+    parallel_for(
+        context, rims_.pieces.size(), [&](std::size_t i) { measure_kind(i); }, 1);
+  }
+
+  std::size_t n_segments(EdgeId e) const {
+    const auto [first, n] = rims_.of_edge[e];
+    std::size_t sum = 0;
+    for (std::size_t i = first; i < first + n; ++i) sum += n_[rims_.pieces[i].like];
+    return sum;
+  }
+  /// Two segments at least, of each of its images.
+  void divide(EdgeId e) {
+    for (std::size_t i = rims_.of_edge[e][0]; i < rims_.of_edge[e][0] + rims_.of_edge[e][1]; ++i)
+      n_[rims_.pieces[i].like] = std::max<std::size_t>(n_[rims_.pieces[i].like], 2);
+  }
+
+  EdgeCut cut(EdgeId e) const {
+    const auto [first, n] = rims_.of_edge[e];
+    EdgeCut whole;
+    for (std::size_t i = first; i < first + n; ++i) {
+      const EdgeCut part = cut_piece(i);
+      whole.t.insert(whole.t.end(), part.t.begin(), part.t.end());
+      whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+      if (i + 1 == first + n) break;
+      const RimStop& stop = rims_.stops[e][i - first];
+      whole.t.push_back(stop.t);
+      whole.points.push_back(stop.point);
+    }
+    return whole;
+  }
+
+ private:
+  void measure_kind(std::size_t first) {
+    const RimPiece& piece = rims_.pieces[first];
+    if (piece.like != first) return;
+    const std::vector<std::size_t>& kind = of_kind_[first];
+    samples_[first] = measured_part_of(model_.edges[piece.edge], edges_[piece.edge], piece.range.from, piece.range.to);
+    stations_[first] = measure(model_.edges[piece.edge], samples_[first], [&](double t) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::size_t i : kind) least = std::min(least, field_.on_edge(rims_.pieces[i].edge, image_parameter(rims_, i, t, model_, edges_)));
+      return least;
+    });
+    bool is_band = false;
+    for (const std::size_t i : kind) {
+      const EdgeId e = rims_.pieces[i].edge;
+      is_band = is_band || bands_.edges[e].has_value();
+      const std::size_t n_pieces = rims_.of_edge[e][1];
+      if (n_pieces == 1) n_even_[first] = std::max(n_even_[first], bands_.n_short[e]);
+      if (topology_.corner[model_.edges[e].start] == topology_.corner[model_.edges[e].end])
+        n_[first] = std::max(n_[first], (k_closed_segments + n_pieces - 1) / n_pieces);
+    }
+    n_[first] = std::max({n_[first], segments_by_size(stations_[first].back().metric, is_band), segments_by_turning(samples_[first].turning)});
+    if (n_even_[first] > 0) n_[first] = n_even_[first];
+  }
+
+  EdgeCut cut_piece(std::size_t i) const {
+    const RimPiece& piece = rims_.pieces[i];
+    const RimPiece& first = rims_.pieces[piece.like];
+    const ModelEdge& edge = model_.edges[first.edge];
+    EdgeCut cut = n_even_[piece.like] > 0 ? cut_evenly(edge, samples_[piece.like], n_[piece.like]) : cut_at(edge, stations_[piece.like], n_[piece.like]);
+    if (piece.like == i) return cut;
+    for (std::size_t k = 0; k < cut.t.size(); ++k) {
+      cut.points[k] += piece.translation;
+      cut.t[k] = nearest_parameter(model_.edges[piece.edge], edges_[piece.edge], piece.range, cut.points[k]);
+    }
+    if (piece.is_reversed) {
+      std::ranges::reverse(cut.t);
+      std::ranges::reverse(cut.points);
+    }
+    return cut;
+  }
+
+  const Model& model_;
+  const Column<EdgeId, EdgeSamples>& edges_;
+  const ModelTopology& topology_;
+  const WingBands& bands_;
+  const PeriodicRims& rims_;
+  const SurfaceSizes& field_;
+  std::vector<std::vector<std::size_t>> of_kind_;
+  std::vector<EdgeSamples> samples_;
+  std::vector<std::vector<Station>> stations_;
+  std::vector<std::size_t> n_;
+  std::vector<std::size_t> n_even_;  ///< that many equal segments, as the end of a strip has; 0: as sizes say
+};
+
 }  // namespace
 
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
-                                  const SurfaceSizes& field, const RunContext& context) {
+                                  const PeriodicRims& rims, const SurfaceSizes& field, const RunContext& context) {
+  PeriodicCutter alike(model, edges, topology, bands, rims, field);
+  alike.measure_all(context);
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   Column<EdgeId, std::vector<Station>> stations(model.edges.size());
   Column<EdgeId, std::size_t> n_segments(model.edges.size(), 1);
@@ -208,7 +341,7 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
       context, model.edges.size(),
       [&](std::size_t i) {
         const EdgeId e(static_cast<std::uint64_t>(i));
-        if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e) return;
+        if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e || alike.has(e)) return;
         Interval between = model.edges[e].range;
         for (const std::size_t end : {0u, 1u})
           if (bands.crossings[e][end].is_any && !bands.edges[e]) {
@@ -216,15 +349,14 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
             if (!rows[e][end].empty()) (end == 0 ? between.from : between.to) = rows[e][end].back();
           }
         const bool has_rows = !rows[e][0].empty() || !rows[e][1].empty();
-        stations[e] = measure(e, model.edges[e], has_rows ? part_of(model.edges[e], edges[e], between.from, between.to) : edges[e], field);
-        constexpr double k_whole = 0.02;  // of a segment: so much more than wanted is as wanted
-        const double metric = stations[e].back().metric;
-        const auto by_size = static_cast<std::size_t>(std::max(1.0, bands.edges[e] ? std::ceil(metric - k_whole) : std::round(metric)));
+        stations[e] = measure(model.edges[e], has_rows ? part_of(model.edges[e], edges[e], between.from, between.to) : edges[e],
+                              [&](double t) { return field.on_edge(e, t); });
+        const std::size_t by_size = segments_by_size(stations[e].back().metric, bands.edges[e].has_value());
         if (bands.n_short[e] > 0) {
           n_segments[e] = bands.n_short[e];
           return;
         }
-        const auto by_turning = static_cast<std::size_t>(std::max(1.0, std::ceil(edges[e].turning / k_largest_turn - 0.01)));
+        const std::size_t by_turning = segments_by_turning(edges[e].turning);
         const bool is_closed = topology.corner[model.edges[e].start] == topology.corner[model.edges[e].end];
         n_segments[e] = std::max({by_size, by_turning, is_closed ? k_closed_segments : 1});
       },
@@ -238,13 +370,17 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
   };
   std::vector<Pair> single;
   for (const EdgeId e : model.edges.ids()) {
-    if (stations[e].empty() || n_segments[e] > 1 || bands.n_short[e] > 0 || !rows[e][0].empty() || !rows[e][1].empty()) continue;
+    if (alike.has(e)) n_segments[e] = alike.n_segments(e);
+    if ((stations[e].empty() && !alike.has(e)) || n_segments[e] > 1 || bands.n_short[e] > 0 || !rows[e][0].empty() || !rows[e][1].empty()) continue;
     const CornerId a = topology.corner[model.edges[e].start], b = topology.corner[model.edges[e].end];
     single.push_back({std::min(a, b), std::max(a, b), edges[e].length, e});
   }
   std::sort(single.begin(), single.end());
   for (std::size_t i = 1; i < single.size(); ++i)
-    if (single[i].a == single[i - 1].a && single[i].b == single[i - 1].b) n_segments[single[i].edge] = 2;
+    if (single[i].a == single[i - 1].a && single[i].b == single[i - 1].b) {
+      n_segments[single[i].edge] = 2;
+      if (alike.has(single[i].edge)) alike.divide(single[i].edge);
+    }
   for (const std::optional<BaseStrip>& strip : bands.strips)
     if (strip) n_segments[strip->long_edge[0]] = std::max(n_segments[strip->long_edge[0]], n_segments[strip->long_edge[1]]);
   Column<EdgeId, EdgeCut> cuts(model.edges.size());
@@ -252,6 +388,10 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
       context, model.edges.size(),
       [&](std::size_t i) {
         const EdgeId e(static_cast<std::uint64_t>(i));
+        if (alike.has(e)) {
+          cuts[e] = alike.cut(e);
+          return;
+        }
         if (bands.n_short[e] > 0) {
           cuts[e] = cut_evenly(model.edges[e], edges[e], bands.n_short[e]);
           return;

@@ -6,6 +6,7 @@
 
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/model_topology.h"
+#include "surfmesh/model/periodic_rims.h"
 #include "surfmesh/model/surface_sizes.h"
 #include "surfmesh/model/wing_bands.h"
 
@@ -20,7 +21,8 @@ struct EdgeCut {
 
 /// Lengths equal in the metric 1 / size; closed edges get three segments, two edges between the same corners more than one between them.
 /// Edges of bands have no segment longer than their stretch allows; edges that leave a band begin with the heights of its rows; sides of strips are matched.
+/// Borders of periodic sides are cut alike, by the least of their sizes: points of images are those of the first, moved, within k_rim_tolerance of the curve.
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
-                                  const SurfaceSizes& field, const RunContext& context);
+                                  const PeriodicRims& rims, const SurfaceSizes& field, const RunContext& context);
 
 }  // namespace sterna::surfmesh

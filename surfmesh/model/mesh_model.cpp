@@ -40,6 +40,7 @@ struct Meshing {
   ModelSizes sizes;
   ModelTopology topology;
   WingBands bands;
+  PeriodicRims rims;
   std::vector<AbsorbedPart> absorbed;
   std::vector<SizeSite> repairs;
   Column<EdgeId, EdgeCut> cuts;
@@ -73,7 +74,7 @@ class FaceProgress {
 /// Cuts edges anew and meshes the faces whose edges changed, and those that are to be meshed again.
 SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunContext& context) {
   const Model& model = meshing.model;
-  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, field, context);
+  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, meshing.rims, field, context);
   std::vector<FaceId> work;
   for (const FaceId f : model.faces.ids()) {
     bool is_concerned = meshing.cuts.empty() || meshing.to_mesh.contains(f);
@@ -99,6 +100,16 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
       meshing.faces[f].border_ids = border_ids(model, f, meshing.topology, meshing.cuts, numbers, meshing.sizes.outlines[f]);
   meshing.to_mesh.clear();
   return join_faces(model, meshing.topology, meshing.cuts, numbers, meshing.faces);
+}
+
+/// The same on borders that are each other's image: what one asks for, the others ask for, too.
+SurfaceSizes sizes_of_round(const Meshing& meshing, const RunContext& context) {
+  SurfaceSizes field(meshing.model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
+  if (meshing.rims.empty()) return field;
+  std::vector<SizeSite> in_space = sizes_of_partners(meshing.rims, meshing.model, meshing.edges, field);
+  if (in_space.empty()) return field;
+  in_space.insert(in_space.end(), meshing.repairs.begin(), meshing.repairs.end());
+  return SurfaceSizes(meshing.model, meshing.edges, meshing.topology, meshing.sizes, std::move(in_space), context);
 }
 
 void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, double factor = k_repair_factor) {
@@ -209,11 +220,13 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                        const RunContext& context) {
   check_options(options);
-  Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}, {}};
+  Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}, {}, {}};
   meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
   add_place_sizes(model, meshing.edges, options, asked, meshing.sizes);
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
+  if (const std::vector<SidePair> pairs = side_pairs(options.periodic); !pairs.empty())
+    meshing.rims = find_periodic_rims(model, meshing.edges, pairs, meshing.topology);
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
   check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
@@ -225,7 +238,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   MeshCrossings crossings;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);
   for (int round = 1;; ++round) {
-    const SurfaceSizes field(model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
+    const SurfaceSizes field = sizes_of_round(meshing, context);
     // Later rounds mesh few faces, and fewer each time.
     const double begin = round == 1 ? k_prepared : 1.0 - (1.0 - k_first_judged) * std::pow(0.5, round - 2);
     mesh = mesh_round(meshing, field, context.part("faces", begin, round == 1 ? k_first_round : 0.5 * (begin + 1.0)));

@@ -42,6 +42,7 @@ struct SurfaceMeshOptions {
   double trailing_edge_stretch = k_automatic;
   double trailing_edge_growth = 1.2;
   double trailing_edge_cells = k_automatic;
+  std::string periodic = {};
 };
 
 /// What faces (patches) whose names match ask for instead; not a number: as the options above say.
@@ -166,8 +167,9 @@ struct SurfaceMesh {
 /// Meshes a whole model. Vertices inside faces are exactly on their surface, those on edges exactly on the edge's curve, corners are the model's.
 /// Normals point outwards as the model's faces say. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
 /// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no
-/// face's name matches; Error(overflow) beyond max_triangles, at once where sizes and areas say so; Error(non_manifold_surface) where triangles of faces do not
-/// join; Error(self_intersection) where triangles cross that finer ones do not part, unless options.crossings says otherwise
+/// face's name matches, or sides of `periodic` that are no images; Error(overflow) beyond max_triangles, at once where sizes and areas say so;
+/// Error(non_manifold_surface) where triangles of faces do not join; Error(self_intersection) where triangles cross that finer ones do not part, unless
+/// options.crossings says otherwise
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                        const RunContext& context);
@@ -312,7 +314,12 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
                .help = "cells across the base of blunt trailing edges (rounded to a whole number)",
                .automatic = "as sizes say; with rows their first cell"},
   };
-  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch));
+  static constexpr std::array side_fields = {
+      Field<O>{.name = "periodic",
+               .member = &O::periodic,
+               .help = "pairs of flat faces that are each other's image, moved: \"left,right; floor,ceiling\"; their borders are cut alike"},
+  };
+  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch), side_fields);
 };
 
 }  // namespace sterna

@@ -102,6 +102,25 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   EXPECT_THAT(error(mesh + "{ { 'tunnel_left', 'tunnel_floor' } } }"), HasSubstr("do not point against each other"));
 }
 
+TEST_F(TunnelScripts, AWingThroughPeriodicSides) {
+  const std::string surface =
+      "local blade = wing{ name = 'blade', symmetric = true, trailing_edge = 0.012, sections = { { y = 0, chord = 0.8, airfoil = 'naca0012' }, { y = 1 } } } "
+      "local row = test_section{ length = 4, width = 1, height = 2, upstream = 1, walls = 'slip', max_edge = 0.4, through = 'blade' } "
+      "local wall = surface_mesh{ blade, row, max_edge = 0.15, min_edge = 0.015, curvature_angle = 24*deg, growth = 1.5, periodic = ";
+  // Said once: volume_mesh knows it of the wall, and so does a run that is continued.
+  EXPECT_EQ(run(surface + "{ { 'tunnel_left', 'tunnel_right' } } } local m = volume_mesh{ wall, layers = 6, first_height = 1e-3, stages = " +
+                out("blade.sterna") + " } m:check() m:write(" + out("blade.su2") + ")")
+                .substr(0, 5),
+            "VALID");
+  EXPECT_THAT(log_, HasSubstr("periodic sides tunnel_left and tunnel_right: "));
+  EXPECT_THAT(text_of("blade.su2.json"), AllOf(HasSubstr("\"periodic_sides\""), HasSubstr("tunnel_left,tunnel_right")));
+  EXPECT_THAT(run("local s = read_stages(" + out("blade.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check{ details = true }"),
+              HasSubstr("periodic: tunnel_left and tunnel_right"));
+  EXPECT_THAT(error(surface + "{ 'tunnel_left', 'tunnel_rigth' } }"),
+              AllOf(HasSubstr("there is no face \"tunnel_rigth\""), HasSubstr("did you mean \"tunnel_right\"?")));
+  EXPECT_THAT(error(surface + "'tunnel_left,tunnel_right' }"), HasSubstr("periodic: expected the names of two patches"));
+}
+
 TEST_F(TunnelScripts, KindsAreSetByName) {
   EXPECT_EQ(run("local m = box{ {0,0,0}, {1,1,1} }:kinds{ ['b*'] = 'slip' } surface_mesh{ m, max_edge = 0.5 }:write(" + out("box.su2") + ") print('ok')"),
             "ok\n");

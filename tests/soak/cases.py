@@ -407,6 +407,10 @@ def table_of(first, entries):
     return "{ " + ", ".join([first] + [f"{name} = {value}" for name, value in entries.items()]) + " }"
 
 
+def pairs_of(case):
+    return "{ " + ", ".join(f'{{ "{first}", "{second}" }}' for first, second, _ in case["periodic"]) + " }"
+
+
 def volume_table(case, entries):
     entries = dict(entries)
     field = case["farfield"]
@@ -423,7 +427,7 @@ def volume_table(case, entries):
     if case.get("wakes"):
         entries["wakes"] = case["wakes"]
     if case.get("periodic"):
-        entries["periodic"] = "{ " + ", ".join(f'{{ "{first}", "{second}" }}' for first, second, _ in case["periodic"]) + " }"
+        entries["periodic"] = pairs_of(case)
     if case.get("continued"):
         entries["stages"] = '"stopped.sterna"'
     if disc := case.get("disc"):
@@ -497,7 +501,8 @@ def model_script(case):
     if case.get("half"):
         lines.append("model = half(model)")
     target = "model, " + case["tunnel"] if case.get("tunnel") else "model"
-    return lines + [f"local wall = surface_mesh{table_of(target, case['surface'])}"]
+    alike = {"periodic": pairs_of(case)} if case.get("periodic") else {}  # borders of periodic sides are cut alike
+    return lines + [f"local wall = surface_mesh{table_of(target, case['surface'] | alike)}"]
 
 
 def surface_script(case, folder, data):

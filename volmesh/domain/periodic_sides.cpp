@@ -29,7 +29,10 @@ class Joiner {
       : mesh_(mesh), names_(names), sources_(sources), tolerance_(k_side_tolerance * bounding_box(mesh).longest_side()) {
     error_.code = ErrorCode::bad_argument;
     error_.attempted = "making \"" + names.first + "\" and \"" + names.second + "\" periodic";
-    error_.hint = "periodic sides must be flat, face each other, and have the same border vertices, moved by one translation: make one and copy it";
+    error_.hint =
+        "periodic sides must be flat, face each other, and have the same border vertices, moved by one translation: surface_mesh{ ..., periodic = { { \"" +
+        names.first + "\", \"" + names.second + "\" } } } cuts the borders of a model's faces alike (sterna surface --periodic \"" + names.first + "," +
+        names.second + "\"); of given triangles make one side and copy it";
     result_.first = find_patch(names.first);
     result_.second = find_patch(names.second);
     if (result_.first == result_.second) fail("a patch cannot be its own image");

@@ -1,0 +1,141 @@
+// Wings and bars through two periodic sides, from exact models through surface meshes whose borders are cut alike to checked volume meshes.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geom/cad/fluid.h"
+#include "geom/mesh/periodic.h"
+#include "geom/model/airfoil.h"
+#include "geom/model/components.h"
+#include "geom/model/shapes.h"
+#include "surfmesh/model/surface_mesh.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
+#include "tests/volmesh/domain/room.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::k_context;
+using testing::HasSubstr;
+
+Model row_of(const Model& body) {
+  TestSectionOptions options;
+  options.length = 4.0;
+  options.width = 1.0;
+  options.height = 2.0;
+  options.upstream = 1.0;
+  Model tunnel = make_test_section(options);
+  for (ModelFace& face : tunnel.faces)
+    if (face.role == FaceRole::wall) face.kind = PatchKind::slip;
+  return cad::fluid_domain(tunnel, std::array{body}, {}, k_context).model;
+}
+
+Model blade(double trailing_edge) {
+  Wing wing{.name = "blade", .is_symmetric = true, .trailing_edge = trailing_edge};
+  for (const double y : {1.0, 0.0}) {
+    WingSection s{.name = "y", .leading_edge = {-0.3, y, 0.0}, .chord = 0.8, .twist = 0.05};
+    s.points = naca_airfoil("0012").points;
+    wing.sections.push_back(s);
+  }
+  wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
+  return make_wing(wing);
+}
+
+TriMesh surface_of(const Model& body, const std::string& pairs, const RunContext& context, std::vector<surfmesh::PatchSurfaceOptions> rules = {}) {
+  surfmesh::SurfaceMeshOptions options;
+  options.max_edge = 0.15;
+  options.min_edge = 0.015;
+  options.curvature_angle = 0.4;
+  options.growth = 1.5;
+  options.periodic = pairs;
+  return surfmesh::mesh_model(row_of(body), options, rules, context).mesh;
+}
+
+const std::string k_sides = "tunnel_left,tunnel_right";
+
+MeshCase layers_between_sides(int n) {
+  MeshCase options = layers(n, 1e-3);
+  options.periodic = {{"tunnel_left", "tunnel_right"}};
+  return options;
+}
+
+void expect_matched(const VolumeMeshResult& result, std::size_t n_pairs) {
+  EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
+  ASSERT_EQ(result.mesh.periodic.size(), n_pairs);
+  for (const PeriodicSides& sides : result.mesh.periodic) {
+    const PeriodicMatch match = match_periodic(result.mesh, sides.first, sides.second, periodic_tolerance(result.mesh));
+    EXPECT_LT(distance(match.translation, sides.translation), 1e-12);
+    EXPECT_GT(match.nodes.size(), 50u);
+  }
+}
+
+TEST(Row, ABarThroughBothSidesAndFloorAndCeilingToo) {
+  const TriMesh surface = surface_of(make_cylinder("bar", {0, -1, 0}, {0, 1, 0}, 0.25), k_sides + ";tunnel_floor,tunnel_ceiling", k_context);
+  MeshCase options = layers_between_sides(8);
+  options.periodic.push_back({"tunnel_floor", "tunnel_ceiling"});
+  const VolumeMeshResult result = volume_mesh(surface, options, k_context);
+  expect_matched(result, 2);
+  const std::map<std::string, std::size_t> rims = rim_edges(result);
+  EXPECT_EQ(rims.at("tunnel_left"), rims.at("tunnel_right"));
+  EXPECT_GE(rims.at("tunnel_left"), 16u);
+}
+
+TEST(Row, WingsWithSharpAndBluntTrailingEdges) {
+  for (const double trailing_edge : {0.0, 0.012})
+    expect_matched(volume_mesh(surface_of(blade(trailing_edge), k_sides, k_context), layers_between_sides(8), k_context), 1);
+}
+
+TEST(Row, SharpTrailingEdgesOpenFromSideToSide) {
+  MeshCase options = layers_between_sides(8);
+  options.ridges.open_ridges = "always";
+  expect_matched(volume_mesh(surface_of(blade(0.0), k_sides, k_context), options, k_context), 1);
+}
+
+TEST(Row, AWingThatEndsInTwoPlanesOfItsFarfield) {
+  Model model = row_of(blade(0.012));
+  Column<FaceId, ModelFace> wing;
+  for (const ModelFace& face : model.faces)
+    if (face.name == "blade") wing.push_back(face);
+  model.faces = std::move(wing);
+  model.solids = {};
+  surfmesh::SurfaceMeshOptions options;
+  options.max_edge = 0.15;
+  options.min_edge = 0.015;
+  options.curvature_angle = 0.4;
+  options.growth = 1.5;
+  options.periodic = "symmetry_y_min,symmetry_y_max";
+  const TriMesh surface = surfmesh::mesh_model(model, options, {}, k_context).mesh;
+  MeshCase given = layers(8, 1e-3);
+  given.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
+  given.farfield.farfield_shape = "box";
+  expect_matched(volume_mesh(surface, given, k_context), 1);
+}
+
+TEST(Row, AnyNumberOfThreadsGivesTheSame) {
+  const auto made = [](int threads) {
+    const RunContext context({.threads = threads});
+    return volume_mesh(surface_of(blade(0.012), k_sides, context), layers_between_sides(6), context).mesh;
+  };
+  const HybridMesh one = made(1);
+  for (const int threads : {2, 7}) {
+    const HybridMesh other = made(threads);
+    EXPECT_EQ(one.points.raw(), other.points.raw());
+    EXPECT_EQ(one.tetrahedra, other.tetrahedra);
+  }
+}
+
+TEST(Row, BordersThatAreCutAtOtherPlacesNameTheRemedy) {
+  const TriMesh surface = surface_of(blade(0.012), "", k_context, {{.names = "tunnel_left", .max_edge = 0.07}});
+  const ErrorInfo error = test::error_info_of([&] { volume_mesh(surface, layers_between_sides(6), k_context); });
+  EXPECT_EQ(error.code, ErrorCode::bad_argument);
+  EXPECT_THAT(error.problem, HasSubstr("have no partner"));
+  EXPECT_THAT(error.hint, HasSubstr("surface_mesh{ ..., periodic = { { \"tunnel_left\", \"tunnel_right\" } } }"));
+}
+
+}  // namespace
+}  // namespace sterna::volmesh
