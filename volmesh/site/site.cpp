@@ -94,7 +94,11 @@ std::vector<PeriodicPatches> images_on_sides(TriMesh& boundary, std::span<const 
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options) {
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
-  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
+  // Files of triangles know no kinds: all their patches are walls. Periodic sides are none.
+  const auto is_periodic = [&](const std::string& name) {
+    return std::ranges::any_of(options.periodic, [&](const PeriodicNames& pair) { return pair.first == name || pair.second == name; });
+  };
+  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() && !is_periodic(boundary.patches[p].name) ? 1 : 0;
   return has_layer;
 }
 

@@ -56,6 +56,13 @@ TEST(PeriodicDomain, AWingBetweenTwoSides) {
   EXPECT_EQ(result.layer.collapsed_area, 0.0);
 }
 
+TEST(PeriodicDomain, SidesOfAFileThatKnowsNoKindsAreNoWalls) {
+  TriMesh surface = room(all_slip, is_wing);
+  for (Patch& patch : surface.patches)
+    if (patch.name == "left" || patch.name == "right") patch.kind = PatchKind::wall;
+  EXPECT_EQ(matched(surface, periodic_layers(10, 1e-3)).mesh.points, matched(room(all_slip, is_wing), periodic_layers(10, 1e-3)).mesh.points);
+}
+
 TEST(PeriodicDomain, AFloorWithLayersHasTheSameEdgesAndCornersOnBothSides) {
   const VolumeMeshResult result =
       matched(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, is_wing), periodic_layers(10, 1e-3));
