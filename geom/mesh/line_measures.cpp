@@ -72,7 +72,7 @@ FacetsOfExplicitPrisms::FacetsOfExplicitPrisms(const HybridMesh& mesh, const Lay
 }
 
 std::span<const FacetsOfExplicitPrisms::Facet> FacetsOfExplicitPrisms::around(std::uint32_t line) const {
-  const auto [first, last] = std::ranges::equal_range(facets_, line, {}, &Facet::line);
+  const auto first = std::ranges::lower_bound(facets_, line, {}, &Facet::line), last = std::ranges::upper_bound(facets_, line, {}, &Facet::line);
   return {first, last};
 }
 
