@@ -36,7 +36,7 @@ class MemorySource final : public ByteSource {
   explicit MemorySource(const std::string& bytes) : bytes_(bytes) {}
   void take(void* bytes, std::size_t n) override {
     if (n > n_left()) refuse();
-    std::memcpy(bytes, bytes_.data() + at_, n);
+    if (n > 0) std::memcpy(bytes, bytes_.data() + at_, n);  // an empty vector has no place to write to
     at_ += n;
   }
   std::uint64_t n_left() const override { return bytes_.size() - at_; }
