@@ -171,11 +171,6 @@ std::string SlurmCluster::account() const {
          tail(folder_ / "d.log");
 }
 
-void SlurmCluster::cancel_all() const {
-  run("scancel", {"--user=root", "--full"}, folder_);
-  run("scancel", {"--user=root", "--signal=KILL"}, folder_);
-}
-
 void SlurmCluster::start_munge() {
   if (run("munge", {"-n"}, folder_).status == 0) return;  // the machine has one
   const passwd* user = getpwnam("munge");

@@ -26,8 +26,6 @@ class SlurmCluster {
   std::string running_cases() const;
   /// For a message: what the daemons know and have written.
   std::string account() const;
-  /// Takes all jobs out of the queue.
-  void cancel_all() const;
   std::filesystem::path conf() const { return folder_ / "slurm.conf"; }
   /// The node fails: what runs there is lost, and nothing starts until it is back. \throws std::runtime_error where scontrol refuses for a minute
   void take_node_down() const;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <iostream>
 #include <thread>
 
 #include "tests/scripting/series/series_fixture.h"
@@ -20,18 +19,9 @@ using testing::HasSubstr;
 
 class SlurmSeries : public SeriesFixture {
  protected:
-  /// No case runs any more, and the queue is empty. (On one machine Slurm itself held a job for minutes that had left its result long before: that is told, and
-  /// the job taken away. A case that would not end is a failure.)
   static void wait_for_empty_queue(const test::SlurmCluster& cluster) {
-    const auto waits = [&](int seconds) {
-      for (int i = 0; i < 50 * seconds && !cluster.queue().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      return !cluster.queue().empty();
-    };
-    if (!waits(30)) return;
-    EXPECT_EQ(cluster.running_cases(), "") << cluster.queue() << cluster.account();
-    std::cout << "no case runs, but the queue is not empty: what is in it is cancelled\n" << cluster.queue() << cluster.account() << std::flush;
-    cluster.cancel_all();
-    EXPECT_FALSE(waits(60)) << cluster.queue() << cluster.account();
+    for (int i = 0; i < 3000 && !cluster.queue().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(cluster.queue(), "") << cluster.running_cases() << cluster.account();
   }
   bool wait_for(const std::string& file, const std::string& text) const {
     for (int i = 0; i < 1500; ++i) {
