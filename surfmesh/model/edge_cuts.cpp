@@ -74,13 +74,7 @@ EdgeSamples part_of(const ModelEdge& edge, const EdgeSamples& whole, double from
 EdgeSamples measured_part_of(const ModelEdge& edge, const EdgeSamples& whole, double from, double to) {
   if (from == whole.samples.front().t && to == whole.samples.back().t) return whole;
   EdgeSamples part = part_of(edge, whole, from, to);
-  Vec3 before;
-  for (std::size_t i = 0; i + 1 < part.samples.size(); ++i) {
-    const Vec3 step = part.samples[i + 1].point - part.samples[i].point;
-    part.length += norm(step);
-    if (norm2(step) > 0.0 && norm2(before) > 0.0) part.turning += angle_between(before, step);
-    if (norm2(step) > 0.0) before = step;
-  }
+  measure_polyline(part);
   return part;
 }
 

@@ -30,17 +30,22 @@ EdgeSamples sample_edge(const ModelEdge& edge) {
   for (std::size_t p = 0; p < n_pieces; ++p)
     for (std::size_t k = 0; k < each; ++k) add(ends[p] + (ends[p + 1] - ends[p]) * static_cast<double>(k) / static_cast<double>(each));
   add(edge.range.to);
-  Vec3 before;
-  for (std::size_t i = 0; i + 1 < result.samples.size(); ++i) {
-    const Vec3 step = result.samples[i + 1].point - result.samples[i].point;
-    result.length += norm(step);
-    if (norm2(step) > 0.0 && norm2(before) > 0.0) result.turning += angle_between(before, step);
-    if (norm2(step) > 0.0) before = step;
-  }
+  measure_polyline(result);
   return result;
 }
 
 }  // namespace
+
+void measure_polyline(EdgeSamples& samples) {
+  samples.length = samples.turning = 0.0;
+  Vec3 before;
+  for (std::size_t i = 0; i + 1 < samples.samples.size(); ++i) {
+    const Vec3 step = samples.samples[i + 1].point - samples.samples[i].point;
+    samples.length += norm(step);
+    if (norm2(step) > 0.0 && norm2(before) > 0.0) samples.turning += angle_between(before, step);
+    if (norm2(step) > 0.0) before = step;
+  }
+}
 
 Column<EdgeId, EdgeSamples> sample_edges(const Model& model, const RunContext& context) {
   Column<EdgeId, EdgeSamples> result(model.edges.size());

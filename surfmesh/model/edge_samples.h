@@ -19,6 +19,9 @@ struct EdgeSamples {
   double turning = 0.0;             ///< rad, between its segments
 };
 
+/// Sets length and turning to those of the polyline.
+void measure_polyline(EdgeSamples& samples);
+
 Column<EdgeId, EdgeSamples> sample_edges(const Model& model, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -9,9 +9,6 @@
 #include <set>
 
 #include "geom/base/error.h"
-#include "geom/cad/fluid.h"
-#include "geom/model/airfoil.h"
-#include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/edge_samples.h"
@@ -21,6 +18,7 @@
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/constants.h"
 #include "tests/support/error_of.h"
+#include "tests/support/rows.h"
 #include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
@@ -32,31 +30,12 @@ using test::k_context;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// 4 x 1 x 2 m, around the x axis from x = -1.
-Model duct() {
-  TestSectionOptions options;
-  options.length = 4.0;
-  options.width = 1.0;
-  options.height = 2.0;
-  options.upstream = 1.0;
-  return make_test_section(options);
-}
-
-Model through_duct(const std::vector<Model>& bodies) { return cad::fluid_domain(duct(), bodies, {}, k_context).model; }
+Model through_duct(const std::vector<Model>& bodies) { return test::through_duct(bodies); }
 
 /// Along y, farther than the duct is wide; unless it is slanted, the same on both sides.
 Model bar(double slant = 0.0) { return make_cylinder("bar", {-slant, -1.0, 0.0}, {slant, 1.0, 0.0}, 0.25); }
 
-Model blade(double trailing_edge) {
-  Wing wing{.name = "blade", .is_symmetric = true, .trailing_edge = trailing_edge};
-  for (const double y : {1.0, 0.0}) {
-    WingSection s{.name = "y", .leading_edge = {-0.3, y, 0.0}, .chord = 0.8, .twist = 0.06};
-    s.points = naca_airfoil("2412").points;
-    wing.sections.push_back(s);
-  }
-  wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
-  return make_wing(wing);
-}
+Model blade(double trailing_edge) { return test::blade(trailing_edge, "2412", 0.06); }
 
 SurfaceMeshOptions alike(double max_edge, const std::string& pairs = "tunnel_left,tunnel_right") {
   SurfaceMeshOptions options = edges_of(max_edge);

@@ -6,14 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "geom/cad/fluid.h"
 #include "geom/mesh/periodic.h"
-#include "geom/model/airfoil.h"
-#include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/constants.h"
 #include "tests/support/error_of.h"
+#include "tests/support/rows.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/volume_mesh.h"
 
@@ -23,28 +21,8 @@ namespace {
 using test::k_context;
 using testing::HasSubstr;
 
-Model row_of(const Model& body) {
-  TestSectionOptions options;
-  options.length = 4.0;
-  options.width = 1.0;
-  options.height = 2.0;
-  options.upstream = 1.0;
-  Model tunnel = make_test_section(options);
-  for (ModelFace& face : tunnel.faces)
-    if (face.role == FaceRole::wall) face.kind = PatchKind::slip;
-  return cad::fluid_domain(tunnel, std::array{body}, {}, k_context).model;
-}
-
-Model blade(double trailing_edge) {
-  Wing wing{.name = "blade", .is_symmetric = true, .trailing_edge = trailing_edge};
-  for (const double y : {1.0, 0.0}) {
-    WingSection s{.name = "y", .leading_edge = {-0.3, y, 0.0}, .chord = 0.8, .twist = 0.05};
-    s.points = naca_airfoil("0012").points;
-    wing.sections.push_back(s);
-  }
-  wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
-  return make_wing(wing);
-}
+Model row_of(const Model& body) { return test::through_duct(std::array{body}, PatchKind::slip); }
+Model blade(double trailing_edge) { return test::blade(trailing_edge, "0012", 0.05); }
 
 TriMesh surface_of(const Model& body, const std::string& pairs, const RunContext& context, std::vector<surfmesh::PatchSurfaceOptions> rules = {}) {
   surfmesh::SurfaceMeshOptions options;

@@ -44,19 +44,20 @@ inline TriMesh sharp_wing(double wedge_angle, int n_span) {
   return mesh;
 }
 
-/// The same without its cap at y = 0, where it is open: half of a wing of twice the span.
-inline TriMesh half_sharp_wing(double wedge_angle, int n_span) {
+/// The same without its cap at y = 0, where it is open (half of a wing of twice the span), or without both.
+inline TriMesh open_sharp_wing(double wedge_angle, int n_span, bool is_open_at_both) {
   const TriMesh wall = sharp_wing(wedge_angle, n_span);
   TriMesh open;
   open.points = wall.points;
   open.patches = wall.patches;
   for (const TriangleId t : wall.triangles.ids()) {
     const auto [a, b, c] = corners(wall, t);
-    if (a.y == 0.0 && b.y == 0.0 && c.y == 0.0) continue;
+    if (a.y == b.y && b.y == c.y && (is_open_at_both || a.y == 0.0)) continue;
     open.triangles.push_back(wall.triangles[t]);
     open.triangle_patch.push_back(wall.triangle_patch[t]);
   }
   return open;
 }
+inline TriMesh half_sharp_wing(double wedge_angle, int n_span) { return open_sharp_wing(wedge_angle, n_span, false); }
 
 }  // namespace sterna::volmesh

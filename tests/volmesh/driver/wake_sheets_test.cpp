@@ -274,16 +274,7 @@ TEST(WakeSheets, AGivenPlaneOfSymmetryIsMadeAnew) {
 /// Without caps, and bent between the sides, so that the wing meets them at other angles.
 TriMesh wing_from_side_to_side(double wedge_angle, double bend) {
   constexpr int k_span = 10;
-  const TriMesh wall = sharp_wing(wedge_angle, k_span);
-  TriMesh open;
-  open.points = wall.points;
-  open.patches = wall.patches;
-  for (const TriangleId t : wall.triangles.ids()) {
-    const auto [a, b, c] = corners(wall, t);
-    if (a.y == b.y && b.y == c.y) continue;
-    open.triangles.push_back(wall.triangles[t]);
-    open.triangle_patch.push_back(wall.triangle_patch[t]);
-  }
+  TriMesh open = open_sharp_wing(wedge_angle, k_span, true);
   for (Point& p : open.points) p.z += bend * p.y * p.y * (0.1 * k_span - p.y);
   return open;
 }
