@@ -177,7 +177,8 @@ class SheetMaker {
     const std::vector<double> shares = stations(first);
     points_.resize(n_lines());
     for (std::size_t i = 0; i < n_lines(); ++i) points_[i] = points_along(i, starts[i], shares);
-    if (is_from_side_to_side()) equalise_ends();
+    has_images_ = is_from_side_to_side();
+    if (has_images_) equalise_ends();
     if (!chain_.is_loop) spread_lines();
   }
 
@@ -341,10 +342,9 @@ class SheetMaker {
           break;
         kept_[i] = j + 1;
       }
-    const bool has_images = is_from_side_to_side();
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
-      if (has_images) kept_.front() = kept_.back() = std::min(kept_.front(), kept_.back());
+      if (has_images_) kept_.front() = kept_.back() = std::min(kept_.front(), kept_.back());
       for (std::size_t i = 0; i < n_cells_; ++i)
         while (kept_[i] > 0 && !is_sound(i, kept_[i])) {
           --kept_[i];
@@ -447,12 +447,11 @@ class SheetMaker {
   /// Both sides apart by a hair; triangles of the wing on the right get their own vertices.
   void open_edge() {
     std::vector<std::pair<VertexId, Vec3>> moved;
-    const bool has_images = is_from_side_to_side();
     for (std::size_t i = 0; i < n_lines(); ++i)
       for (std::size_t j = 0; j <= n_rows(); ++j) {
         const auto [left, right] = sides_[i][j];
         if (!left.is_valid() || left == right) continue;
-        Vec3 normal = has_images && (i == 0 || i == n_cells_) ? normal_at(0, j) + normal_at(n_cells_, j) : normal_at(i, j);
+        Vec3 normal = has_images_ && (i == 0 || i == n_cells_) ? normal_at(0, j) + normal_at(n_cells_, j) : normal_at(i, j);
         if (!chain_.is_loop && (i == 0 || i == n_cells_))
           if (const auto axis = border_axis(edge_vertex(i))) normal[*axis] = 0.0;
         moved.push_back({left, raise_ * normalized(normal)});
@@ -505,6 +504,7 @@ class SheetMaker {
   TriangleTree tree_;  ///< likewise
   std::vector<BorderPlane> planes_;
   std::size_t n_cells_ = 0;
+  bool has_images_ = false;                 ///< is_from_side_to_side()
   std::vector<double> chords_, spacing_;    ///< m, of each line: local chord, edge across the stream
   std::vector<std::vector<Point>> points_;  ///< of each line, from the trailing edge on
   std::vector<std::size_t> kept_;           ///< of each column of cells: how many there are
