@@ -325,4 +325,15 @@ JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames
   return joined;
 }
 
+std::vector<PeriodicPatches> move_onto_images(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
+  if (names.empty()) return {};
+  TriMesh joined = boundary;
+  // It is told when they are joined for good.
+  std::vector<PeriodicPatches> pairs = join_periodic_sides(joined, names, RunContext({.threads = context.threads()})).pairs;
+  for (PeriodicPatches& pair : pairs)
+    std::erase_if(pair.vertices, [&](const std::array<VertexId, 2>& vertices) { return vertices[1].index() >= boundary.n_vertices(); });
+  std::copy_n(joined.points.begin(), boundary.n_vertices(), boundary.points.begin());
+  return pairs;
+}
+
 }  // namespace sterna::volmesh

@@ -36,4 +36,8 @@ inline constexpr double k_side_tolerance = 1e-6;
 /// do not match: with places and distances
 JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
 
+/// Moves vertices of periodic sides onto their images, as join_periodic_sides() does, without a change of triangles.
+/// \return the pairs, without vertices inside a second side that joining would add
+std::vector<PeriodicPatches> move_onto_images(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
+
 }  // namespace sterna::volmesh

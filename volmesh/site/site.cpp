@@ -39,12 +39,22 @@ void require_no_others(const MeshCase& options) {
   if (!options.discs.empty()) refuse("there are actuator discs, too", "leave one of them out");
 }
 
+/// Of a rule for the very patch; what is said of "*" is meant for others.
+void require_no_layers_on_periodic_sides(const MeshCase& options) {
+  for (const PatchRule& rule : options.patches)
+    for (const PeriodicNames& pair : options.periodic)
+      if ((rule.names == pair.first || rule.names == pair.second) && (rule.layers > 0 || rule.kind == "wall"))
+        throw_bad_argument("making \"" + pair.first + "\" and \"" + pair.second + "\" periodic",
+                           "patches asks for a wall, or for layers, on \"" + rule.names + "\"", {}, "periodic sides carry no layers: leave one of them out");
+}
+
 }  // namespace
 
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context) {
   require_options(required_options_of(options), "volume_mesh");
   if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
   require_no_others(options);
+  require_no_layers_on_periodic_sides(options);
   return effective_options(with_family_wake(wall, std::move(options), context), context);
 }
 
@@ -79,18 +89,6 @@ double least_first_height(const MeshCase& options) {
   return least;
 }
 
-/// Moves vertices of periodic sides onto their images, without a change of triangles. \return the sides, without vertices inside the second that would be new
-std::vector<PeriodicPatches> images_on_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
-  if (names.empty()) return {};
-  TriMesh joined = boundary;
-  std::vector<PeriodicPatches> sides =
-      join_periodic_sides(joined, names, RunContext({.threads = context.threads()})).pairs;  // told when they are joined for good
-  for (PeriodicPatches& side : sides)
-    std::erase_if(side.vertices, [&](const std::array<VertexId, 2>& pair) { return pair[1].index() >= boundary.n_vertices(); });
-  std::copy_n(joined.points.begin(), boundary.n_vertices(), boundary.points.begin());
-  return sides;
-}
-
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options) {
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
@@ -118,7 +116,7 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
-    const std::vector<PeriodicPatches> sides = images_on_sides(boundary, options.periodic, context);
+    const std::vector<PeriodicPatches> sides = move_onto_images(boundary, options.periodic, context);
     sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, sides, options.wakes, least_first_height(options),
                                {options.farfield, options.farfield_surface}, context);
     apply_patch_kinds(sheeted.boundary, options.patches);

@@ -63,6 +63,14 @@ TEST(PeriodicDomain, SidesOfAFileThatKnowsNoKindsAreNoWalls) {
   EXPECT_EQ(matched(surface, periodic_layers(10, 1e-3)).mesh.points, matched(room(all_slip, is_wing), periodic_layers(10, 1e-3)).mesh.points);
 }
 
+TEST(PeriodicDomain, LayersThatAreAskedForOnThemAreRefused) {
+  for (const PatchRule& rule : {PatchRule{.names = "left", .kind = "wall"}, PatchRule{.names = "right", .layers = 5}}) {
+    MeshCase options = periodic_layers(10, 1e-3);
+    options.patches = {rule};
+    EXPECT_THAT(test::error_of([&] { volume_mesh(room(all_slip, is_wing), options, k_context); }).info().problem, HasSubstr("on \"" + rule.names + "\""));
+  }
+}
+
 TEST(PeriodicDomain, AFloorWithLayersHasTheSameEdgesAndCornersOnBothSides) {
   const VolumeMeshResult result =
       matched(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, is_wing), periodic_layers(10, 1e-3));
