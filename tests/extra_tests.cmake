@@ -119,14 +119,28 @@ target_link_libraries(remesh_peers PRIVATE CGAL::CGAL gmsh gmp mpfr)
 
 # Random cases (docs/soak.md): their judge tells good from bad, and twenty of them are not wrong. The audit shares no code with the program.
 add_executable(soak_mesh_audit soak/mesh_audit_main.cpp)
-add_test(NAME soak_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/soak/soak_test.py $<TARGET_FILE:sterna> $<TARGET_FILE:soak_mesh_audit> ${CMAKE_BINARY_DIR}/scratch/soak_self_test)
-add_test(NAME soak COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --cases 20 --seed 1 --jobs 2 --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak)
+set(sanitized_soak)
+set(sanitized_faults)
+if(STERNA_SANITIZE)
+  set(sanitized_soak --no-memory-limit --time-limit 2400)
+  set(sanitized_faults --without little_memory)
+endif()
+if(NOT STERNA_SANITIZE)  # its limits are what it tests
+  add_test(NAME soak_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/soak/soak_test.py $<TARGET_FILE:sterna> $<TARGET_FILE:soak_mesh_audit> ${CMAKE_BINARY_DIR}/scratch/soak_self_test)
+  set_tests_properties(soak_self_test PROPERTIES TIMEOUT 900 COST 100)
+endif()
+add_test(NAME soak COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --cases 20 --seed 1 --jobs 2 ${sanitized_soak} --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak)
 file(GLOB soak_cases CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/data/soak/*.json)
-add_test(NAME soak_again COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --again ${soak_cases} --no-reduce --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak_again)
-set_tests_properties(soak soak_again soak_self_test PROPERTIES TIMEOUT 900 COST 100)
+add_test(NAME soak_again COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --again ${soak_cases} --no-reduce ${sanitized_soak} --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak_again)
+set_tests_properties(soak soak_again PROPERTIES TIMEOUT 900 COST 100)
 
 # What machines do to programs (docs/soak.md): full disks, kills, little memory, damaged files, two at once.
 add_executable(with_slurm faults/with_slurm_main.cpp scripting/series/slurm_cluster.cpp)
 target_link_libraries(with_slurm PRIVATE sterna_test_support)
-add_test(NAME faults COMMAND ${CMAKE_SOURCE_DIR}/tools/faults --short --sterna $<TARGET_FILE:sterna> --with-slurm $<TARGET_FILE:with_slurm> --folder ${CMAKE_BINARY_DIR}/scratch/faults)
+add_test(NAME faults COMMAND ${CMAKE_SOURCE_DIR}/tools/faults --short ${sanitized_faults} --sterna $<TARGET_FILE:sterna> --with-slurm $<TARGET_FILE:with_slurm> --folder ${CMAKE_BINARY_DIR}/scratch/faults)
 set_tests_properties(faults PROPERTIES TIMEOUT 900 COST 100)
+
+if(STERNA_SANITIZE)  # everything takes ten times as long
+  get_property(all_tests DIRECTORY PROPERTY TESTS)
+  set_tests_properties(${all_tests} PROPERTIES TIMEOUT ${test_seconds})
+endif()

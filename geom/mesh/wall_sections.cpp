@@ -131,18 +131,19 @@ EdgeChain WallSections::longest_chain(double least, bool is_concave, bool betwee
       if (node != a.lower && node != a.upper) apex = node;
     if ((dot(normal(s), point(apex) - point(a.lower)) > 0.0) == is_concave) sharp.push_back({a.lower, a.upper});
   }
-  DisjointSets sets(sharp.size());
-  std::unordered_map<std::uint32_t, std::size_t> seen;
-  for (std::size_t i = 0; i < sharp.size(); ++i)
+  const auto n_sharp = static_cast<std::uint32_t>(sharp.size());
+  DisjointSets sets(n_sharp);
+  std::unordered_map<std::uint32_t, std::uint32_t> seen;
+  for (std::uint32_t i = 0; i < n_sharp; ++i)
     for (const std::uint32_t node : sharp[i])
-      if (const auto [found, is_new] = seen.emplace(node, i); !is_new) sets.join(static_cast<std::uint32_t>(found->second), static_cast<std::uint32_t>(i));
-  std::vector<double> lengths(sharp.size(), 0.0);
-  for (std::size_t i = 0; i < sharp.size(); ++i) lengths[sets.root(i)] += distance(point(sharp[i][0]), point(sharp[i][1]));
+      if (const auto [found, is_new] = seen.emplace(node, i); !is_new) sets.join(found->second, i);
+  std::vector<double> lengths(n_sharp, 0.0);
+  for (std::uint32_t i = 0; i < n_sharp; ++i) lengths[sets.root(i)] += distance(point(sharp[i][0]), point(sharp[i][1]));
   EdgeChain chain;
   if (sharp.empty()) return chain;
-  const auto longest = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+  const auto longest = static_cast<std::uint32_t>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
   chain.length = lengths[longest];
-  for (std::size_t i = 0; i < sharp.size(); ++i)
+  for (std::uint32_t i = 0; i < n_sharp; ++i)
     if (sets.root(i) == longest) chain.edges.push_back(sharp[i]);
   return chain;
 }

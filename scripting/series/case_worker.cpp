@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "geom/base/error.h"
-#include "geom/base/number_text.h"
 #include "geom/mesh/check.h"
 #include "io/field/trouble_vtu.h"
 #include "io/output/atomic_file.h"
@@ -113,16 +112,6 @@ void become_worker() {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   // Another descriptor of that number, in a worker that was not started by a pool, loses nothing by it.
   fcntl(k_series_lock_descriptor, F_SETFD, FD_CLOEXEC);
-}
-
-std::string worst_quality_text(const CheckReport& report) {
-  const GateState worst_state = report.quality_state();
-  for (const GateResult& gate : report.gates) {
-    if (gate.state != worst_state || gate.state == GateState::not_checked) continue;
-    const MeasureInfo& info = info_of(gate.measure);
-    return std::string(info.name) + " " + number_text(in_report_unit(info, gate.worst), 4);
-  }
-  return {};
 }
 
 void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& c) {

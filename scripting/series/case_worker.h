@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "geom/mesh/check.h"
 #include "scripting/series/series_plan.h"
 
 namespace sterna::scripting {
@@ -21,8 +20,5 @@ ScriptValue argument_of(const SeriesCase& c);
 /// status.json. What the function throws is the case's failure and ends there. Afterwards the session's series says that the case is over.
 /// \throws Error(write_failed) where the folder cannot be written
 void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& c);
-
-/// The worst value of the first gate in the worst state: "skew 63.1 deg"; empty where quality was not measured.
-std::string worst_quality_text(const CheckReport& report);
 
 }  // namespace sterna::scripting

@@ -43,9 +43,12 @@ std::string missed_limit_text(const GateResult& gate, double value) {
   return fmt::format("{} {:.4g}{}", name, in_report_unit(info, limit), info.is_angle ? " deg" : "");
 }
 
+/// Of the worst place that is ours; of any where none is.
+double told_value(const GateResult& gate) { return gate.places.empty() ? gate.worst : gate.places.front().value; }
+
 /// By which factor the strictest kind of limit that the worst place misses is missed: what puts troubles in order. Infinite where a lower limit meets 0.
 double excess_of(const GateResult& gate) {
-  const double value = gate.places.empty() ? gate.worst : gate.places.front().value;
+  const double value = told_value(gate);
   const double limit = missed_limit(gate, value).second;
   const double ratio = info_of(gate.measure).is_low_bad ? limit / value : value / limit;
   return value > 0.0 && limit > 0.0 ? ratio : std::numeric_limits<double>::infinity();
@@ -54,15 +57,15 @@ double excess_of(const GateResult& gate) {
 /// A measure that misses a limit, in one line: what is wrong in plain words, its worst place that is ours, and what would mend it.
 std::string trouble_text(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
-  const double value = gate.places.empty() ? gate.worst : gate.places.front().value;
+  const double value = told_value(gate);
   std::string text = fmt::format("  worst       {}: {} {} {:.4g}{} ({})", trouble_of(gate.measure), info.gate, to_string(gate.state),
                                  in_report_unit(info, value), info.is_angle ? " deg" : "", missed_limit_text(gate, value));
   if (!gate.places.empty()) text += " at " + format_point(gate.places.front().position) + ", " + gate.places.front().what;
   return text + "; " + std::string(remedy_of(gate.measure)) + "\n";
 }
 
-/// The worst few measures, those that FAIL before those that warn. The rest: -v, `sterna check`, manifest, report page.
-std::string troubles_text(const CheckReport& report) {
+/// Measures that miss a limit, those that FAIL before those that warn, the worst of each first.
+std::vector<const GateResult*> troubles_of(const CheckReport& report) {
   std::vector<const GateResult*> troubles;
   for (const GateState state : {GateState::fail, GateState::warn}) {
     const std::size_t n_before = troubles.size();
@@ -71,6 +74,12 @@ std::string troubles_text(const CheckReport& report) {
     std::stable_sort(troubles.begin() + static_cast<std::ptrdiff_t>(n_before), troubles.end(),
                      [](const GateResult* a, const GateResult* b) { return excess_of(*a) > excess_of(*b); });
   }
+  return troubles;
+}
+
+/// The worst few of them. The rest: -v, `sterna check`, manifest, report page.
+std::string troubles_text(const CheckReport& report) {
+  const std::vector<const GateResult*> troubles = troubles_of(report);
   std::string text;
   for (std::size_t i = 0; i < std::min(troubles.size(), k_listed_troubles); ++i) text += trouble_text(*troubles[i]);
   return text;
@@ -114,6 +123,13 @@ double peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024.0;  // Linux counts in KiB
+}
+
+std::string worst_quality_text(const CheckReport& report) {
+  const std::vector<const GateResult*> troubles = troubles_of(report);
+  if (troubles.empty()) return {};
+  const MeasureInfo& info = info_of(troubles.front()->measure);
+  return fmt::format("{} {:.4g}{}", info.name, in_report_unit(info, told_value(*troubles.front())), info.is_angle ? " deg" : "");
 }
 
 std::string quality_text(const CheckReport& report) {

@@ -32,6 +32,8 @@ double peak_memory_bytes();
 
 /// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
 std::string quality_text(const CheckReport& report);
+/// "skew 63.1 deg": the measure that the summary names first and its worst value there; empty where all limits are kept.
+std::string worst_quality_text(const CheckReport& report);
 /// A dozen lines at most: verdict, sizes, coverage, the worst three measures that miss a limit with their worst place and a remedy. The rest is in `check`, the
 /// manifest and the page.
 /// \pre mesh.origin

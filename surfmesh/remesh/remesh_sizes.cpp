@@ -15,6 +15,8 @@ namespace {
 
 /// Longest edge of a connected piece, of the root of its area: 15 % of the chord of a slender wing, 2 % of an aircraft's length.
 constexpr double k_max_edge_of_area = 0.05;
+/// At least this part of its length: pieces as thin as a line have no area.
+constexpr double k_max_edge_of_length = 1e-3;
 constexpr double k_min_edge_of_max = 0.02;
 /// Of min_edge, where chord_error needs shorter edges.
 constexpr double k_least_for_chord = 0.25;
@@ -29,12 +31,16 @@ double or_else(double value, double other) { return is_automatic(value) ? other 
 
 std::vector<double> automatic_edges(const TriMesh& wall, const Components& pieces) {
   std::vector<double> areas(pieces.count, 0.0);
+  std::vector<Box> boxes(pieces.count);
   for (const TriangleId t : wall.triangles.ids()) {
-    const auto [a, b, c] = corners(wall, t);
-    areas[pieces.component[t]] += triangle_area(a, b, c);
+    const auto p = corners(wall, t);
+    areas[pieces.component[t]] += triangle_area(p[0], p[1], p[2]);
+    for (const Point& corner : p) boxes[pieces.component[t]].add(corner);
   }
-  for (double& a : areas) a = k_max_edge_of_area * std::sqrt(a);
-  return areas;
+  std::vector<double> edges(pieces.count);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    edges[i] = std::max(k_max_edge_of_area * std::sqrt(areas[i]), boxes[i].empty() ? 0.0 : k_max_edge_of_length * boxes[i].longest_side());
+  return edges;
 }
 
 void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rules) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "geom/base/machine_memory.h"
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/constants.h"
@@ -50,8 +51,11 @@ constexpr std::int64_t k_most_crossings = 1;
 constexpr double k_foretold_share = 1.5;
 /// While edges are halved there may be more for a moment, before the same limit is looked at.
 constexpr double k_halving_share = 3.0;
+/// Of the memory that is free, and what halving needs for each triangle, vertices and lists included.
+constexpr double k_memory_share = 0.5, k_bytes_of_triangle = 200.0;
+constexpr std::string_view k_fewer_triangles_hint = "larger max_edge, min_edge or curvature_angle; smooth = false where the triangles are very thin";
 constexpr double k_half_turn = std::numbers::pi;
-constexpr int k_angle_digits = 3;
+constexpr int k_angle_digits = 3, k_length_digits = 3;
 
 /// What the rounds before have found.
 struct Trouble {
@@ -64,13 +68,25 @@ void require_few(double n, double factor, const char* what, const RemeshOptions&
   throw Error({.code = ErrorCode::overflow,
                .attempted = std::string(k_attempted),
                .problem = what + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " + std::to_string(options.max_triangles),
-               .hint = "larger max_edge, min_edge or curvature_angle; smooth = false where the triangles are very thin"});
+               .hint = std::string(k_fewer_triangles_hint)});
 }
 
 void split_long(Remesher& remesher, const RemeshOptions& options) {
-  const auto most = static_cast<std::int64_t>(k_halving_share * static_cast<double>(std::max<std::int64_t>(options.max_triangles, remesher.n_triangles())));
+  const double allowed = k_halving_share * static_cast<double>(std::max<std::int64_t>(options.max_triangles, remesher.n_triangles()));
+  const double held = k_memory_share * available_memory() / k_bytes_of_triangle;
+  const auto most = static_cast<std::int64_t>(std::min(allowed, std::max(held, static_cast<double>(remesher.n_triangles()) + 1.0)));
   remesher.split_long(k_long, most);
-  if (const std::int64_t n = remesher.n_triangles(); n >= most) require_few(static_cast<double>(n), 1.0, "halving long edges did not end at ", options);
+  const std::int64_t n = remesher.n_triangles();
+  if (n < most) return;
+  ErrorInfo info{
+      .code = ErrorCode::overflow,
+      .attempted = std::string(k_attempted),
+      .problem = "halving long edges did not end at " + std::to_string(n) + " triangles, " +
+                 (held < allowed ? "more would need too much of this machine's memory" : "max_triangles is " + std::to_string(options.max_triangles)),
+      .hint = std::string(k_fewer_triangles_hint)};
+  if (const auto [place, length] = remesher.shortest_to_halve(k_long); length > 0.0)
+    info.add_place(place, "edge of " + number_text(length, k_length_digits) + " m, longer than asked for there");
+  throw Error(std::move(info));
 }
 
 void narrow_strips(const Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes) {

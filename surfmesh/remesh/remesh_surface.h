@@ -132,7 +132,7 @@ struct Schema<surfmesh::RemeshOptions> {
                .unit = Unit::metre,
                .min = 1e-9,
                .help = "longest edge wanted",
-               .automatic = "of each connected piece a twentieth of the root of its area"},
+               .automatic = "of each connected piece a twentieth of the root of its area, at least a thousandth of its length"},
       Field<O>{.name = "min_edge",
                .member = &O::min_edge,
                .unit = Unit::metre,

@@ -298,6 +298,16 @@ std::int64_t Remesher::split_long(double most, std::int64_t max_triangles) {
   return n;
 }
 
+std::pair<Point, double> Remesher::shortest_to_halve(double most) const {
+  std::pair<Point, double> found{mesh_.at(0), 0.0};
+  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+    if (mesh_.is_gone(h / 3) || (mesh_.twin[h] != k_none && mesh_.twin[h] < h) || is_locked(h) || !(length_ratio(h) > most)) continue;
+    const Point &a = mesh_.at(mesh_.from(h)), &b = mesh_.at(mesh_.to(h));
+    if (const double length = distance(a, b); found.second == 0.0 || length < found.second) found = {0.5 * (a + b), length};
+  }
+  return found;
+}
+
 // ---- collapses ---------------------------------------------------------------------------------------------------------------------------
 
 /// Whether the vertex that h begins at may go to its end: kinds, lines, and the link condition.

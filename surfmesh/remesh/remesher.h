@@ -24,6 +24,8 @@ class Remesher {
   /// Edges longer than `most` are halved; longest first, until none is left, or there are `max_triangles` and more: very thin sheets ask for without end.
   std::int64_t split_long(double most, std::int64_t max_triangles);
   std::int64_t n_triangles() const;
+  /// Middle of the shortest edge that is still to be halved, with its length, m; the first vertex and 0 where none is.
+  std::pair<Point, double> shortest_to_halve(double most) const;
   /// Where that makes the worse of two triangles better.
   std::int64_t flip_edges();
   /// Where that brings vertices nearer to six neighbours (four at lines' sides of a straight line) and leaves good triangles.

@@ -144,6 +144,7 @@ void drop_flat_parts(RepairState& state) {
     if (edge.count != 2) is_closed[parts.part[edges.at(edge).front() / 3]] = 0;
   std::vector<Vec3> origin(parts.count);
   std::vector<double> volume(parts.count, 0.0), area(parts.count, 0.0);
+  std::vector<Box> box(parts.count);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     const std::uint32_t part = parts.part[t];
     const auto [a, b, c] = state.corners(t);
@@ -151,11 +152,17 @@ void drop_flat_parts(RepairState& state) {
     is_begun[part] = 1;
     volume[part] += dot(a - origin[part], cross(b - origin[part], c - origin[part])) / 6.0;
     area[part] += norm(area_vector(a, b, c));
+    for (const Vec3& p : {a, b, c}) box[part].add(p);
   }
+  // The volume of what is as thin as a line is nothing but rounding.
+  const auto is_flat = [&](std::uint32_t part) {
+    const double thickness = k_least_thickness * state.length;
+    return 2.0 * std::abs(volume[part]) <= thickness * area[part] || area[part] <= thickness * norm(box[part].max - box[part].min);
+  };
   std::vector<char> is_dropped(state.facets.size(), 0), is_kept(state.facets.size(), 1);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     const std::uint32_t part = parts.part[t];
-    if (is_closed[part] == 0 || 2.0 * std::abs(volume[part]) > k_least_thickness * state.length * area[part]) continue;
+    if (is_closed[part] == 0 || !is_flat(part)) continue;
     is_dropped[t] = 1;
     is_kept[t] = 0;
   }

@@ -357,6 +357,28 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
                      [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 1, .least_angle = 0.0}, k_context); });
 }
 
+/// A box of 1 m by 1e-12 m by 1e-12 m.
+TriMesh line_like_box() {
+  TriMesh box = test::cube(1);
+  for (Point& p : box.points) p = {p.x, 1e-12 * p.y, 1e-12 * p.z};
+  return box;
+}
+
+TEST(RemeshSurface, PiecesAsThinAsALineAreGivenAnEnd) {
+  const TriMesh wall = line_like_box();
+  const TriMesh mesh = remeshed(wall).mesh;
+  expect_sound(wall, mesh);
+  EXPECT_LE(mesh.n_triangles(), 100'000u);
+}
+
+TEST(RemeshSurface, HalvingWithoutEndIsAnErrorWithItsPlace) {
+  const Error error = test::error_of([] { remeshed(line_like_box(), {.max_edge = 1e-7, .max_triangles = 20'000}); });
+  EXPECT_EQ(error.code(), ErrorCode::overflow);
+  EXPECT_THAT(error.what(), testing::HasSubstr("halving long edges did not end"));
+  ASSERT_EQ(error.info().places.size(), 1u);
+  EXPECT_NEAR(error.info().places[0].position.x, 0.5, 0.5);
+}
+
 TEST(RemeshSurface, Refusals) {
   const TriMesh wall = test::cube(2);
   test::expect_error(ErrorCode::bad_argument, "none", [&] { remeshed(wall, {}, {{.names = "none", .max_edge = 0.1}}); });

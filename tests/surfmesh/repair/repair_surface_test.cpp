@@ -244,6 +244,17 @@ TEST(RepairSurface, ClosedPartsWithoutThicknessAreDropped) {
   for (const Point& p : result.mesh.points) EXPECT_LE(p.x, 1.0);
 }
 
+/// Like what cutting had left of an airliner (afem_777 of the shared data): engines refused the mesh, and remeshing halved its edges without end.
+TEST(RepairSurface, PartsAsThinAsALineAreDropped) {
+  SurfaceSoup soup = cube_soup({0, -5, -5}, 20.0);
+  const Point a{22.429632991580142, -4.474867651151577, -1.4976376603497434}, b{22.531284837491086, -4.620135054854745, -1.4720450933317424},
+      c{22.497628296598783, -4.5720375680925835, -1.4805186952684706}, d{22.5647138144612, -4.667907337289754, -1.463628784451465};
+  for (const auto& t : {std::array{a, b, c}, std::array{a, d, b}, std::array{c, b, d}, std::array{a, c, d}}) add_facet(soup, t[0], t[1], t[2]);
+  const RepairResult result = repaired({soup, cube_soup({10, 0, 0}, 18.0, 3)});
+  EXPECT_NEAR(volume_of(result.mesh), 8000.0 + 5832.0 - 10.0 * 15.0 * 15.0, 1e-9);
+  EXPECT_EQ(connected_components(result.mesh, Topology(result.mesh, quiet(1))).count, 1u);
+}
+
 TEST(RepairSurface, BodiesThatTouchInAnEdgeAreSeparated) {
   const RepairResult result = repaired({cube_soup(), cube_soup({1, 1, 0})});
   EXPECT_GE(result.report.count(RepairKind::separated), 1);
