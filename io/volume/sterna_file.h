@@ -71,8 +71,8 @@ void write_sterna(const SternaParts& parts, const std::filesystem::path& path, c
 /// \throws Error file_malformed (byte offset), unsupported_format (a later version), file_not_found
 SternaContent read_sterna(const std::filesystem::path& path, const RunContext& context);
 
-/// The mesh of such a file, with its columns.
-/// \throws as read_sterna(); file_malformed when it holds none, with what it holds
+/// The mesh of such a file, with its columns; of one that holds a surface and nothing made of it a mesh without cells, as of other formats.
+/// \throws as read_sterna(); file_malformed when it holds neither, with what it holds
 HybridMesh read_volume_sterna(const std::filesystem::path& path, const RunContext& context);
 /// Its surface, or else the boundary of its mesh.
 SurfaceSoup read_surface_sterna(const std::filesystem::path& path, const RunContext& context);

@@ -298,6 +298,7 @@ SternaContent read_sterna(const std::filesystem::path& path, const RunContext& c
 
 HybridMesh read_volume_sterna(const std::filesystem::path& path, const RunContext& context) {
   SternaContent content = read_sterna(path, context);
+  if (content.surface && !content.mesh && !content.envelope && !content.tetrahedra) return as_boundary(*content.surface, Winding::kept);
   if (!content.mesh) throw_malformed(path.string(), "byte 0", "found " + content.names() + ", expected a mesh");
   return std::move(*content.mesh);
 }

@@ -124,7 +124,12 @@ TEST(Sterna, VerbsOfTheFormatTable) {
   const TriMesh cube = test::cube(2);
   write_surface_file(cube, folder / "cube.sterna", k_context);
   EXPECT_EQ(read_surface_file(folder / "cube.sterna", k_context).triangles.size(), cube.n_triangles());
-  test::expect_error(ErrorCode::file_malformed, "found surface, expected a mesh", [&] { read_volume_file(folder / "cube.sterna", k_context); });
+  const HybridMesh boundary = read_volume_file(folder / "cube.sterna", k_context);  // as of every format of volumes that holds a surface alone
+  EXPECT_EQ(boundary.boundary_triangles.size(), cube.n_triangles());
+  EXPECT_EQ(boundary.tetrahedra.size() + boundary.prisms.size(), 0u);
+  const Everything all;
+  write_sterna({.surface = &all.surface, .envelope = &all.envelope}, folder / "envelope.sterna", k_context);
+  test::expect_error(ErrorCode::file_malformed, "found surface, envelope, expected a mesh", [&] { read_volume_file(folder / "envelope.sterna", k_context); });
   write_sterna({}, folder / "empty.sterna", k_context);
   EXPECT_EQ(read_sterna(folder / "empty.sterna", k_context).names(), "nothing");
   test::expect_error(ErrorCode::file_malformed, "found nothing, expected a surface or a mesh", [&] { read_surface_file(folder / "empty.sterna", k_context); });
