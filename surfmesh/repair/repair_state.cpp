@@ -135,39 +135,12 @@ void drop_small_parts(RepairState& state, const RepairOptions& options) {
 }
 
 void drop_flat_parts(RepairState& state) {
-  constexpr double k_least_thickness = 1e-9;  // L: rounding of coordinates, and of the volume, is below it
   const EdgeTable edges = state.edges();
-  const Parts parts = connected_parts(state.facets.size(), edges);
-  if (parts.count < 2) return;
-  std::vector<char> is_closed(parts.count, 1), is_begun(parts.count, 0);
-  for (const Edge& edge : edges.edges())
-    if (edge.count != 2) is_closed[parts.part[edges.at(edge).front() / 3]] = 0;
-  std::vector<Vec3> origin(parts.count);
-  std::vector<double> volume(parts.count, 0.0), area(parts.count, 0.0);
-  std::vector<Box> box(parts.count);
-  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
-    const std::uint32_t part = parts.part[t];
-    const auto [a, b, c] = state.corners(t);
-    if (is_begun[part] == 0) origin[part] = a;
-    is_begun[part] = 1;
-    volume[part] += dot(a - origin[part], cross(b - origin[part], c - origin[part])) / 6.0;
-    area[part] += norm(area_vector(a, b, c));
-    for (const Vec3& p : {a, b, c}) box[part].add(p);
-  }
-  // The volume of what is as thin as a line is nothing but rounding.
-  const auto is_flat = [&](std::uint32_t part) {
-    const double thickness = k_least_thickness * state.length;
-    return 2.0 * std::abs(volume[part]) <= thickness * area[part] || area[part] <= thickness * norm(box[part].max - box[part].min);
-  };
-  std::vector<char> is_dropped(state.facets.size(), 0), is_kept(state.facets.size(), 1);
-  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
-    const std::uint32_t part = parts.part[t];
-    if (is_closed[part] == 0 || !is_flat(part)) continue;
-    is_dropped[t] = 1;
-    is_kept[t] = 0;
-  }
-  if (std::ranges::find(is_dropped, 1) == is_dropped.end() || std::ranges::find(is_kept, 1) == is_kept.end()) return;
+  const std::vector<char> is_dropped = facets_without_thickness(state.points, state.facets, edges);
+  if (std::ranges::find(is_dropped, 1) == is_dropped.end()) return;
   state.note_parts(RepairKind::removed_part, is_dropped, edges);
+  std::vector<char> is_kept(is_dropped.size());
+  for (std::size_t t = 0; t < is_kept.size(); ++t) is_kept[t] = static_cast<char>(is_dropped[t] == 0);
   state.keep(is_kept);
 }
 

@@ -1,8 +1,12 @@
 #include "surfmesh/stitch/clean_facets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "geom/base/error.h"
+#include "geom/base/sort_unique.h"
+#include "geom/math/measures.h"
 #include "surfmesh/stitch/edge_table.h"
 
 namespace sterna::surfmesh {
@@ -109,6 +113,58 @@ void drop_doubled_facets(WorkingSurface& surface, StitchReport& report) {
   std::string message = "removed " + count_of(n_copies, "copy of a facet", "copies of facets");
   if (n_redundant > 0) message += " and with them " + count_of(n_redundant, "facet", "facets") + " of doubled sheets without thickness";
   report.messages.push_back(std::move(message));
+}
+
+std::vector<char> facets_without_thickness(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges) {
+  constexpr double k_least_thickness = 1e-9;  // of the part's length: rounding of coordinates, and of the volume, is below it
+  std::vector<char> is_thin(facets.size(), 0);
+  const Parts parts = connected_parts(facets.size(), edges);
+  if (parts.count < 2) return is_thin;
+  struct Size {
+    bool is_closed = true;
+    double volume = 0.0, area = 0.0;
+    Vec3 origin;
+    Box box;
+  };
+  std::vector<Size> sizes(parts.count);
+  for (const Edge& edge : edges.edges())
+    if (edge.count != 2) sizes[parts.part[edges.at(edge).front() / 3]].is_closed = false;
+  for (std::size_t t = 0; t < facets.size(); ++t) {
+    Size& size = sizes[parts.part[t]];
+    const Vec3 &a = points[facets[t][0]], &b = points[facets[t][1]], &c = points[facets[t][2]];
+    if (size.box.empty()) size.origin = a;
+    size.volume += dot(a - size.origin, cross(b - size.origin, c - size.origin)) / 6.0;
+    size.area += triangle_area(a, b, c);
+    for (const Vec3& p : {a, b, c}) size.box.add(p);
+  }
+  // The volume of what is as thin as a line is nothing but rounding.
+  const auto is_without = [](const Size& size) {
+    const double length = norm(size.box.max - size.box.min), thickness = k_least_thickness * length;
+    return size.is_closed && (2.0 * std::abs(size.volume) <= thickness * size.area || size.area <= thickness * length);
+  };
+  if (std::ranges::all_of(sizes, is_without)) return is_thin;
+  for (std::size_t t = 0; t < facets.size(); ++t) is_thin[t] = static_cast<char>(is_without(sizes[parts.part[t]]));
+  return is_thin;
+}
+
+bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edges, StitchReport& report) {
+  const std::vector<char> is_thin = facets_without_thickness(surface.points, surface.facets, edges);
+  const auto first = std::ranges::find(is_thin, 1);
+  if (first == is_thin.end()) return false;
+  const Parts parts = connected_parts(surface.n_facets(), edges);
+  std::vector<std::uint32_t> dropped;
+  std::vector<char> is_kept(is_thin.size());
+  for (std::size_t t = 0; t < is_thin.size(); ++t) {
+    is_kept[t] = static_cast<char>(is_thin[t] == 0);
+    if (is_thin[t] != 0) dropped.push_back(parts.part[t]);
+  }
+  const auto n_facets = static_cast<std::int64_t>(dropped.size());
+  sort_unique(dropped);
+  report.messages.push_back("dropped " + count_of(static_cast<std::int64_t>(dropped.size()), "closed part", "closed parts") + " without thickness (" +
+                            count_of(n_facets, "facet", "facets") + "), the first at " +
+                            format_point(surface.metres(surface.corners(static_cast<std::size_t>(first - is_thin.begin()))[0])));
+  surface.keep(is_kept);
+  return true;
 }
 
 }  // namespace sterna::surfmesh

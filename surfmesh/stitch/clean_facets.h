@@ -1,6 +1,7 @@
 // Private to surfmesh/stitch: facets that say nothing - with a repeated vertex, written twice, or without area.
 #pragma once
 
+#include "surfmesh/stitch/edge_table.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "surfmesh/stitch/working_surface.h"
 
@@ -18,6 +19,13 @@ void drop_doubled_facets(WorkingSurface& surface, StitchReport& report);
 /// that edge hands it to the neighbour, which is split there. Such facets are what fills T-junctions.
 /// \pre at most two facets at each edge, consistent orientation. \return facets for which no flip was possible.
 std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchReport& report);
+
+/// Facets of closed parts that are flat or as thin as a line, a thousand millionth of their own length: that is rounding. None where that would be all.
+std::vector<char> facets_without_thickness(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges);
+
+/// Drops them, with a message: they have no inside, so no engine can fill what is around them. What cutting leaves, often four facets in one plane.
+/// \pre no facet has a repeated vertex. \return whether there were any: `edges` are of the surface before
+bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edges, StitchReport& report);
 
 /// Whether three points lie on one line; exact.
 bool is_collinear(const Vec3& a, const Vec3& b, const Vec3& c);

@@ -76,7 +76,8 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   context.progress(0.3);
 
   {
-    const EdgeTable edges(surface.facets, surface.points.size());
+    EdgeTable edges(surface.facets, surface.points.size());
+    if (drop_parts_without_thickness(surface, edges, report)) edges = EdgeTable(surface.facets, surface.points.size());
     const Defects defects = find_defects(surface.facets, surface.points.size(), edges);
     const Orientation orientation = flood_orientation(surface, edges);
     throw_on_defects(surface, edges, defects, orientation, options, context);

@@ -38,14 +38,14 @@ struct StitchResult {
 };
 
 /// Joins the soups to one surface. Repairs, each with a message: welding; unused vertices dropped; facets with a repeated vertex, copies of facets and doubled
-/// sheets without thickness dropped; facets of exactly zero area flipped away (the surface stays the same set of points); inconsistent or inverted orientation.
-/// Closed components are oriented by signed volume and nesting (winding numbers): a body outwards, a shell inside a body's solid as a cavity in it whatever its
-/// sense in the file (with a message: the outer flow does not reach it), a shell in a cavity as a body again. With fluid = "inside" the outermost shells
-/// enclose the fluid (a tunnel, a complete domain): they are oriented inwards, the shells in them as bodies. Open ones keep the sense of most of their area.
-/// Automatic welding beyond equal coordinates happens only when the surface is open, only between vertices of its boundary, within 1e-9 of the body length
-/// (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making another defect; so small features survive.
-/// Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle: name_1, name_2 ...
-/// \post closed (unless allow_open), manifold, no self-intersection, normals out of the body; patch names unique; every vertex used.
+/// sheets without thickness dropped, closed parts without thickness, too; facets of exactly zero area flipped away (the surface stays the same set of points);
+/// inconsistent or inverted orientation. Closed components are oriented by signed volume and nesting (winding numbers): a body outwards, a shell inside a
+/// body's solid as a cavity in it whatever its sense in the file (with a message: the outer flow does not reach it), a shell in a cavity as a body again. With
+/// fluid = "inside" the outermost shells enclose the fluid (a tunnel, a complete domain): they are oriented inwards, the shells in them as bodies. Open ones
+/// keep the sense of most of their area. Automatic welding beyond equal coordinates happens only when the surface is open, only between vertices of its
+/// boundary, within 1e-9 of the body length (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making another
+/// defect; so small features survive. Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle:
+/// name_1, name_2 ... \post closed (unless allow_open), manifold, no self-intersection, normals out of the body; patch names unique; every vertex used.
 /// \throws Error with number of places, coordinates (metres) of the first few, facets by name, geometry, hint. The first that applies, the others in its text:
 ///   file_malformed (index out of range, coordinate not finite), empty_surface,
 ///   non_manifold_surface (places = edges with more than two facets + vertices with several fans of one component),

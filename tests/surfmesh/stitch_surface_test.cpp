@@ -300,6 +300,20 @@ TEST(Stitch, SmallFeaturesSurviveAutomaticWelding) {
   EXPECT_EQ(report.n_welded_near, 0);
 }
 
+/// Four facets of 5e-16 m^2 in all, like those that cutting had left beside an airliner (afem_777 of the shared data): no engine could fill what is around
+/// them.
+TEST(Stitch, ClosedPartsAsThinAsALineAreDropped) {
+  const Point a{22.4296329915802, -4.474867651151561, -1.4976376603496493}, b{22.531284837491143, -4.620135054854733, -1.4720450933317415},
+      c{22.497628296598837, -4.572037568092529, -1.4805186952684144}, d{22.564713814461207, -4.667907337289712, -1.4636287844513693};
+  SurfaceSoup soup = soup_of(cube(2));
+  const std::size_t n = soup.triangles.size();
+  for (const auto& t : {std::array{a, b, c}, std::array{a, d, b}, std::array{c, b, d}, std::array{a, c, d}}) add_facet(soup, t[0], t[1], t[2]);
+  const auto [mesh, report] = stitch({soup});
+  expect_stitched(mesh);
+  EXPECT_EQ(mesh.n_triangles(), n);
+  EXPECT_THAT(report.messages, Contains(HasSubstr("dropped 1 closed part without thickness (4 facets), the first at (22.4296, -4.47487, -1.49764)")));
+}
+
 TEST(Stitch, GivenToleranceIsInMetres) {
   SurfaceSoup soup = soup_of(cube(2));
   for (std::size_t i = 0; i < soup.points.size(); i += 3) soup.points[i].x += 1e-3;
