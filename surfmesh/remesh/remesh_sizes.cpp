@@ -38,8 +38,7 @@ std::vector<double> automatic_edges(const TriMesh& wall, const Components& piece
     for (const Point& corner : p) boxes[pieces.component[t]].add(corner);
   }
   std::vector<double> edges(pieces.count);
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    edges[i] = std::max(k_max_edge_of_area * std::sqrt(areas[i]), boxes[i].empty() ? 0.0 : k_max_edge_of_length * boxes[i].longest_side());
+  for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = std::max(k_max_edge_of_area * std::sqrt(areas[i]), k_max_edge_of_length * boxes[i].longest_side());
   return edges;
 }
 

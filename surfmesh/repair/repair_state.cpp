@@ -136,11 +136,11 @@ void drop_small_parts(RepairState& state, const RepairOptions& options) {
 
 void drop_flat_parts(RepairState& state) {
   const EdgeTable edges = state.edges();
-  const std::vector<char> is_dropped = facets_without_thickness(state.points, state.facets, edges);
-  if (std::ranges::find(is_dropped, 1) == is_dropped.end()) return;
-  state.note_parts(RepairKind::removed_part, is_dropped, edges);
-  std::vector<char> is_kept(is_dropped.size());
-  for (std::size_t t = 0; t < is_kept.size(); ++t) is_kept[t] = static_cast<char>(is_dropped[t] == 0);
+  const ThinParts thin = find_thin_parts(state.points, state.facets, edges, state.length);
+  if (thin.count == 0) return;
+  state.note_parts(RepairKind::removed_part, thin.is_thin, edges);
+  std::vector<char> is_kept;
+  for (const char is_thin : thin.is_thin) is_kept.push_back(static_cast<char>(is_thin == 0));
   state.keep(is_kept);
 }
 

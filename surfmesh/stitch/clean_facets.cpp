@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "geom/base/error.h"
-#include "geom/base/sort_unique.h"
 #include "geom/math/measures.h"
 #include "surfmesh/stitch/edge_table.h"
 
@@ -115,11 +114,11 @@ void drop_doubled_facets(WorkingSurface& surface, StitchReport& report) {
   report.messages.push_back(std::move(message));
 }
 
-std::vector<char> facets_without_thickness(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges) {
-  constexpr double k_least_thickness = 1e-9;  // of the part's length: rounding of coordinates, and of the volume, is below it
-  std::vector<char> is_thin(facets.size(), 0);
+ThinParts find_thin_parts(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges, double length) {
+  constexpr double k_least_thickness = 1e-9;  // rounding of coordinates, and of the volume, is below it
+  ThinParts thin{.is_thin = std::vector<char>(facets.size(), 0)};
   const Parts parts = connected_parts(facets.size(), edges);
-  if (parts.count < 2) return is_thin;
+  if (parts.count < 2) return thin;
   struct Size {
     bool is_closed = true;
     double volume = 0.0, area = 0.0;
@@ -138,31 +137,28 @@ std::vector<char> facets_without_thickness(const std::vector<Vec3>& points, cons
     for (const Vec3& p : {a, b, c}) size.box.add(p);
   }
   // The volume of what is as thin as a line is nothing but rounding.
-  const auto is_without = [](const Size& size) {
-    const double length = norm(size.box.max - size.box.min), thickness = k_least_thickness * length;
-    return size.is_closed && (2.0 * std::abs(size.volume) <= thickness * size.area || size.area <= thickness * length);
-  };
-  if (std::ranges::all_of(sizes, is_without)) return is_thin;
-  for (std::size_t t = 0; t < facets.size(); ++t) is_thin[t] = static_cast<char>(is_without(sizes[parts.part[t]]));
-  return is_thin;
+  std::vector<char> is_without(parts.count);
+  for (std::uint32_t p = 0; p < parts.count; ++p) {
+    const Size& size = sizes[p];
+    const double own_length = norm(size.box.max - size.box.min), thickness = k_least_thickness * std::max(own_length, length);
+    is_without[p] = static_cast<char>(size.is_closed && (2.0 * std::abs(size.volume) <= thickness * size.area || size.area <= thickness * own_length));
+  }
+  const std::int64_t n = std::ranges::count(is_without, 1);
+  if (n == parts.count) return thin;
+  thin.count = n;
+  for (std::size_t t = 0; t < facets.size(); ++t) thin.is_thin[t] = is_without[parts.part[t]];
+  return thin;
 }
 
 bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edges, StitchReport& report) {
-  const std::vector<char> is_thin = facets_without_thickness(surface.points, surface.facets, edges);
-  const auto first = std::ranges::find(is_thin, 1);
-  if (first == is_thin.end()) return false;
-  const Parts parts = connected_parts(surface.n_facets(), edges);
-  std::vector<std::uint32_t> dropped;
-  std::vector<char> is_kept(is_thin.size());
-  for (std::size_t t = 0; t < is_thin.size(); ++t) {
-    is_kept[t] = static_cast<char>(is_thin[t] == 0);
-    if (is_thin[t] != 0) dropped.push_back(parts.part[t]);
-  }
-  const auto n_facets = static_cast<std::int64_t>(dropped.size());
-  sort_unique(dropped);
-  report.messages.push_back("dropped " + count_of(static_cast<std::int64_t>(dropped.size()), "closed part", "closed parts") + " without thickness (" +
-                            count_of(n_facets, "facet", "facets") + "), the first at " +
-                            format_point(surface.metres(surface.corners(static_cast<std::size_t>(first - is_thin.begin()))[0])));
+  const ThinParts thin = find_thin_parts(surface.points, surface.facets, edges);
+  if (thin.count == 0) return false;
+  const auto first = static_cast<std::size_t>(std::ranges::find(thin.is_thin, 1) - thin.is_thin.begin());
+  report.messages.push_back("dropped " + count_of(thin.count, "closed part", "closed parts") + " without thickness (" +
+                            count_of(std::ranges::count(thin.is_thin, 1), "facet", "facets") + "), the first at " +
+                            format_point(surface.metres(surface.corners(first)[0])));
+  std::vector<char> is_kept;
+  for (const char is_thin : thin.is_thin) is_kept.push_back(static_cast<char>(is_thin == 0));
   surface.keep(is_kept);
   return true;
 }

@@ -20,8 +20,14 @@ void drop_doubled_facets(WorkingSurface& surface, StitchReport& report);
 /// \pre at most two facets at each edge, consistent orientation. \return facets for which no flip was possible.
 std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchReport& report);
 
-/// Facets of closed parts that are flat or as thin as a line, a thousand millionth of their own length: that is rounding. None where that would be all.
-std::vector<char> facets_without_thickness(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges);
+struct ThinParts {
+  std::vector<char> is_thin;  ///< per facet
+  std::int64_t count = 0;     ///< of the parts
+};
+
+/// Closed parts that are flat or as thin as a line: a thousand millionth of their own length, or of `length` where that is more. That is rounding. None where
+/// those would be all.
+ThinParts find_thin_parts(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges, double length = 0.0);
 
 /// Drops them, with a message: they have no inside, so no engine can fill what is around them. What cutting leaves, often four facets in one plane.
 /// \pre no facet has a repeated vertex. \return whether there were any: `edges` are of the surface before

@@ -44,8 +44,9 @@ struct StitchResult {
 /// fluid = "inside" the outermost shells enclose the fluid (a tunnel, a complete domain): they are oriented inwards, the shells in them as bodies. Open ones
 /// keep the sense of most of their area. Automatic welding beyond equal coordinates happens only when the surface is open, only between vertices of its
 /// boundary, within 1e-9 of the body length (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making another
-/// defect; so small features survive. Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle:
-/// name_1, name_2 ... \post closed (unless allow_open), manifold, no self-intersection, normals out of the body; patch names unique; every vertex used.
+/// defect; so small features survive.
+/// Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle: name_1, name_2 ...
+/// \post closed (unless allow_open), manifold, no self-intersection, normals out of the body; patch names unique; every vertex used.
 /// \throws Error with number of places, coordinates (metres) of the first few, facets by name, geometry, hint. The first that applies, the others in its text:
 ///   file_malformed (index out of range, coordinate not finite), empty_surface,
 ///   non_manifold_surface (places = edges with more than two facets + vertices with several fans of one component),
