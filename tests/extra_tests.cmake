@@ -123,7 +123,7 @@ set(sanitized_soak)
 set(sanitized_faults)
 if(STERNA_SANITIZE)
   set(sanitized_soak --no-memory-limit --time-limit 2400)
-  set(sanitized_faults --without little_memory)
+  set(sanitized_faults --without little_memory crash)
 endif()
 if(NOT STERNA_SANITIZE)  # its limits are what it tests
   add_test(NAME soak_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/soak/soak_test.py $<TARGET_FILE:sterna> $<TARGET_FILE:soak_mesh_audit> ${CMAKE_BINARY_DIR}/scratch/soak_self_test)

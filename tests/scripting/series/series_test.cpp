@@ -74,6 +74,21 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
   EXPECT_THAT(text_of("small/series.csv"), HasSubstr("\nheight=0.01_layers=2,0.01,2,done,VALID,"));
 }
 
+/// More than one gate FAILs, the worse one behind the other in the order of gates.
+TEST_F(Series, TheWorstValueOfTheTableIsTheOneThatTheLogNamesFirst) {
+  run(R"(local wall = surface_mesh{ aircraft{ wing{ name = "wing", symmetric = true, trailing_edge = 0, sections = {
+  { y = 0, chord = 1, airfoil = "naca0012" }, { y = 2, chord = 0.5, sweep = 20*deg } } } }, max_edge = 0.3 }
+series{ "small", over = { height = { 1e-3 } },
+  case = function(p) volume_mesh{ wall, layers = 12, first_height = p.height, farfield = sphere{ radius = 20 } }:write "mesh.su2" end })");
+  const auto mesh = nlohmann::json::parse(text_of("small/height=0.001/status.json"))["mesh"];
+  const std::string worst = mesh["worst"], log = text_of("small/height=0.001/log.txt");
+  EXPECT_THAT(mesh["quality"].get<std::string>(), testing::StartsWith("FAIL: G9 OF"));
+  const std::size_t blank = worst.find(' '), line = log.find("  worst  ");
+  ASSERT_NE(blank, std::string::npos) << worst;
+  ASSERT_NE(line, std::string::npos) << log;
+  EXPECT_THAT(log.substr(line, log.find('\n', line) - line), HasSubstr(worst.substr(blank) + " ("));
+}
+
 /// A table of all cases, also of those that failed, with what each wrote: pictures in it, pages linked.
 TEST_F(Series, EndsWithAPageThatComparesItsCases) {
   STERNA_NEEDS(!report_page().empty(), "the report page (npm or its registry, when this was built)");
