@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
@@ -170,21 +171,34 @@ double largest_of(const std::array<double, 3>& values) {
   return largest;
 }
 
+/// The boundary triangle that each column stands on, if there is one. Of a damaged mesh two columns may stand on the same: the first one has it.
+std::vector<std::optional<std::size_t>> feet_of_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
+  const TriangleIndex index(mesh, context);
+  std::vector<std::optional<std::size_t>> feet(lines.triangles().size());
+  parallel_for(context, feet.size(), [&](std::size_t t) {
+    const auto& corner = lines.triangles()[t];
+    feet[t] = index.find({lines.node(corner[0], 0).value(), lines.node(corner[1], 0).value(), lines.node(corner[2], 0).value()});
+  });
+  std::vector<std::uint8_t> is_taken(mesh.boundary_triangles.size(), 0);
+  for (auto& foot : feet)
+    if (foot && std::exchange(is_taken[*foot], 1) != 0) foot.reset();
+  return feet;
+}
+
 std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   std::vector<std::vector<double>> fields(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_nan));
   const std::vector<LineFigures> figures = measure_lines(mesh, lines, context);
-  const TriangleIndex index(mesh, context);
+  const std::vector<std::optional<std::size_t>> feet = feet_of_columns(mesh, lines, context);
   parallel_chunks(context, lines.triangles().size(), k_chunk, [&](std::size_t begin, std::size_t end) {
     ColumnMeasurer measurer(mesh, lines);
     for (std::size_t t = begin; t < end; ++t) {
       const auto& corner = lines.triangles()[t];
-      const auto found = index.find({lines.node(corner[0], 0).value(), lines.node(corner[1], 0).value(), lines.node(corner[2], 0).value()});
-      if (!found) continue;
+      if (!feet[t]) continue;
       const auto of_lines = [&](double LineFigures::*member) {
         return std::array{figures[corner[0]].*member, figures[corner[1]].*member, figures[corner[2]].*member};
       };
       const std::array<int, 3> n = {lines.n_layers(corner[0]), lines.n_layers(corner[1]), lines.n_layers(corner[2])};
-      const auto put = [&](LayerField field, double value) { fields[field][*found] = value; };
+      const auto put = [&](LayerField field, double value) { fields[field][*feet[t]] = value; };
       put(k_layer_height, mean_of(of_lines(&LineFigures::height)));
       put(k_first_height, mean_of(of_lines(&LineFigures::first)));
       put(k_coverage, mean_of(of_lines(&LineFigures::coverage)));

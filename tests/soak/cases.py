@@ -182,7 +182,7 @@ def aircraft(rng, table):
     return case
 
 
-def wakes(rng, case, chord):
+def wakes(rng, case, chord, wing="wing*"):
     """Layers go on behind the wing. Not together with discs and opened ridges, which sheets refuse."""
     if case.get("disc") or "open_ridges" in case["volume"]:
         return
@@ -190,7 +190,7 @@ def wakes(rng, case, chord):
     case["wakes"] = '"auto"'
     if case.get("through", ".step") == ".step" and rng.random() < 0.7:
         length = rng.uniform(1, 3)
-        case["wakes"] = f'{{ wake_sheet{{ wing = "wing*", length = {num(length)}, growth = {num(rng.uniform(1.15, 1.5))}, height_growth = {num(rng.uniform(1, 1.4))} }} }}'
+        case["wakes"] = f'{{ wake_sheet{{ wing = "{wing}", length = {num(length)}, growth = {num(rng.uniform(1.15, 1.5))}, height_growth = {num(rng.uniform(1, 1.4))} }} }}'
     case["wake_reach"] = num(0.3 * length * chord * 0.3)  # the wing tapers to 0.3 of its chord at the least
 
 
@@ -322,6 +322,8 @@ def row(rng, table):
         case["periodic"].append(["tunnel_floor", "tunnel_ceiling", ["0", "0", num(height)]])
     case["surface"] = {"max_edge": num(size * rng.uniform(0.1, 0.25)), "min_edge": num(size * 0.02), "curvature_angle": f"{num(rng.uniform(20, 40))}*deg", "growth": num(rng.uniform(1.3, 1.7))}
     case["volume"] = layers(rng, size) | draw_options(rng, table, rng.choice([0, 0, 1, 2]))
+    if form == "wing" and rng.random() < 0.4:
+        wakes(rng, case, 0.8 * size, "blade")
     case["output"] = rng.choice(OUTPUTS)
     return case
 

@@ -71,8 +71,8 @@ struct Schema<volmesh::TetraOptions> {
                .automatic = "no limit"},
       Field<O>{.name = "boundary_splits",
                .member = &O::boundary_splits,
-               .help = "whether TetGen may split triangles on top of the layer and of the farfield; the wall's are split with them. ladder: after other "
-                       "failures, where it cannot keep them; always: also for better tetrahedra",
+               .help = "whether TetGen may split triangles on top of the layer and of the farfield; the wall's are split with them. ladder: by points on "
+                       "edges that it cannot take back, and after other failures where it cannot keep them; always: also for better tetrahedra",
                .choices = "never ladder always"},
       Field<O>{
           .name = "try_other_engine", .member = &O::try_other_engine, .help = "when the engine fails in a way that it will repeat, the other one is tried"},

@@ -39,6 +39,16 @@ constexpr double k_tetrahedra_per_leaf = 30.0;
 /// With splits for quality triangles become many.
 constexpr double k_splits_factor = 10.0;
 
+wire::Splits on_the_wire(SplitMode mode) {
+  switch (mode) {
+    case SplitMode::none: break;
+    case SplitMode::leftovers: return wire::Splits::leftovers;
+    case SplitMode::recovery: return wire::Splits::recovery;
+    case SplitMode::quality: return wire::Splits::quality;
+  }
+  return wire::Splits::none;
+}
+
 /// Points and facets as they are sent.
 struct Sent {
   explicit Sent(const EngineInput& input)
@@ -74,7 +84,7 @@ class Request {
       header.processor_seconds = factor * (k_least_seconds + k_seconds_per_tetrahedron * k_tetrahedra_per_triangle * static_cast<double>(header.n_triangles));
       header.seconds_per_leaf = factor * k_seconds_per_tetrahedron * k_tetrahedra_per_leaf;
     }
-    header.splits = splits == SplitMode::none ? wire::Splits::none : splits == SplitMode::recovery ? wire::Splits::recovery : wire::Splits::quality;
+    header.splits = on_the_wire(splits);
     std::byte* at = block_.map();
     const auto put = [&](const void* data, std::size_t size) {
       if (size > 0) std::memcpy(at, data, size);

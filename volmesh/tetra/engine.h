@@ -33,8 +33,9 @@ struct EngineFailure {
 /// Whether an engine may split triangles of the boundary.
 enum class SplitMode {
   none,
-  recovery,  ///< only where the boundary cannot be kept otherwise (TetGen only)
-  quality,   ///< also where tetrahedra become better by it (TetGen only)
+  leftovers,  ///< only by points that the engine puts on the boundary for a while and cannot take back (TetGen only)
+  recovery,   ///< only where the boundary cannot be kept otherwise (TetGen only)
+  quality,    ///< also where tetrahedra become better by it (TetGen only)
 };
 
 /// Either a verified result or a failure.

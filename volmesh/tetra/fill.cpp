@@ -22,6 +22,8 @@ struct LadderRung {
   EngineKind engine;
   SplitMode splits = SplitMode::none;
   bool is_two_pass = false;
+  /// Whether the engine splits because it was told to; what it cannot take back is no reason to leave it out.
+  bool has_splits() const { return splits == SplitMode::recovery || splits == SplitMode::quality; }
 };
 
 namespace {
@@ -34,7 +36,7 @@ namespace {
 }
 
 std::string text_of(const LadderRung& rung) {
-  return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles") +
+  return std::string(display_name(rung.engine)) + (rung.has_splits() ? " with splits of the boundary's triangles" : "") +
          (rung.is_two_pass ? " in two passes" : "");
 }
 
@@ -92,7 +94,11 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (boundary.may_split && !boundary.has_sheets) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
+    if (boundary.may_split && !boundary.has_sheets) {
+      for (LadderRung& rung : rungs)
+        if (rung.engine == EngineKind::tetgen && !rung.is_two_pass) rung.splits = SplitMode::leftovers;
+      rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
+    }
   } else if (options.boundary_splits != "never") {
     throw_bad("boundary_splits", options.boundary_splits, "one of never, ladder, always");
   }
@@ -103,10 +109,9 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
 /// splits, too: after it only the other one is tried.
 bool may_follow(const LadderRung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
   const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
-  const bool has_splits = rung.splits != SplitMode::none;
-  if (last == failures.rend()) return !has_splits && options.engine == "automatic";
+  if (last == failures.rend()) return !rung.has_splits() && options.engine == "automatic";
   const bool is_over = last->kind == FailureKind::limit && !options.fall_back_on_limits;
-  if (has_splits) return !is_over;
+  if (rung.has_splits()) return !is_over;
   return options.try_other_engine && (!is_over || last->is_own_limit);
 }
 

@@ -6,7 +6,9 @@
 // What is known of TetGen 1.5.0 as Debian builds it (all measured):
 // - Its vertices must be farther apart than -T (default 1e-8) of the longest side of the box, which the farfield makes long; closer ones are merged, and
 //   then it crashes. -M stops the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
-// - With -Y the boundary stays as it is, triangle for triangle, on everything tried so far; verify_tetrahedra() watches over it.
+// - With -Y the boundary stays as it is, triangle for triangle, on nearly everything tried so far. Around needles and folds a few points that it puts on edges
+// to recover
+//   them may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the answer's faces tell where.
 // - Self-intersecting, duplicate or degenerate facets make it crash, or answer with facets missing; it rarely reports them.
 // - An open boundary gives 0 tetrahedra and no error; an index out of range is read as it is.
 // - Points that it adds and removes again during boundary recovery are left out of the answer, but not with -J (pygeo_bwb).
@@ -114,6 +116,7 @@ std::string switches(const char* format, double radius_edge) {
   return text;
 }
 constexpr const char* k_keep_boundary = "pq%.9gYMFQT1e-16";
+constexpr const char* k_tell_boundary = "pq%.9gYMQT1e-16";
 constexpr const char* k_recover_only = "pYMFQT1e-16";
 constexpr const char* k_split_for_quality = "pq%.9gMQT1e-16";
 constexpr const char* k_split_to_recover = "pMQT1e-16";
@@ -161,6 +164,10 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
   switch (request.header->splits) {
     case wire::Splits::none:
       tetrahedralize_surface(request, whole, request.header->is_recovery_only ? k_recover_only : switches(k_keep_boundary, radius_edge), out);
+      break;
+    case wire::Splits::leftovers:
+      tetrahedralize_surface(request, whole, switches(k_tell_boundary, radius_edge), out);
+      if (static_cast<std::size_t>(out.numberoftrifaces) != whole.n_triangles) split.emplace(out, whole.n_points, false);
       break;
     case wire::Splits::quality:
       tetrahedralize_surface(request, whole, switches(k_split_for_quality, radius_edge), out);

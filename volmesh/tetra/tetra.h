@@ -95,11 +95,12 @@ class TetraLadder {
 /// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is
 /// looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points),
 /// the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary
-/// that may be split). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory limit of the user ends the
-/// call unless `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes, the other engine is tried,
-/// but no splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines (sheets.h); what comes back is
-/// parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed
-/// sizes at its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once; it never outlives the call.
+/// that may be split: then the few points on edges that TetGen could not take back while it recovered the boundary are splits, too, not a failed proof). With
+/// "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory limit of the user ends the call unless
+/// `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes, the other engine is tried, but no
+/// splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines (sheets.h); what comes back is parted. No
+/// engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed sizes at
+/// its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface,
 /// non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory
 /// limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.

@@ -17,14 +17,15 @@ inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
 inline constexpr int k_size_fd = 5;                                   ///< the size field, once it is there
 inline constexpr int k_size_ready_fd = 6;                             ///< pipe: then its length in bytes comes here, a uint64
-inline constexpr std::uint64_t k_request_magic = 0x3851455254455453;  ///< "STETREQ8" in memory; the last digit is the version
+inline constexpr std::uint64_t k_request_magic = 0x3951455254455453;  ///< "STETREQ9" in memory; the last digit is the version
 inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
 
 /// What may become of the boundary's triangles; TetGen only.
 enum class Splits : std::uint64_t {
-  none = 0,      ///< all are kept
-  recovery = 1,  ///< split where the boundary is no part of a Delaunay triangulation otherwise; what comes out is kept
-  quality = 2,   ///< split where tetrahedra become better by it, or smaller as the size field asks
+  none = 0,       ///< all are kept
+  leftovers = 1,  ///< all are kept, but for points on the boundary that the engine could not take back
+  recovery = 2,   ///< split where the boundary is no part of a Delaunay triangulation otherwise; what comes out is kept
+  quality = 3,    ///< split where tetrahedra become better by it, or smaller as the size field asks
 };
 
 struct RequestHeader {

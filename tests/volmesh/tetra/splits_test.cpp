@@ -72,7 +72,7 @@ std::string folder_that_needs_splits() {
   std::filesystem::create_directories(folder);
   // Byte 80 of the request: RequestHeader::splits.
   const std::string real = find_helper("sterna-tet-tetgen", {});
-  std::ofstream(folder / "sterna-tet-tetgen") << "#!/bin/sh\nmode=$(od -An -tu1 -j80 -N1 /proc/self/fd/3)\n[ $mode = 1 ] || kill -SEGV $$\nexec " << real
+  std::ofstream(folder / "sterna-tet-tetgen") << "#!/bin/sh\nmode=$(od -An -tu1 -j80 -N1 /proc/self/fd/3)\n[ $mode = 2 ] || kill -SEGV $$\nexec " << real
                                               << "\n";
   std::ofstream(folder / "sterna-tet-hxt") << "#!/bin/sh\nkill -SEGV $$\n";
   for (const char* name : {"sterna-tet-tetgen", "sterna-tet-hxt"}) std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
