@@ -330,6 +330,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
+  value.origin->options.patches = rules_of(wall, options);  // a file that keeps the stages has them from here only
   return value;
 }
 

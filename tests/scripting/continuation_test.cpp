@@ -49,11 +49,13 @@ TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
   std::filesystem::remove(folder / "room.stl");  // the file of the steps has what it needs
   run("tetrahedra", "tetrahedra{ read_stages('env.sterna').envelope }:write 'tets.sterna'");
   run("prisms", "local s = read_stages 'tets.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'script.su2'");
+  run("finished", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e } }:write 'finished.su2'");
+  run("last", "local s = read_stages 'all.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'last.su2'");
   expect_success({"mesh", "env.sterna", "-o", "command.su2"});
   expect_success({"mesh", "tets.sterna", "-o", "late.su2"});
   const std::string whole = contents("whole.su2");
   EXPECT_GT(whole.size(), 10000u);
-  for (const char* name : {"script.su2", "command.su2", "late.su2"}) EXPECT_TRUE(contents(name) == whole) << name << " differs";
+  for (const char* name : {"script.su2", "command.su2", "late.su2", "finished.su2", "last.su2"}) EXPECT_TRUE(contents(name) == whole) << name << " differs";
 }
 
 TEST_P(Continuation, TakesOptionsOfTheStepsThatAreToCome) {
@@ -83,6 +85,16 @@ INSTANTIATE_TEST_SUITE_P(
         Domain{"WakeSheet",
                "wall = surface_mesh{ wing{ sections = { { chord = 1, airfoil = 'naca0012' }, { y = 1, chord = 1 } }, trailing_edge = 0 }, max_edge = 0.2 }",
                "farfield = sphere{ radius = 10 }, wakes = { wake_sheet{ length = 0.5 } }"},
+        Domain{"TunnelWithLayers",
+               "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, test_section{ length = 7, width = 5, height = 5, position = { 0.5, 0.5, 0.5 }, upstream = 3, "
+               "max_edge = 1, "
+               "walls = { layers = 3, first_height = 9e-3 } }, max_edge = 0.3 }",
+               "max_growth = 1.3"},
+        Domain{"SurfaceRules",
+               "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1}, name = 'block' }, max_edge = 0.2, patches = { ['block'] = { first_height = 5e-3, max_thickness "
+               "= 0.02 } } }",
+               "farfield = sphere{ radius = 6 }"},
+        Domain{"PlacedParts", "wall = assembly{ wall:move{ 0, 0, 1.5 }, wall }", "farfield = sphere{ radius = 9 }"},
         Domain{"FarfieldSurface", "surface_mesh{ box{ {-3, -3, -3}, {4, 4, 4} }, max_edge = 1.5 }:write 'room.stl'", "farfield = 'room.stl'"}),
     [](const testing::TestParamInfo<Domain>& tested) { return std::string(tested.param.name); });
 
