@@ -23,22 +23,22 @@ void PrintTo(const Domain& domain, std::ostream* out) { *out << domain.name; }
 
 class Continuation : public testing::TestWithParam<Domain> {
  protected:
-  Continuation() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
+  Continuation() : folder_(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl"); }
 
   void run(const std::string& name, const std::string& text) {
-    std::ofstream(folder / (name + ".lua")) << text;
+    std::ofstream(folder_ / (name + ".lua")) << text;
     expect_success({"run", name + ".lua"});
   }
   void expect_success(const std::vector<std::string>& arguments) {
-    const test::ProcessResult result = test::run_process(test::sterna_program(), arguments, folder, -1.0);
+    const test::ProcessResult result = test::run_process(test::sterna_program(), arguments, folder_, -1.0);
     EXPECT_EQ(result.status, k_exit_success) << result.errors;
   }
   std::string contents(const std::string& name) {
-    std::ifstream file(folder / name, std::ios::binary);
+    std::ifstream file(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  std::filesystem::path folder;
+  std::filesystem::path folder_;
 };
 
 TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
@@ -46,7 +46,7 @@ TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
   const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
   run("whole", wall + "volume_mesh{ wall, " + layer + ", stages = 'all.sterna' }:write 'whole.su2'");
   run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
-  std::filesystem::remove(folder / "room.stl");  // the file of the steps has what it needs
+  std::filesystem::remove(folder_ / "room.stl");  // the file of the steps has what it needs
   run("tetrahedra", "tetrahedra{ read_stages('env.sterna').envelope }:write 'tets.sterna'");
   run("prisms", "local s = read_stages 'tets.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'script.su2'");
   run("finished", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e } }:write 'finished.su2'");
