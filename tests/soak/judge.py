@@ -202,13 +202,14 @@ class Judge:
         return ""
 
     def asked_truncation(self, case, manifest, found, told, text):
-        """Where lines are lower than asked for, though not collapsed, `truncate = "always"` leaves columns of fewer prisms."""
+        """Where lines are lower than layers times first height, though not collapsed, `truncate = "always"` leaves columns of fewer prisms. Of lines a little lower than asked for all layers may stay: one less would be a step of more than
+        max_growth."""
         if case["volume"].get("truncate") != '"always"' or case.get("tunnel"):
             return ""
         for patch in manifest["layer"]["patches"]:
             layers = found["markers"].get(patch["name"], {}).get("layers")
-            if layers and 1 - patch["full"] - patch["collapsed"] > 0.1 and layers["least"] >= layers["most"]:
-                return f'{patch["name"]} has lines of less than their full height, all of its columns have {layers["most"]:.0f} prisms'
+            if layers and patch["compressed"] > 0.02 and layers["least"] >= layers["most"]:
+                return f'{patch["name"]} has lines lower than layers times first height, all of its columns have {layers["most"]:.0f} prisms'
         return ""
 
     def asked_patches(self, case, manifest, found, told, text):

@@ -99,7 +99,7 @@ class Verdicts(unittest.TestCase):
                 ("cylinder", PLAIN | {"farfield": cylinder}, "s/radius = 8/radius = 7/", "cylinder asked"), ("sides", PLAIN | {"farfield": cylinder}, 's/start = "inflow", //', "inflow"),
                 ("box_sides", PLAIN | {"farfield": box}, 's/x_max = "outflow"/x_min = "inflow"/', "outflow"), ("surface", PLAIN | {"farfield": surface}, 's/"far.stl"/sphere{ radius = 20 }/', "surface asked"),
                 ("tunnel", ROW, "s/length = 5/length = 6/", "tunnel asked"), ("periodic", ROW, 's/, periodic = {.*} }/ }/', "do not match"),
-                ("truncate", LOW, 's/truncate = "always"/truncate = "never"/', "less than their full height"),
+                ("truncate", LOW, 's/truncate = "always"/truncate = "never"/', "lower than layers times first height"),
                 ("ridges", SHARP, 's/open_ridges = "always"/open_ridges = "never"/', "not a word about normals"),
                 ("through", PLAIN | {"through": ".step"}, 's/read_cad "model.step"/read_cad{ "model.step", unit = 1.1 }/', "read from")):
             good = Fake("asked_" + name, f'#!/bin/sh\nexec {STERNA} "$@"\n').judged(case)
