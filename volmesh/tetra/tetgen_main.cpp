@@ -6,9 +6,8 @@
 // What is known of TetGen 1.5.0 as Debian builds it (all measured):
 // - Its vertices must be farther apart than -T (default 1e-8) of the longest side of the box, which the farfield makes long; closer ones are merged, and
 //   then it crashes. -M stops the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
-// - With -Y the boundary stays as it is, triangle for triangle, on nearly everything tried so far. Around needles and folds a few points that it puts on edges
-// to recover
-//   them may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the answer's faces tell where.
+// - With -Y the boundary stays as it is, triangle for triangle, on nearly everything tried so far. Around needles and folds some of the points that it puts on
+//   edges for a while may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the answer's faces tell where.
 // - Self-intersecting, duplicate or degenerate facets make it crash, or answer with facets missing; it rarely reports them.
 // - An open boundary gives 0 tetrahedra and no error; an index out of range is read as it is.
 // - Points that it adds and removes again during boundary recovery are left out of the answer, but not with -J (pygeo_bwb).
