@@ -39,16 +39,6 @@ constexpr double k_tetrahedra_per_leaf = 30.0;
 /// With splits for quality triangles become many.
 constexpr double k_splits_factor = 10.0;
 
-wire::Splits on_the_wire(SplitMode mode) {
-  switch (mode) {
-    case SplitMode::none: break;
-    case SplitMode::leftovers: return wire::Splits::leftovers;
-    case SplitMode::recovery: return wire::Splits::recovery;
-    case SplitMode::quality: return wire::Splits::quality;
-  }
-  return wire::Splits::none;
-}
-
 /// Points and facets as they are sent.
 struct Sent {
   explicit Sent(const EngineInput& input)
@@ -66,7 +56,6 @@ class Request {
     const Sent sent(input);
     const BoundaryParts& parts = input.parts;
     const std::span<const Vec3> hole_points = input.boundary.hole_points;
-    const SplitMode splits = input.splits;
     wire::RequestHeader header;
     header.is_recovery_only = input.is_recovery_only ? 1 : 0;
     n_points_ = header.n_points = sent.points.size();
@@ -80,11 +69,11 @@ class Request {
     header.radius_edge = options.radius_edge;
     header.improve_below = options.hxt_improve_below;
     if (is_automatic(options.time_limit)) {
-      const double factor = splits == SplitMode::quality ? k_splits_factor : 1.0;
+      const double factor = input.splits == SplitMode::quality ? k_splits_factor : 1.0;
       header.processor_seconds = factor * (k_least_seconds + k_seconds_per_tetrahedron * k_tetrahedra_per_triangle * static_cast<double>(header.n_triangles));
       header.seconds_per_leaf = factor * k_seconds_per_tetrahedron * k_tetrahedra_per_leaf;
     }
-    header.splits = on_the_wire(splits);
+    header.splits = input.splits;
     std::byte* at = block_.map();
     const auto put = [&](const void* data, std::size_t size) {
       if (size > 0) std::memcpy(at, data, size);

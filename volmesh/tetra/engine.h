@@ -9,6 +9,7 @@
 #include "volmesh/tetra/boundary_parts.h"
 #include "volmesh/tetra/sheets.h"
 #include "volmesh/tetra/tetra.h"
+#include "volmesh/tetra/wire.h"
 
 namespace sterna::volmesh {
 
@@ -31,12 +32,7 @@ struct EngineFailure {
 };
 
 /// Whether an engine may split triangles of the boundary.
-enum class SplitMode {
-  none,
-  leftovers,  ///< only by points that the engine puts on the boundary for a while and cannot take back (TetGen only)
-  recovery,   ///< only where the boundary cannot be kept otherwise (TetGen only)
-  quality,    ///< also where tetrahedra become better by it (TetGen only)
-};
+using SplitMode = wire::Splits;
 
 /// Either a verified result or a failure.
 struct EngineOutcome {

@@ -6,6 +6,7 @@
 #include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
+#include "tests/support/sanitizers.h"
 
 namespace sterna::scripting {
 namespace {
@@ -20,12 +21,8 @@ void PrintTo(const Work& work, std::ostream* out) { *out << work.name; }
 
 class Interrupt : public testing::TestWithParam<Work> {};
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double k_limit = 20.0;  ///< all takes 4 to 25 times as long
-#else
 /// A second, and what a loaded machine takes to start and end a process.
-constexpr double k_limit = 1.3;
-#endif
+constexpr double k_limit = test::k_is_sanitized ? 20.0 : 1.3;
 /// Other tests run beside this one and may take the processors for longer than that; what is slow by itself is slow each time.
 constexpr int k_attempts = 4;
 

@@ -10,6 +10,7 @@
 #include "scripting/series/case_runners.h"
 #include "tests/scripting/report/page_json.h"
 #include "tests/scripting/series/series_fixture.h"
+#include "tests/support/sanitizers.h"
 
 namespace sterna::scripting {
 namespace {
@@ -293,9 +294,7 @@ TEST_F(Series, WorkersEndWithTheirMainAndTheLockWithThem) {
   const test::ProcessResult second = run(k_endless);
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.errors, HasSubstr("another run is at work in it: process " + std::to_string(main.pid()) + " on "));
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // programs that take many times as long
-  EXPECT_LT(second.seconds, 3.0);
-#endif
+  EXPECT_LT(second.seconds, test::k_is_sanitized ? 60.0 : 3.0);
 
   main.signal(SIGKILL);
   main.wait();
