@@ -44,7 +44,7 @@ add_test(NAME library COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR
 set_tests_properties(library PROPERTIES TIMEOUT 300)
 
 # From Python.
-add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SOURCE_DIR}/scripting/python/sterna_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
+add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SOURCE_DIR}/scripting/python/sterna_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna> ${STERNA_TEST_DATA})
 set_tests_properties(python PROPERTIES TIMEOUT 300)
 
 # Links and pictures of the documents lead somewhere, and the index has every page.
@@ -66,12 +66,12 @@ set_tests_properties(verify_flow PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST
 add_test(NAME report_page_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/run_browser_test ${CMAKE_BINARY_DIR} fixtures)
 set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
 
-add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
-add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data --all USES_TERMINAL)  # all five, by hand
+add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
+add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA} --all USES_TERMINAL)  # all five, by hand
 set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_11_surface_file;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
 
 # The same browser uses every control of the workbench.
-add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
+add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
 set_tests_properties(view_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 250 DEPENDS report_page_browser)
 
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.

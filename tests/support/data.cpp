@@ -6,7 +6,7 @@
 namespace sterna::test {
 
 std::filesystem::path corpus() { return std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data"; }
-std::filesystem::path shared_data() { return std::filesystem::path(STERNA_SOURCE_DIR).parent_path() / "shared" / "data"; }
+std::filesystem::path shared_data() { return std::filesystem::path(STERNA_BINARY_DIR) / "test_data"; }
 bool has_shared_data() { return std::filesystem::is_directory(shared_data() / "surfaces"); }
 
 bool is_all_required() {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""sterna.py drives the program: results, errors in the program's words, progress, series, where the program is looked for. usage: sterna_test.py SOURCE_FOLDER STERNA"""
+"""sterna.py drives the program: results, errors in the program's words, progress, series, where the program is looked for. usage: sterna_test.py SOURCE_FOLDER STERNA DATA_FOLDER"""
 import contextlib
 import os
 import pathlib
@@ -10,7 +10,7 @@ import tempfile
 import threading
 import unittest
 
-SOURCE, PROGRAM = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+SOURCE, PROGRAM, DATA = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(SOURCE / "scripting/python"))
 import sterna  # noqa: E402
 
@@ -227,9 +227,7 @@ class Series(Case):
 
 class Pipeline(Case):
     def test_the_step_of_the_document_meshes_a_cpacs_file(self):
-        cpacs = SOURCE.parent / "shared/data/cpacs/simpletest.cpacs.xml"
-        if not cpacs.is_file() and not os.environ.get("STERNA_REQUIRE_DATA"):
-            self.skipTest("no ../shared/data")
+        cpacs = DATA / "cpacs/simpletest.cpacs.xml"
         step = re.search(r"^```python\n(# step\.py\n.*?)^```$", (SOURCE / "docs/python.md").read_text(), re.MULTILINE | re.DOTALL)
         names = {}
         exec(compile(step[1], "step.py", "exec"), names)

@@ -1,5 +1,5 @@
 -- Pages of real meshes with all that a run knows: coverage, stages, options. args{} names the data's folder.
-local data = args{ data = "../../../shared/data" }.data
+local data = args{ data = "../../../build/release/test_data" }.data
 
 local half_f6 = half(read_surface{ data .. "/surfaces/clean/dlr_f6_184k.stl", unit = mm, split_angle = 40*deg })
 local mesh = volume_mesh{ half_f6, layers = 8, first_height = 1e-5 * half_f6.length, farfield = sphere{ radius = 50 * half_f6.length } }
