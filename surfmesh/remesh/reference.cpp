@@ -1,8 +1,7 @@
 // Steps: normals of triangles, lines and their corners, smooth pieces, normals at corners of triangles, bulges.
 //
-// The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share, so patches join without gaps.
-// Normals at both ends say each how far an arc would rise; the lower of the two counts, and nothing where they disagree in sign. On a sphere both agree and the
-// arc is exact; a flat place beside a curved one stays flat, where point-normal triangles (Vlachos et al. 2001) would make it wavy.
+// The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share (bulges.cpp), so patches join without
+// gaps. A flat place beside a curved one stays flat (straight_parts.cpp), where point-normal triangles (Vlachos et al. 2001) would make it wavy.
 #include "surfmesh/remesh/reference.h"
 
 #include <algorithm>
@@ -12,6 +11,8 @@
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "geom/math/nearest.h"
+#include "surfmesh/remesh/bulges.h"
+#include "surfmesh/remesh/straight_parts.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -20,13 +21,9 @@ namespace {
 constexpr double k_thin_height = 2e-6;
 /// Times that triangles without a normal take one from their neighbours: chains of such triangles are short.
 constexpr int k_normal_rounds = 8;
-/// Largest angle between an edge and the curve over it, rad: edges that bend more are lines.
-constexpr double k_most_rise = 0.5;
 /// Of the feature angle: an edge that bends by this part of it is a line, too, if its surroundings bend by less than the next part of that.
 constexpr double k_crease_share = 0.3;
 constexpr double k_crease_contrast = 0.15;
-/// A bulge is at most this part of the height of a triangle beside it: a patch that rises more beside a short edge would lean over its neighbours.
-constexpr double k_bulge_of_height = 0.2;
 /// Squared distances that are this much larger than the least found are looked behind, too.
 constexpr double k_walk_slack = 1.3;
 /// Triangles that one walk looks at.
@@ -309,79 +306,6 @@ void find_normals(Reference& r, const Marks& marks, const RunContext& context) {
   });
 }
 
-Vec3 surface_bulge(const Reference& r, HalfedgeId h) {
-  const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
-  const double length = distance(a, b);
-  const Vec3 e = (b - a) / length;
-  const Vec3 na = r.normals[h], nb = r.normals[next(h)];
-  const double rise_a = -dot(na, e), rise_b = dot(nb, e);
-  if (!(rise_a * rise_b > 0.0)) return {};
-  const double rise = std::min({std::abs(rise_a), std::abs(rise_b), k_most_rise});
-  const Vec3 up = na + nb;
-  return std::copysign(0.5 * length * std::tan(0.5 * std::asin(rise)), rise_a) * normalized(up - dot(up, e) * e);
-}
-
-void find_line_bulges(const Reference& r, FeatureLine& line) {
-  const auto at = [&](std::size_t i) -> const Point& { return r.mesh->points[line.vertices[i]]; };
-  const std::size_t n = line.vertices.size();
-  line.bulges.assign(n - 1, Vec3{});
-  // Tangents by the circle through three vertices; ends have none.
-  std::vector<Vec3> tangents(n);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const Vec3 in = at(i) - at(i - 1), out = at(i + 1) - at(i);
-    tangents[i] = normalized(norm2(out) * in + norm2(in) * out);
-  }
-  // An end goes on as the line bends from there, if it still does so behind the next vertex.
-  const auto rise_at_end = [&](std::size_t near, std::size_t far, const Vec3& rise, double length) {
-    if (far == 0 || far >= n - 1) return Vec3{};  // also of a line of one edge, behind which there is no vertex
-    const double behind = distance(at(near), at(far));
-    const double bend = angle_between(tangents[near], tangents[far]) * 0.5 * length / behind;
-    return norm(rise) > 0.0 ? std::min(1.0, bend / norm(rise)) * rise : rise;
-  };
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double length = distance(at(i), at(i + 1));
-    const Vec3 e = (at(i + 1) - at(i)) / length;
-    // Both point to the side the curve is on.
-    Vec3 rise_a = tangents[i] - dot(tangents[i], e) * e, rise_b = dot(tangents[i + 1], e) * e - tangents[i + 1];
-    if (i == 0) rise_a = rise_at_end(1, 2, rise_b, length);
-    if (i + 2 == n) rise_b = rise_at_end(n - 2, n - 3, rise_a, length);
-    if (!(dot(rise_a, rise_b) > 0.0)) continue;
-    const double rise = std::min({norm(rise_a), norm(rise_b), k_most_rise});
-    line.bulges[i] = 0.5 * length * std::tan(0.5 * std::asin(rise)) * normalized(rise_a + rise_b);
-  }
-}
-
-Vec3 limited(const Reference& r, HalfedgeId h, const Vec3& bulge) {
-  double height = std::numeric_limits<double>::infinity();
-  for (const HalfedgeId e : {h, r.topology.twin(h)}) {
-    if (!e.is_valid()) continue;
-    const Point &a = r.mesh->points[r.topology.from(e)], &b = r.mesh->points[r.topology.to(e)], &c = r.mesh->points[r.topology.from(previous(e))];
-    height = std::min(height, 2.0 * triangle_area(a, b, c) / distance(a, b));
-  }
-  const double rise = norm(bulge), most = k_bulge_of_height * height;
-  return rise > most ? most / rise * bulge : bulge;
-}
-
-void find_bulges(Reference& r, const Column<TriangleId, std::uint8_t>& flat, const RunContext& context) {
-  const auto is_flat = [&](HalfedgeId h) {
-    const HalfedgeId o = r.topology.twin(h);
-    const auto off = [&](TriangleId t) { return r.is_kept[t] != 0 || (!flat.empty() && flat[t] != 0); };
-    return off(triangle_of(h)) || (o.is_valid() && off(triangle_of(o)));
-  };
-  for (FeatureLine& line : r.lines) {
-    find_line_bulges(r, line);
-    for (std::size_t i = 0; i < line.bulges.size(); ++i)
-      if (is_flat(line.halfedges[i])) line.bulges[i] = {};
-  }
-  for (FeatureLine& line : r.lines)
-    for (std::size_t i = 0; i < line.bulges.size(); ++i) line.bulges[i] = limited(r, line.halfedges[i], line.bulges[i]);
-  parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
-    const HalfedgeId h(i);
-    if (r.line[h] != k_no_line) r.bulges[h] = r.lines[static_cast<std::size_t>(r.line[h])].bulges[r.segment[h]];
-    else if (!is_flat(h)) r.bulges[h] = limited(r, h, surface_bulge(r, first_of(r.topology, h)));
-  });
-}
-
 }  // namespace
 
 Reference::Reference(const TriMesh& wall, const ReferenceOptions& options, const Column<TriangleId, std::uint8_t>& kept,
@@ -417,7 +341,9 @@ Reference::Reference(const TriMesh& wall, const ReferenceOptions& options, const
   find_regions(*this);
   find_normals(*this, marks, context);
   if (options.is_smooth) {
-    find_bulges(*this, flat, context);
+    const StraightParts parts = find_straight_parts(*this, marks.is_sharp, context);
+    straighten_normals(*this, marks.is_sharp, parts, context);
+    find_bulges(*this, flat, parts, context);
   } else {
     for (FeatureLine& l : lines) l.bulges.assign(l.vertices.size() - 1, Vec3{});
   }
