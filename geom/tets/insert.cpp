@@ -11,7 +11,12 @@
 namespace sterna::tets {
 namespace {
 
-constexpr std::uint8_t k_inside = 1, k_outside = 2;
+constexpr std::uint8_t k_inside = 1, k_outside = 2, k_dropped = 3;
+/// A cavity that loses more tetrahedra than this, and more than this share, because they do not see the point has fallen apart.
+constexpr std::size_t k_least_loss = 30;
+constexpr double k_lost_share = 0.5;
+/// Tetrahedra that are added to a cavity so that it does not fall apart.
+constexpr int k_most_grown = 200;
 
 /// Whether a point stands over a triangle and less than `height` above it.
 bool is_low(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, double height) {
@@ -47,7 +52,14 @@ Insertion Inserter::insert(std::uint32_t point, std::uint32_t start, const Room&
   for (const std::uint32_t v : mesh_.nodes[base])
     if (why = nearness(v, p, room); why != Insertion::done) return why;
   why = gather(point, base, room);
-  if (why == Insertion::done) why = shrink(p, base, room);
+  const std::size_t n_gathered = cavity_.size();
+  if (why == Insertion::done) why = make_visible(p, base, room, 0);
+  if (const auto n_left = static_cast<double>(cavity_.size());
+      n_gathered > cavity_.size() + k_least_loss && n_left < (1.0 - k_lost_share) * static_cast<double>(n_gathered)) {
+    unmark();
+    why = gather(point, base, room);
+    if (why == Insertion::done) why = make_visible(p, base, room, k_most_grown);
+  }
   if (why == Insertion::done && faces_.size() > cavity_.size() + free_.size() + (end_ - next_)) why = Insertion::foreign;
   if (why == Insertion::done) fill(point);
   unmark();
@@ -125,7 +137,7 @@ void Inserter::collect_faces() {
 
 /// Keeps what is still connected with the base.
 void Inserter::reach(std::uint32_t base) {
-  constexpr std::uint8_t k_reached = 3;
+  constexpr std::uint8_t k_reached = 4;
   std::vector<std::uint32_t> reached = {base};
   target_.mark[base] = k_reached;
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -141,8 +153,11 @@ void Inserter::reach(std::uint32_t base) {
   cavity_ = std::move(reached);
 }
 
-/// Gives tetrahedra back until every face sees the point.
-Insertion Inserter::shrink(const Vec3& p, std::uint32_t base, const Room& room) {
+/// Until every face of the cavity sees the point: adds the tetrahedron behind a face that does not, at most so many of them; else gives back the one before it.
+/// On a mesh that is far from Delaunay, as flips of the recovery leave it, each that is given back hides others: one of them can cost a cavity of a thousand,
+/// and what stays there is flat and long, and hides more from the next point.
+Insertion Inserter::make_visible(const Vec3& p, std::uint32_t base, const Room& room, int most_grown) {
+  int n_grown = 0;
   for (;;) {
     bool has_changed = false;
     collect_faces();
@@ -152,9 +167,22 @@ Insertion Inserter::shrink(const Vec3& p, std::uint32_t base, const Room& room) 
         if (face.outer == k_none && is_low(a, b, c, p, room.to_boundary)) return Insertion::encroaches;
         continue;
       }
+      if (face.outer != k_none && n_grown < most_grown) {
+        const std::uint32_t other = face.outer / 4;
+        if (target_.mark[other] == k_inside) continue;  // since the faces were collected
+        if (is_foreign(other)) return Insertion::foreign;
+        if (target_.mark[other] != k_dropped && nearness(mesh_.nodes[other][face.outer % 4], p, room) == Insertion::done) {
+          if (target_.mark[other] == 0) touched_.push_back(other);
+          target_.mark[other] = k_inside;
+          cavity_.push_back(other);
+          ++n_grown;
+          has_changed = true;
+          continue;
+        }
+      }
       if (face.tet == base) return Insertion::no_cavity;
       if (target_.mark[face.tet] != k_inside) continue;
-      target_.mark[face.tet] = k_outside;
+      target_.mark[face.tet] = k_dropped;
       has_changed = true;
     }
     if (!has_changed) return Insertion::done;

@@ -86,7 +86,7 @@ class Inserter {
   }
   std::uint32_t locate(const Vec3& p, std::uint32_t start, Insertion& why);
   Insertion gather(std::uint32_t point, std::uint32_t base, const Room& room);
-  Insertion shrink(const Vec3& p, std::uint32_t base, const Room& room);
+  Insertion make_visible(const Vec3& p, std::uint32_t base, const Room& room, int most_grown);
   void collect_faces();
   void reach(std::uint32_t base);
   void fill(std::uint32_t point);

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
+#include "geom/tets/recover.h"
 #include "geom/tets/refine.h"
 #include "tests/geom/tets/grids.h"
 #include "tests/support/error_of.h"
@@ -133,6 +135,57 @@ TEST(TetRefine, StopsWhenTold) {
     return 0.2 * graded(p);
   };
   EXPECT_EQ(test::error_of([&] { refine(mesh, static_cast<std::uint32_t>(soup.points.size()), sizes, context); }).code(), ErrorCode::cancelled);
+}
+
+/// Faces of a cube as n x n squares, all diagonals one way; the domain is outside of it, or inside.
+void add_structured_cube(std::uint32_t n, const Vec3& low, double side, bool is_room, std::vector<Vec3>& points, std::vector<Facet>& facets) {
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers;
+  const auto at = [&](std::size_t axis, std::uint32_t level, std::uint32_t i, std::uint32_t j) {
+    std::array<std::uint32_t, 3> place{};
+    place[axis] = level * n;
+    place[(axis + 1) % 3] = i;
+    place[(axis + 2) % 3] = j;
+    const auto [it, is_new] = numbers.try_emplace(place, static_cast<std::uint32_t>(points.size()));
+    if (is_new) points.push_back(low + side / n * Vec3{1.0 * place[0], 1.0 * place[1], 1.0 * place[2]});
+    return it->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::uint32_t level : {0u, 1u})
+      for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t j = 0; j < n; ++j) {
+          const std::uint32_t a = at(axis, level, i, j), b = at(axis, level, i + 1, j), c = at(axis, level, i + 1, j + 1), d = at(axis, level, i, j + 1);
+          for (Facet f : {Facet{a, b, c}, Facet{a, c, d}}) {
+            if ((level == 1) == is_room) std::swap(f[1], f[2]);
+            facets.push_back(f);
+          }
+        }
+}
+
+/// Four points of each square are on one circle, and the flips that recover the wanted diagonals leave a mesh that is far from Delaunay: cavities of a thousand
+/// tetrahedra fell apart, and a quarter of a thousand stayed that lie flat over half a face (issue 42, D5).
+TEST(TetRefine, StructuredPlaneFacesLeaveNothingFlatAndLong) {
+  std::vector<Vec3> points;
+  std::vector<Facet> facets;
+  add_structured_cube(20, {0, 0, 0}, 1.0, false, points, facets);
+  add_structured_cube(5, {-4, -4, -4}, 9.0, true, points, facets);
+  const auto sizes = [](const Vec3& p) { return 0.05 + 0.3 * std::max(0.0, std::max({std::abs(p.x - 0.5), std::abs(p.y - 0.5), std::abs(p.z - 0.5)}) - 0.5); };
+  std::optional<TetMesh> first;
+  for (const int threads : {1, 2, 7}) {
+    const RunContext context({.threads = threads});
+    Recovery recovery = recover(points, facets, {}, context);
+    ASSERT_EQ(recovery.failure.problem, "");
+    const RefineReport report = refine(recovery.mesh, static_cast<std::uint32_t>(points.size()), sizes, context);
+    EXPECT_EQ(report.n_far, 0);  // 245 before
+    EXPECT_LT(report.n_left, static_cast<std::int64_t>(recovery.mesh.nodes.size() / 20));
+    if (!first) {
+      EXPECT_TRUE(is_sound(recovery.mesh));
+      EXPECT_NEAR(test::volume_of(recovery.mesh), 728.0, 1e-8);
+      first = recovery.mesh;
+    } else {
+      EXPECT_EQ(recovery.mesh.nodes, first->nodes) << threads;
+      EXPECT_EQ(recovery.mesh.points, first->points) << threads;
+    }
+  }
 }
 
 }  // namespace
