@@ -336,4 +336,36 @@ TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunCon
   return half;
 }
 
+TriMesh beyond_plane(const TriMesh& surface, const HalfOptions& options) {
+  const HalvingPlane plane = plane_of(surface, options);
+  TriMesh kept;
+  kept.patches = surface.patches;
+  kept.points = surface.points;
+  const auto add = [&](const TriangleVertices& triangle, PatchId patch) {
+    kept.triangles.push_back(triangle);
+    kept.triangle_patch.push_back(patch);
+  };
+  for (const TriangleId t : surface.triangles.ids()) {
+    const TriangleVertices& v = surface.triangles[t];
+    std::array<double, 3> d{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      d[k] = plane.side * (surface.points[v[k]][plane.axis] - plane.at);
+      if (std::abs(d[k]) <= plane.tolerance) d[k] = 0.0;
+    }
+    if (!is_kept_in_part(d)) continue;
+    if (d[0] >= 0.0 && d[1] >= 0.0 && d[2] >= 0.0) {
+      add(v, surface.triangle_patch[t]);
+      continue;
+    }
+    std::vector<VertexId> polygon;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (d[k] >= 0.0) polygon.push_back(v[k]);
+      if (d[k] * d[next] < 0.0) polygon.push_back(kept.points.push_back(crossing(surface.points[v[k]], surface.points[v[next]], d[k], d[next], plane)));
+    }
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) add({polygon[0], polygon[k], polygon[k + 1]}, surface.triangle_patch[t]);
+  }
+  return kept;
+}
+
 }  // namespace sterna

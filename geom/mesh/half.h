@@ -30,6 +30,10 @@ struct HalfOptions {
 /// the rim touches itself or the surface touches the plane beside it; (mesh_invalid) when moving vertices within the tolerance would turn a triangle over
 TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context);
 
+/// The part of all triangles on the side of the plane that half_of keeps, cut exactly and without any repair: what half_of's result is compared with. Triangles
+/// within the tolerance of the plane are left out; cut triangles have vertices of their own.
+TriMesh beyond_plane(const TriMesh& surface, const HalfOptions& options);
+
 template <>
 struct Schema<HalfOptions> {
   using O = HalfOptions;
