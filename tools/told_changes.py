@@ -4,7 +4,7 @@ import re
 NUMBER = r"([-+.\deE]+)"
 SHORT = [("dropped", "dropped"), ("welded", "welded"), ("seams zipped", "seams"), ("rim of the half model", "half"), ("holes filled", "holes"),
          ("cut where facets cross", "cut"), ("sheets without", "sheets"), ("facets inside", "inside"), ("small parts", "parts"),
-         ("touching vertices", "parted"), ("short edges", "collapsed"), ("crossing facets replaced", "replaced"), ("turned", "turned")]
+         ("touching vertices", "parted"), ("touching parts", "joined"), ("short edges", "collapsed"), ("crossing facets replaced", "replaced"), ("turned", "turned")]
 
 
 def short(change):

@@ -27,6 +27,7 @@
 #include "scripting/values/layer_options.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
+#include "scripting/values/open_domains.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/remeshed_surface.h"
@@ -295,6 +296,7 @@ SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& i
 MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
                const CommandContext& context) {
   const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
+  if (command.is_auto) wall = as_body(wall, options.farfield.farfield_shape != "none", part);
   if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;

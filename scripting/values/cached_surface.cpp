@@ -42,8 +42,7 @@ std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext&
 /// Without inputs, which are the models', and without the model.
 void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
-               model_wall, parts, model_wall_key,
-               changes] = surface;  // all of them: a new one does not compile
+               model_wall, parts, model_wall_key, changes, changed] = surface;  // all of them: a new one does not compile
   write_value(sink, mesh);
   write_value(sink, report);
   write_value(sink, recipe);
@@ -52,6 +51,7 @@ void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   write_value(sink, layers);
   write_value(sink, parts);
   write_value(sink, changes);
+  write_value(sink, changed);
   write_value(sink, model_wall->places());
   static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options),
       static_cast<void>(remesh_options);                         // surface_mesh has none
@@ -69,6 +69,7 @@ SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& mode
   read_value(source, surface.layers);
   read_value(source, surface.parts);
   read_value(source, surface.changes);
+  read_value(source, surface.changed);
   read_value(source, places);
   surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all, std::move(places), surface.mesh.triangles);
   for (const ModelHandle& model : models) surface.inputs.insert(surface.inputs.end(), model->inputs.begin(), model->inputs.end());

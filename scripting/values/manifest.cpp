@@ -6,6 +6,7 @@
 
 #include "io/output/atomic_file.h"
 #include "scripting/values/disc_verbs.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
@@ -121,6 +122,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
     if (!mesh.origin->changes.empty()) json["changes"] = mesh.origin->changes;
+    if (!mesh.origin->changed.empty()) json["changed"] = Json::parse(changed_json(mesh.origin->changed));
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
     if (volume.first_heights)

@@ -11,6 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "geom/math/constants.h"
+#include "scripting/values/open_domains.h"
 #include "scripting/values/remeshed_surface.h"
 #include "scripting/values/summary.h"
 
@@ -47,6 +48,14 @@ bool is_torn(const InspectReport& report) {
     const volmesh::Finding* finding = report.find(kind);
     return finding != nullptr && finding->severity == volmesh::Severity::error;
   });
+}
+
+/// Open, but only in planes where the domain ends: --auto takes it as it is.
+bool is_open_domain(const InspectReport& report, const AutoSurface& options, const RunContext& context) {
+  if (report.is_closed || options.stitching.fluid == "inside") return false;
+  for (const FindingKind kind : {FindingKind::non_manifold, FindingKind::not_orientable, FindingKind::crossing})
+    if (const volmesh::Finding* finding = report.find(kind); finding != nullptr && finding->severity == volmesh::Severity::error) return false;
+  return ends_in_planes(report.mesh, context).has_value();
 }
 
 std::string counted(std::int64_t n, const char* one, const char* many) { return count_text(n) + " " + (n == 1 ? one : many); }
@@ -106,7 +115,7 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
       p.hint = fmt::format("openings wider than {:.3g} m leak, both sides of the skin behind them are wrapped: a gap up to {:.3g} closes this one",
                            wrap.widest_gap, forecast.widest_open);
   } else {
-    p.reason = forecast.problem + "; facets cross, and no hull can be taken where the fluid is inside";
+    p.reason = forecast.problem + "; facets cross, and the outer hull is not taken (hull = false)";
   }
   // Wrapped once; with a coarser wrap before, where openings are wider than the edge; with skin on both sides, where they are wider than any gap.
   const double rounds = forecast.widest_open > wrap.widest_gap ? k_wrap_leaking : forecast.widest_open > 2.0 * wrap.edge ? k_wrap_coarse : 1.0;
@@ -170,7 +179,7 @@ Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const Ins
     p.reason = malformed->text;
     return p;
   }
-  if (is_torn(report) || (must_close && !report.is_closed)) {
+  if ((is_torn(report) || (must_close && !report.is_closed)) && !is_open_domain(report, options, context)) {
     try {
       p.forecast = surfmesh::foresee_repair(soups, options.stitching, options.repair, context);
     } catch (const Error& error) {

@@ -10,6 +10,7 @@
 #include "geom/math/constants.h"
 #include "scripting/cache/content_key.h"
 #include "scripting/cache/stage_cache.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
@@ -60,11 +61,17 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   return made;
 }
 
+/// The accepted surface, with warnings of what is missing or different.
+SurfaceValue with_change(SurfaceValue made, const SurfaceValue& wall, const RunContext& context) {
+  note_change(made, compare_geometry(wall.mesh, made.mesh, "remesh", context), context);
+  return made;
+}
+
 }  // namespace
 
 SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context,
                       const Reuse& reuse) {
-  return remeshed_if(wall, recipe, size, {}, context, reuse);
+  return with_change(remeshed_if(wall, recipe, size, {}, context, reuse), wall, context);
 }
 
 bool is_remesh_advised(const SurfaceValue& wall) {
@@ -90,7 +97,8 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
       SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
       // A cached result was made without a demand, perhaps: it is looked at again.
       const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
-      if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle) return made;
+      if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle)
+        return with_change(std::move(made), wall, context);
       context.info(fmt::format("auto: remesh leaves {} needles of {}, the least angle {:.3g} deg for {:.3g} deg: the triangles stay as they are",
                                count_text(after.n), count_text(before.n), after.least_angle / k_degree, before.least_angle / k_degree));
       break;

@@ -8,22 +8,29 @@
 #include <optional>
 
 #include "scripting/cache/stage_cache.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
+#include "scripting/values/open_domains.h"
 #include "scripting/values/remeshed_surface.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_items.h"
 #include "scripting/values/value_keys.h"
+#include "scripting/values/wall_files.h"
 #include "scripting/values/wrap_surfaces.h"
 #include "surfmesh/model/replaced_faces.h"
 #include "surfmesh/repair/folded_edges.h"
+#include "surfmesh/stitch/as_read.h"
 
 namespace sterna::scripting {
 namespace {
 
 constexpr const char* k_repair_stage = "repair";
 constexpr double k_repair_read_end = 0.1;  ///< of repair_surfaces's progress
+// Of read_as_it_is.
+constexpr double k_files_read_end = 0.3;
+constexpr double k_closed_end = 0.8;
 // Of auto_surface's.
 constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
@@ -68,10 +75,14 @@ bool are_models(std::span<const InputPath> files) {
   return std::ranges::all_of(files, [](const InputPath& file) { return is_model_file(file.path); });
 }
 
-}  // namespace
+/// A repaired surface that is not accepted yet: nothing is warned of.
+struct Repaired {
+  SurfaceValue wall;
+  std::optional<GeometryChange> change;  ///< nothing: it is as it was
+};
 
-SurfaceValue repair_surfaces(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const surfmesh::RepairOptions& options,
-                             const Reuse& reuse, const RunContext& context, const std::function<void(const surfmesh::RepairReport&)>& look) {
+Repaired repaired_of(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const surfmesh::RepairOptions& options, const Reuse& reuse,
+                     const RunContext& context, const std::function<void(const surfmesh::RepairReport&)>& look) {
   const SurfaceItems read = read_items(items, stitching, context.part("read", 0.0, k_repair_read_end));
   const StageTimer timer(context, k_repair_stage);
   const auto make = [&] {
@@ -96,11 +107,71 @@ SurfaceValue repair_surfaces(std::span<const UnionItem> items, const surfmesh::S
         read_value(source, wall.is_changed);
         return wall;
       }));
-  SurfaceValue wall = with_mesh(read, std::move(made.mesh), std::move(made.report));
+  Repaired result{with_mesh(read, std::move(made.mesh), std::move(made.report)), std::nullopt};
+  SurfaceValue& wall = result.wall;
   wall.repair_options = options;
+  if (made.is_changed || wall.report.n_degenerate_removed + wall.report.n_duplicate_removed > 0) {
+    GeometryChange change = compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "repair", context);
+    if (made.is_changed || !change.is_small()) result.change = std::move(change);
+  }
   if (made.is_changed) wall.changes.push_back(change_text("repaired", made.messages));
   context.info(describe(wall) + (made.is_changed ? " (repaired)" : " (nothing to repair)"));
-  return wall;
+  return result;
+}
+
+/// A surface that is sound, closed or open in planes of the domain only.
+/// \throws Error of read_wall, of the closed surface
+SurfaceValue read_as_it_is(std::span<const InputPath> files, const surfmesh::StitchOptions& stitching, const RunContext& context) {
+  const WallFiles read = read_wall_files(files, stitching, context.part("read", 0.0, k_files_read_end));
+  try {
+    SurfaceValue wall = join_wall(read, context.part("stitch", k_files_read_end, k_closed_end));
+    report_wall(wall, context);
+    return wall;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::open_surface || stitching.allow_open || read.wall.options.fluid == "inside") throw;
+    WallFiles open = read;
+    open.wall.options.allow_open = true;
+    try {
+      SurfaceValue wall = join_wall(open, context.part("stitch", k_closed_end, 1.0));
+      if (const std::optional<std::string> planes = ends_in_planes(wall.mesh, context)) {
+        context.info("auto: " + *planes);
+        wall.report.messages.push_back(*planes);
+        report_wall(wall, context);
+        return wall;
+      }
+    } catch (const Error& other) {
+      if (!is_about_surface(other)) throw;
+    }
+    throw;
+  }
+}
+
+/// One sentence where what is wrapped is a sheet.
+std::optional<std::string> sheet_of(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const RunContext& context) {
+  surfmesh::StitchOptions open = stitching;
+  open.allow_open = true;
+  open.check_intersections = false;
+  const SurfaceItems read = read_items(items, open, context);
+  try {
+    return is_open_sheet(surfmesh::stitch_surface(read.soups, open, context).mesh, context);
+  } catch (const Error& error) {
+    if (!is_about_surface(error)) throw;
+    return std::nullopt;
+  }
+}
+
+/// The accepted surface, with warnings of what is missing or different.
+SurfaceValue accepted(Repaired repaired, const RunContext& context) {
+  for (const std::string& text : repaired.wall.report.warnings) context.warn(text);
+  if (repaired.change) note_change(repaired.wall, *repaired.change, context);
+  return std::move(repaired.wall);
+}
+
+}  // namespace
+
+SurfaceValue repair_surfaces(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const surfmesh::RepairOptions& options,
+                             const Reuse& reuse, const RunContext& context, const std::function<void(const surfmesh::RepairReport&)>& look) {
+  return accepted(repaired_of(items, stitching, options, reuse, context, look), context);
 }
 
 OptionTable repair_options(surfmesh::StitchOptions& stitching, surfmesh::RepairOptions& options) {
@@ -144,9 +215,14 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   surfmesh::StitchOptions stitching = options.stitching;
   try {
     const RunContext as_it_is = context.part("as it is", 0.0, k_as_it_is_end);
-    if (!are_models(files)) return read_wall(files, stitching, as_it_is);
+    if (!are_models(files)) return read_as_it_is(files, stitching, as_it_is);
     SurfaceValue surface = mesh_model_files(files, options.reading, options.recipe, as_it_is, reuse, options.periodic);
     if (surface.report.is_closed) return surface;
+    if (stitching.fluid != "inside")
+      if (const std::optional<std::string> planes = ends_in_planes(surface.mesh, as_it_is)) {
+        context.info("auto: " + *planes);
+        return surface;
+      }
     first = {.code = ErrorCode::open_surface, .attempted = "meshing the model's surface", .problem = "it is open"};
     open = std::move(surface);
   } catch (const Error& error) {
@@ -164,13 +240,14 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     items = {of_model};
     stitching.unit = 1.0;
   }
-  std::optional<SurfaceValue> folded;  // repaired, but what is left lies on itself
+  std::optional<Repaired> folded;  // what is left lies on itself
   try {
-    SurfaceValue repaired = repair_surfaces(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end));
-    if (open && repaired.changes.size() == open->changes.size()) return *open;
-    if (of_model) tell_replaced_faces(*of_model, repaired, context);
-    const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.mesh);
-    if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.mesh.n_triangles())) return repaired;
+    Repaired repaired = repaired_of(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end), {});
+    if (open && repaired.wall.changes.size() == open->changes.size()) return *open;
+    if (of_model) tell_replaced_faces(*of_model, repaired.wall, context);
+    const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.wall.mesh);
+    if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.wall.mesh.n_triangles()))
+      return accepted(std::move(repaired), context);
     context.info(
         fmt::format("auto: repair leaves {} pairs of facets folded onto each other, which tetrahedra cannot fill; wrap is tried", count_text(n_folded)));
     folded = std::move(repaired);
@@ -179,6 +256,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     first.problem += "; repair: " + error.info().problem;
     context.info("auto: repair: " + error.info().problem + "; wrap is tried");
   }
+  if (const std::optional<std::string> sheet = sheet_of(items, stitching, context.part("sheet", k_repair_end, k_repair_end))) context.warn("auto: " + *sheet);
   try {
     surfmesh::WrapOptions wrap = options.wrap;
     wrap.unit = stitching.unit;
@@ -187,7 +265,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     return wrap_surfaces(items, wrap, reuse, context.part("wrap", k_repair_end, 1.0));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    if (folded) return *folded;
+    if (folded) return accepted(std::move(*folded), context);
     first.problem += "; wrap: " + error.info().problem;
     throw Error(std::move(first));
   }

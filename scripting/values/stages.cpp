@@ -13,10 +13,12 @@
 #include "scripting/values/cached_volume.h"
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/envelope_site.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/manifest.h"
 #include "scripting/values/model_surface.h"
+#include "scripting/values/open_domains.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/summary.h"
@@ -25,6 +27,7 @@
 #include "volmesh/case/body_wake.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/case/thin_layers.h"
+#include "volmesh/domain/complete_boundary.h"
 #include "volmesh/layer/assemble.h"
 
 namespace sterna::scripting {
@@ -151,6 +154,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
   if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
   if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
   if (!wall.changes.empty()) json["changes"] = wall.changes;
+  if (!wall.changed.empty()) json["changed"] = Json::parse(changed_json(wall.changed));
   if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
   if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
   json["sources"] = options.sources.size();
@@ -222,6 +226,8 @@ class StageJson {
     if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
     return get<double>("/wall/max_smooth_angle");
   }
+
+  std::vector<std::string> changed() const { return changed_of_json(json_.contains("changed") ? json_.at("changed").dump() : std::string("[]")); }
 
   /// Of the wall against the user's files.
   std::vector<std::string> changes() const { return json_.contains("changes") ? get<std::vector<std::string>>("/changes") : std::vector<std::string>(); }
@@ -327,6 +333,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .n_split_triangles = result.n_split_triangles,
                             .needles = result.needles,
                             .changes = wall.changes,
+                            .changed = wall.changed,
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
@@ -472,8 +479,9 @@ void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, 
 
 }  // namespace
 
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
+MeshValue make_volume_mesh(const SurfaceValue& given, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
+  const SurfaceValue wall = as_body(given, volmesh::is_farfield_given(options.farfield), context);
   warn_of_other_member(wall, options, context);
   hint_at_wake(wall, options, context);
   hint_at_layers(wall, options, context);
@@ -521,6 +529,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     wall->recipe = json.recipe();
     wall->smooth_angle = json.smooth_angle();
     wall->changes = json.changes();
+    wall->changed = json.changed();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{
         .envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle"), .closed = json.closed_fans()};

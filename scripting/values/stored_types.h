@@ -29,7 +29,7 @@ inline constexpr std::size_t k_members<surfmesh::WallPlaces> = 4;
 template <>
 inline constexpr std::size_t k_members<surfmesh::StitchOptions> = 7;
 template <>
-inline constexpr std::size_t k_members<surfmesh::StitchReport> = 11;
+inline constexpr std::size_t k_members<surfmesh::StitchReport> = 12;
 template <>
 inline constexpr std::size_t k_members<surfmesh::RepairOptions> = 11;
 template <>

@@ -31,6 +31,7 @@ SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::Stitch
     wall.inputs.insert(wall.inputs.end(), known.inputs.begin(), known.inputs.end());
     wall.layers.insert(wall.layers.end(), known.layers.begin(), known.layers.end());
     wall.changes.insert(wall.changes.end(), known.changes.begin(), known.changes.end());
+    wall.changed.insert(wall.changed.end(), known.changed.begin(), known.changed.end());
     if (known.recipe && items.size() == 1) wall.recipe = known.recipe;
   };
   for (const UnionItem& item : items) {

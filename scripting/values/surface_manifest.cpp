@@ -11,6 +11,7 @@
 #include "geom/math/measures.h"
 #include "io/file/input_hash.h"
 #include "io/output/atomic_file.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
 
@@ -128,6 +129,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
     json["patches"].push_back(
         {{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
   if (!surface.changes.empty()) json["changes"] = surface.changes;
+  if (!surface.changed.empty()) json["changed"] = Json::parse(changed_json(surface.changed));
   if (!surface.layers.empty()) json["layers"] = Json::parse(layer_rules_json(surface.layers));
   json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
                   {"triangles", surface.mesh.n_triangles()},
@@ -156,8 +158,12 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
     refuse_manifest(file, "its quality.max_smooth_angle.degrees is no angle");
   const Json::json_pointer inside("/mesh/encloses_fluid");
   const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
-  return KnownSurface{json.at(pointer).get<double>() / k_degrees, kinds_of(json, file), encloses,
-                      layer_rules_of_json(json.value("layers", Json::array()).dump()), changes_of(json, file)};
+  return KnownSurface{json.at(pointer).get<double>() / k_degrees,
+                      kinds_of(json, file),
+                      encloses,
+                      layer_rules_of_json(json.value("layers", Json::array()).dump()),
+                      changes_of(json, file),
+                      changed_of_json(json.value("changed", Json::array()).dump())};
 }
 
 }  // namespace sterna::scripting

@@ -26,6 +26,7 @@ struct KnownSurface {
   bool encloses_fluid = false;             ///< its outermost part has normals inwards
   std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
   std::vector<std::string> changes;        ///< SurfaceValue::changes
+  std::vector<std::string> changed;        ///< SurfaceValue::changed
 };
 /// Nothing where there is none, or where it is of another state of the file (`hash` differs), which is told in the log.
 /// \throws Error(file_malformed) where it is ours but its contents are not as they must be

@@ -31,8 +31,7 @@ std::optional<ContentKey> key_of(const SurfaceValue& surface) {
   if (surface.model_wall && !surface.model_wall_key) return std::nullopt;
   KeyMaker maker("surface");
   const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
-               model_wall, parts, model_wall_key,
-               changes] = surface;  // all members: a new one does not compile
+               model_wall, parts, model_wall_key, changes, changed] = surface;  // all members: a new one does not compile
   maker.add(mesh)
       .add(report)
       .add(options)
@@ -46,7 +45,8 @@ std::optional<ContentKey> key_of(const SurfaceValue& surface) {
       .add(smooth_angle)
       .add(layers)
       .add(parts)
-      .add(changes);
+      .add(changes)
+      .add(changed);
   if (model_wall) maker.add(*model_wall_key);
   return maker.key();
 }

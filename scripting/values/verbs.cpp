@@ -17,6 +17,7 @@
 #include "scripting/lua/quantity.h"
 #include "scripting/values/flow_verbs.h"
 #include "scripting/values/foam_zones.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/manifest.h"
 #include "scripting/values/summary.h"
@@ -74,6 +75,7 @@ WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::Stit
       result.kinds.insert(known->kinds.begin(), known->kinds.end());
       wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
       wall.changes.insert(wall.changes.end(), known->changes.begin(), known->changes.end());
+      wall.changed.insert(wall.changed.end(), known->changed.begin(), known->changed.end());
     }
     context.progress(static_cast<double>(result.soups.size()) / static_cast<double>(files.size()));
   }
@@ -88,17 +90,24 @@ SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
   wall.report = std::move(stitched.report);
   for (Patch& patch : wall.mesh.patches)
     if (const auto kind = files.kinds.find(patch.name); kind != files.kinds.end()) patch.kind = kind->second;
+  for (const std::string& text : wall.report.warnings) context.warn(text);
+  note_reading(wall, files.soups, context);
   return wall;
+}
+
+void report_wall(const SurfaceValue& wall, const RunContext& context) {
+  // The unit is never silent: a factor of 1000 looks fine until the solver runs.
+  const double unit = wall.options.unit;
+  context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", unit));
+  constexpr double k_tiny = 0.1, k_huge = 1000.0;  // m: shorter than models in tunnels, longer than ships
+  if (const double length = body_length(wall.mesh); length > 0.0 && (length < k_tiny || length > k_huge))
+    context.info(fmt::format("hint: the surface is {:.4g} m long: is 1 unit of the file {:g} m? (unit = mm, --unit inch ...)", length, unit));
 }
 
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
   const WallFiles read = read_wall_files(files, options, context.part("read", 0.0, k_wall_read_end));
   SurfaceValue wall = join_wall(read, context.part("stitch", k_wall_read_end, 1.0));
-  // The unit is never silent: a factor of 1000 looks fine until the solver runs.
-  context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
-  constexpr double k_tiny = 0.1, k_huge = 1000.0;  // m: shorter than models in tunnels, longer than ships
-  if (const double length = body_length(wall.mesh); length > 0.0 && (length < k_tiny || length > k_huge))
-    context.info(fmt::format("hint: the surface is {:.4g} m long: is 1 unit of the file {:g} m? (unit = mm, --unit inch ...)", length, options.unit));
+  report_wall(wall, context);
   return wall;
 }
 
@@ -126,6 +135,9 @@ SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const
   for (const UnionPart& part : parts) result.report.n_triangles_read += static_cast<std::int64_t>(part.mesh.n_triangles());
   result.report.n_components = united.report.n_components;
   result.report.messages = std::move(united.report.messages);
+  TriMesh whole;
+  for (const UnionPart& part : parts) append(whole, part.mesh);
+  note_change(result, compare_geometry(whole, result.mesh, "union", context), context, GeometryChangeUse::unites_bodies);
   return result;
 }
 

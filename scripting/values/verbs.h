@@ -61,6 +61,7 @@ struct SurfaceValue {
   std::vector<volmesh::PlacedPart> parts = {};    ///< that were meshed or read elsewhere and moved to where they are; in ascending order of their triangles
   std::optional<ContentKey> model_wall_key = {};  ///< of what model_wall knows, for caches
   std::vector<std::string> changes = {};          ///< what makes it another surface than the files: one sentence each, first in summaries and manifests
+  std::vector<std::string> changed = {};          ///< figures before and after each step that changed it, JSON objects (geom/mesh/compare_geometry.h)
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.
@@ -82,6 +83,7 @@ struct MeshOrigin {
   std::int64_t n_split_triangles = 0;
   volmesh::NeedleReport needles;
   std::vector<std::string> changes;  ///< of the wall
+  std::vector<std::string> changed;  ///< of the wall
   bool is_reproducible = true;
   double tetra_engine_seconds = 0.0;
   double tetra_engine_peak_bytes = 0.0;

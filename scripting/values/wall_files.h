@@ -24,4 +24,7 @@ WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::Stit
 /// \throws Error of surfmesh::stitch_surface
 SurfaceValue join_wall(const WallFiles& files, const RunContext& context);
 
+/// Logs size and unit of a surface that was read, with a hint where the unit seems wrong.
+void report_wall(const SurfaceValue& wall, const RunContext& context);
+
 }  // namespace sterna::scripting

@@ -3,10 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "scripting/cache/stage_cache.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_items.h"
 #include "scripting/values/value_keys.h"
+#include "surfmesh/stitch/as_read.h"
 
 namespace sterna::scripting {
 namespace {
@@ -71,6 +73,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
   wall.smooth_angle.reset();  // of the triangles before
   wall.wrap_options = used;
   wall.changes.push_back(change_text("wrapped", wall.report.messages));
+  note_change(wall, compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "wrap", context), context);
   context.info(describe(wall) + " (wrapped)");
   return wall;
 }

@@ -9,6 +9,7 @@
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/fluid_model.h"
+#include "scripting/values/geometry_changes.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/models.h"
 
@@ -91,6 +92,7 @@ SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& option
     return std::none_of(half.mesh.patches.begin(), half.mesh.patches.end(), [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   half.parts.clear();
+  note_half(half, surface.mesh, options, context);
   return half;
 }
 

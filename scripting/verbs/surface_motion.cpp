@@ -89,6 +89,7 @@ SurfaceValue side_by_side(std::span<const SurfaceHandle> surfaces, const RunCont
     all.inputs.insert(all.inputs.end(), surface->inputs.begin(), surface->inputs.end());
     all.layers.insert(all.layers.end(), surface->layers.begin(), surface->layers.end());
     all.changes.insert(all.changes.end(), surface->changes.begin(), surface->changes.end());
+    all.changed.insert(all.changed.end(), surface->changed.begin(), surface->changed.end());
     if (!surface->smooth_angle) all.smooth_angle.reset();
     else if (all.smooth_angle) all.smooth_angle = std::max(*all.smooth_angle, *surface->smooth_angle);
   }

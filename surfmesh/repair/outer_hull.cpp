@@ -3,6 +3,7 @@
 // numbers would tell of closed parts, and does not depend on the sense of the facets.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
@@ -15,12 +16,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_rays = 60;                ///< tried for each part
-constexpr double k_from_edge = 1e-6;      ///< barycentric: a ray that passes an edge nearer than that decides nothing
-constexpr double k_beside_share = 1e-7;   ///< of L: how far beside a facet its sides are looked at
-constexpr double k_most_leaking = 0.005;  ///< of the area may be solid for the winding number and have the outside on both sides: more, and it leaks in
-constexpr double k_least_kept = 0.01;     ///< of the area: less is no body
-constexpr double k_grazing = 1e-4;        ///< cosine to the normal below which it decides nothing, either
+constexpr int k_rays = 60;                     ///< tried for each part
+constexpr double k_from_edge = 1e-6;           ///< barycentric: a ray that passes an edge nearer than that decides nothing
+constexpr double k_beside_share = 1e-7;        ///< of L: how far beside a facet its sides are looked at
+constexpr double k_most_leaking = 0.005;       ///< of the area may be solid for the winding number and have the outside on both sides: more, and it leaks in
+constexpr double k_least_kept = 0.01;          ///< of the area: less is no body
+constexpr std::size_t k_within_samples = 300;  ///< facets of a component that are looked up in another
+constexpr double k_contact_share = 2e-3;       ///< of a component's length: nearer to the other's surface, it touches it
+constexpr double k_mostly_within = 0.9;        ///< of the samples
+constexpr double k_grazing = 1e-4;             ///< cosine to the normal below which it decides nothing, either
 
 struct AroundEdge {
   std::uint32_t third = 0;  ///< vertex
@@ -143,37 +147,137 @@ Sides find_cells(const RepairState& state, const EdgeTable& edges, const RunCont
   return sides;
 }
 
-}  // namespace
+/// A component that is connected over edges of two facets.
+struct Body {
+  std::vector<std::pair<std::uint32_t, bool>> facets;  ///< with whether they are to be turned, to point outwards
+  Box box;
+  double volume = 0.0;     ///< signed, in the sense of its first facet
+  bool is_outward = true;  ///< most of its facets are so in the file
+  bool is_closed = true;
+};
 
-TriMesh winding_reference(const RepairState& state) {
+std::vector<Body> bodies_of(const RepairState& state) {
   const EdgeTable edges = state.edges();
   WorkingSurface surface;
   surface.points = state.points;
   surface.facets = state.facets;
   const Orientation orientation = flood_orientation(surface, edges);
   const Vec3 origin = surface.box().center();
-  std::vector<double> volume(orientation.n_components, 0.0);
+  std::vector<Body> bodies(orientation.n_components);
+  std::vector<double> as_given(orientation.n_components, 0.0);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    Body& body = bodies[orientation.component[t]];
     const auto c = state.corners(t);
-    volume[orientation.component[t]] += (orientation.is_flipped[t] ? -1.0 : 1.0) * tet_volume(origin, c[0], c[1], c[2]);
+    const double sign = orientation.is_flipped[t] ? -1.0 : 1.0;
+    body.volume += sign * tet_volume(origin, c[0], c[1], c[2]);
+    as_given[orientation.component[t]] += sign * triangle_area(c[0], c[1], c[2]);
+    for (const Vec3& p : c) body.box.add(p);
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const Edge& edge = edges.edge_of(h);
+      std::size_t n_own = 0;
+      for (const std::uint32_t g : edges.at(edge)) n_own += orientation.component[g / 3] == orientation.component[t];
+      body.is_closed &= n_own == 2;
+    }
   }
-  TriMesh mesh = mesh_of(state);
-  for (const TriangleId t : mesh.triangles.ids())
-    if (static_cast<bool>(orientation.is_flipped[t.index()]) != (volume[orientation.component[t.index()]] < 0.0))
-      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) bodies[i].is_outward = (bodies[i].volume > 0.0) == (as_given[i] >= 0.0);
+  for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
+    Body& body = bodies[orientation.component[t]];
+    body.facets.push_back({t, static_cast<bool>(orientation.is_flipped[t]) != (body.volume < 0.0)});
+  }
+  return bodies;
+}
+
+TriMesh mesh_of(const RepairState& state, const Body& body) {
+  TriMesh mesh;
+  const PatchId patch = mesh.patches.push_back({"wall", PatchKind::wall});
+  mesh.points.raw() = state.points;
+  for (const auto& [t, is_turned] : body.facets) {
+    const Facet& f = state.facets[t];
+    mesh.triangles.push_back({VertexId(f[0]), VertexId(f[is_turned ? 2 : 1]), VertexId(f[is_turned ? 1 : 2])});
+    mesh.triangle_patch.push_back(patch);
+  }
   return mesh;
 }
 
-bool keep_outer_hull(RepairState& state, const TriMesh& reference, const RunContext& context) {
+bool is_box_within(const Box& inner, const Box& outer, double tolerance) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (inner.min[k] < outer.min[k] - tolerance || inner.max[k] > outer.max[k] + tolerance) return false;
+  return true;
+}
+
+struct Within {
+  double share = 0.0;   ///< of the samples
+  bool is_all = false;  ///< contacts count as within
+};
+
+Within how_within(const RepairState& state, const Body& inner, const TriangleTree& outer) {
+  Within result{0.0, true};
+  const std::size_t step = std::max<std::size_t>(1, inner.facets.size() / k_within_samples);
+  const double near = k_contact_share * inner.box.longest_side();
+  std::size_t n = 0, n_in = 0;
+  for (std::size_t i = 0; i < inner.facets.size(); i += step) {
+    const auto c = state.corners(inner.facets[i].first);
+    for (const Vec3& p : {c[0], (c[0] + c[1] + c[2]) / 3.0}) {
+      const bool is_in = std::abs(outer.winding_number(p)) > 0.5 || outer.nearest(p, near).triangle.is_valid();
+      ++n;
+      n_in += is_in;
+      result.is_all &= is_in;
+    }
+  }
+  result.share = n == 0 ? 0.0 : static_cast<double>(n_in) / static_cast<double>(n);
+  return result;
+}
+
+}  // namespace
+
+SolidReference solid_reference(const RepairState& state, bool is_fluid_inside, const RunContext& context) {
+  const std::vector<Body> bodies = bodies_of(state);
+  std::vector<std::uint32_t> level(bodies.size(), 0);
+  std::uint32_t n_levels = 1;
+  std::vector<std::uint32_t> order(bodies.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) { return std::abs(bodies[a].volume) > std::abs(bodies[b].volume); });
+  std::vector<std::unique_ptr<TriangleTree>> trees(bodies.size());
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Body& inner = bodies[order[i]];
+    if (!inner.is_closed) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      context.check_stop();
+      const Body& outer = bodies[order[j]];
+      if (!outer.is_closed || !is_box_within(inner.box, outer.box, k_contact_share * inner.box.longest_side())) continue;
+      if (!trees[order[j]]) trees[order[j]] = std::make_unique<TriangleTree>(mesh_of(state, outer), context);
+      const bool is_opposite = inner.is_outward != outer.is_outward;
+      const Within within = how_within(state, inner, *trees[order[j]]);
+      if (within.share < k_mostly_within) continue;
+      const bool is_apart = is_opposite || (is_fluid_inside && within.is_all);
+      level[order[i]] = std::max(level[order[i]], level[order[j]] + (is_apart ? 1u : 0u));
+      n_levels = std::max(n_levels, level[order[i]] + 1);
+    }
+  }
+  SolidReference reference;
+  reference.is_by_winding = is_fluid_inside || n_levels > 1;
+  for (std::uint32_t l = 0; l < n_levels; ++l) {
+    Body all;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+      if (level[i] == l) all.facets.insert(all.facets.end(), bodies[i].facets.begin(), bodies[i].facets.end());
+    reference.levels.push_back(mesh_of(state, all));
+  }
+  return reference;
+}
+
+bool keep_outer_hull(RepairState& state, const SolidReference& reference, const RunContext& context) {
   const EdgeTable edges = state.edges();
   Sides sides = find_cells(state, edges, context);
   const std::uint32_t outside = sides.cells.root(sides.outside);
-  const TriangleTree winding(reference, context);
+  std::vector<std::unique_ptr<TriangleTree>> winding;
+  for (const TriMesh& level : reference.levels) winding.push_back(std::make_unique<TriangleTree>(level, context));
   const double off = k_beside_share * state.length;
   const auto is_solid = [&](std::uint32_t t, double side) {
     const auto c = state.corners(t);
     const Vec3 p = (c[0] + c[1] + c[2]) / 3.0 + side * off * normalized(area_vector(c[0], c[1], c[2]));
-    return std::abs(winding.winding_number(p)) > 0.5;
+    for (std::size_t l = winding.size(); l-- > 0;)
+      if (std::abs(winding[l]->winding_number(p)) > 0.5) return l % 2 == 0;
+    return false;
   };
   std::vector<char> front(state.facets.size()), back(state.facets.size());  // whether the outside is there
   double all = 0.0, leaking = 0.0;
@@ -185,8 +289,8 @@ bool keep_outer_hull(RepairState& state, const TriMesh& reference, const RunCont
     all += area;
     if (front[t] && back[t] && (is_solid(t, 1.0) || is_solid(t, -1.0))) leaking += area;
   }
-  if (leaking > k_most_leaking * all) {
-    context.debug("repair: the outside leaks in through open edges: sides by winding numbers");
+  if (reference.is_by_winding || leaking > k_most_leaking * all) {
+    if (!reference.is_by_winding) context.debug("repair: the outside leaks in through open edges: sides by winding numbers");
     parallel_for(
         context, state.facets.size(),
         [&](std::size_t t) {

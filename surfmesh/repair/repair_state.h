@@ -72,22 +72,38 @@ void snap_crossings(RepairState& state, const RunContext& context);
 /// cut
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// The surface with components turned outwards, for winding numbers. \pre closed, perhaps crossing itself
-TriMesh winding_reference(const RepairState& state);
+/// What is solid, by winding numbers: level 0 are bodies, level 1 cavities in them, level 2 bodies in cavities. A place is solid where the deepest level that
+/// encloses it is even. Each mesh has its components turned outwards.
+struct SolidReference {
+  std::vector<TriMesh> levels;  ///< at least one
+  bool is_by_winding = false;   ///< more than one level, or the fluid is inside: cells between facets do not tell
+};
 
-/// Keeps facets with the outer fluid on one side, turned towards it; \pre nothing crosses. Sides are cells between facets; where open edges make the outside
-/// leak into what is solid by the winding numbers of `reference`, winding numbers decide. Returns false, and changes nothing, when hardly anything would be
-/// left.
-bool keep_outer_hull(RepairState& state, const TriMesh& reference, const RunContext& context);
+/// The levels of the components. With the fluid outside a component is a cavity where it lies within another and has the opposite sense in the file; with the
+/// fluid inside also where it has the same sense but does not cross the other: a body in the fluid. Contacts count as lying within.
+/// \pre closed, perhaps crossing itself
+SolidReference solid_reference(const RepairState& state, bool is_fluid_inside, const RunContext& context);
 
-/// Vertices and edges in which the solid touches itself become several, a little apart.
-void separate_touching(RepairState& state);
+/// Keeps facets with solid on one side, turned away from it; \pre nothing crosses. Sides are cells between facets: what the outside does not reach is solid.
+/// Where open edges make the outside leak into what is solid by the winding numbers of `reference`, or that has cavities, winding numbers decide. Returns
+/// false, and changes nothing, when hardly anything would be left.
+bool keep_outer_hull(RepairState& state, const SolidReference& reference, const RunContext& context);
+
+/// What decides about parts that touch.
+struct Contacts {
+  bool is_fluid_inside = false;
+  std::vector<std::string> names;  ///< of the patches
+};
+
+/// Vertices and edges in which the solid touches itself become several, a little apart. Where bodies touch along edges they are joined instead: the vertices
+/// move into the fluid on both sides, if nothing crosses then; else the bodies are separated, with a warning that names them.
+void separate_touching(RepairState& state, const Contacts& contacts, const RunContext& context);
 
 /// Edges shorter than options.sliver become a vertex, where something was changed and that turns no facet.
 void collapse_slivers(RepairState& state, const RepairOptions& options, const RunContext& context);
 
 /// What still crosses, crowds an edge or is open is taken out with growing rings around it, and filled. \pre oriented \return whether nothing is left
-bool replace_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
+bool replace_crossings(RepairState& state, const RepairOptions& options, const Contacts& contacts, const RunContext& context);
 
 /// Facets of each component get one sense where that is possible: the majority's.
 void make_consistent(RepairState& state);

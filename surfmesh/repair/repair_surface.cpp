@@ -120,18 +120,19 @@ void cut_or_snap(RepairState& state, const RepairOptions& options, const RunCont
 }
 
 /// Cuts what crosses, takes the outer hull and mends what that leaves. \return whether a hull could be taken
-bool cut_to_hull(RepairState& state, const RepairOptions& options, const RunContext& context) {
+bool cut_to_hull(RepairState& state, const RepairOptions& options, const Contacts& contacts, const RunContext& context) {
+  const SolidReference first = solid_reference(state, contacts.is_fluid_inside, context);
   for (int round = 0; round < k_hull_tries && needs_hull(state, context); ++round) {
     // What replacing could not mend, and is much, would only be cut into ever smaller pieces.
     if (round > 0 && find_crossings(state.points, state.facets, context).total > k_most_again) break;
-    const TriMesh reference = winding_reference(state);
+    const SolidReference reference = round == 0 ? first : solid_reference(state, contacts.is_fluid_inside, context);
     cut_or_snap(state, options, context);
     if (count_open_edges(state) > 0) remove_sheets(state, context);
     if (!keep_outer_hull(state, reference, context)) return false;
     drop_small_parts(state, options);
-    separate_touching(state);
+    separate_touching(state, contacts, context);
     collapse_slivers(state, options, context);
-    if (replace_crossings(state, options, context)) break;
+    if (replace_crossings(state, options, contacts, context)) break;
   }
   drop_flat_parts(state);
   return true;
@@ -148,7 +149,7 @@ StitchOptions strictly(StitchOptions stitching) {
 }
 
 /// Whether facets that cross are cut and a hull is taken.
-bool is_cutting(const StitchOptions& stitching, const RepairOptions& options) { return options.hull && stitching.fluid != "inside"; }
+bool is_cutting(const RepairOptions& options) { return options.hull; }
 
 /// All that is done before facets are cut. \return openings that stay
 std::size_t close_up(RepairState& state, const RepairOptions& options, const RunContext& context) {
@@ -193,6 +194,7 @@ std::vector<std::string> tell(const RepairReport& report) {
                                                                       "facets inside the body removed",
                                                                       "small parts removed",
                                                                       "touching vertices separated",
+                                                                      "touching parts joined",
                                                                       "short edges collapsed",
                                                                       "crossing facets replaced by a filling",
                                                                       "turned to the sense of their neighbours"};
@@ -240,9 +242,9 @@ void require_rim_in_plane(const TriMesh& mesh, const HalfRim& half, const RunCon
 }  // namespace
 
 std::string_view to_string(RepairKind kind) {
-  static constexpr std::array<std::string_view, k_repair_kinds> k_names = {"dropped",   "welded",        "zipped",         "into_plane",   "filled",
-                                                                           "cut",       "removed_sheet", "removed_inside", "removed_part", "separated",
-                                                                           "collapsed", "replaced",      "turned"};
+  static constexpr std::array<std::string_view, k_repair_kinds> k_names = {"dropped", "welded",        "zipped",         "into_plane",   "filled",
+                                                                           "cut",     "removed_sheet", "removed_inside", "removed_part", "separated",
+                                                                           "joined",  "collapsed",     "replaced",       "turned"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -268,8 +270,8 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   if (state.facets.empty()) throw_bad_argument("repairing " + sources_of(soups), "no facet has an area");
   const std::size_t n_open = close_up(state, options, context.part("close", 0.1, 0.4));
   bool is_leaking = false;
-  if (n_open == 0 && is_cutting(stitching, options) && needs_hull(state, context)) {
-    is_leaking = !cut_to_hull(state, options, context.part("hull", 0.4, 0.9));
+  if (n_open == 0 && is_cutting(options) && needs_hull(state, context)) {
+    is_leaking = !cut_to_hull(state, options, {stitching.fluid == "inside", clean_patch_names(soups)}, context.part("hull", 0.4, 0.9));
   }
   make_consistent(state);
   if (!is_leaking && count_open_edges(state) == 0) collapse_slivers(state, options, context);
@@ -284,6 +286,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     StitchResult proved = stitch_surface({soup_of(state, soups)}, proving, context.part("prove", 0.9, 0.95));
     if (state.report.half) require_rim_in_plane(proved.mesh, *state.report.half, context);
     result.mesh = std::move(proved.mesh);
+    proved.report.warnings.insert(proved.report.warnings.begin(), state.report.stitch.warnings.begin(), state.report.stitch.warnings.end());
     state.report.stitch = std::move(proved.report);
   } catch (const Error& error) {
     if (!is_reparable(error.code()) && error.code() != ErrorCode::empty_surface) throw;
@@ -360,7 +363,7 @@ RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const Stitc
   const EdgeTable edges = state.edges();
   forecast.n_crowded = std::ranges::count_if(edges.edges(), [](const Edge& edge) { return edge.count > 2; });
   forecast.n_crossings = find_crossings(state.points, state.facets, context.part("crossings", 0.8, 1.0)).total;
-  forecast.is_enough = forecast.n_open == 0 && (is_cutting(stitching, options) || (forecast.n_crossings == 0 && forecast.n_crowded == 0));
+  forecast.is_enough = forecast.n_open == 0 && (is_cutting(options) || (forecast.n_crossings == 0 && forecast.n_crowded == 0));
   return forecast;
 }
 

@@ -43,11 +43,12 @@ enum class RepairKind {
   removed_inside,  ///< facets with the fluid on neither side
   removed_part,    ///< a part too small to matter
   separated,       ///< vertices or edges in which more than two facets met
+  joined,          ///< bodies that touched along edges, over the crevice between them
   collapsed,       ///< short edges
   replaced,        ///< crossing facets taken out and the hole filled
   turned           ///< facets against the sense of the others
 };
-inline constexpr std::size_t k_repair_kinds = 13;
+inline constexpr std::size_t k_repair_kinds = 14;
 /// "filled", "removed_sheet" ...
 std::string_view to_string(RepairKind kind);
 

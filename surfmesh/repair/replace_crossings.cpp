@@ -12,12 +12,12 @@ constexpr double k_most_replaced = 0.05;  ///< of the facets at one time: more i
 
 }  // namespace
 
-bool replace_crossings(RepairState& state, const RepairOptions& given, const RunContext& context) {
+bool replace_crossings(RepairState& state, const RepairOptions& given, const Contacts& contacts, const RunContext& context) {
   RepairOptions options = given;
   options.hole = options.flat_hole = k_own_hole;  // what was taken out is put back, however long its facets
   for (int round = 0; round < options.rounds; ++round) {
     if (!find_loops(state).empty()) fill_holes(state, options, RepairKind::replaced, context);
-    separate_touching(state);
+    separate_touching(state, contacts, context);
     const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
     const EdgeTable edges = state.edges();
     std::vector<char> is_out(state.facets.size(), 0);

@@ -1,30 +1,37 @@
 // At an edge with four facets or more, the two on the sides of one wedge of the solid stay together. Fans of facets that hang together so at a vertex get a
 // copy of it each; all of them move a little into their solid, so that they no longer touch.
 #include <algorithm>
+#include <array>
 #include <map>
 
+#include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
+#include "geom/mesh/find_crossings.h"
 #include "surfmesh/repair/repair_state.h"
+#include "surfmesh/stitch/orient.h"
 
 namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_apart_share = 1e-5;    ///< of L
 constexpr double k_apart_of_edge = 0.02;  ///< of the shortest edge at the vertex: no facet turns over
+constexpr double k_join_share = 1e-4;     ///< of L: half the width of what joins bodies that touch along a line
+constexpr std::size_t k_most_named = 5;   ///< pairs of bodies in warnings
 constexpr std::uint32_t k_no_partner = 0xffffffffu;
 
-/// Twins of half-edges; at crowded edges by wedges of the solid. \pre normals out of the solid
-std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable& edges) {
+/// Twins of half-edges; at crowded edges by wedges of the solid, at those of `is_of_fluid` by wedges of the fluid. \pre normals out of the solid
+std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable& edges, const std::vector<char>& is_of_fluid) {
   std::vector<std::uint32_t> twin(3 * state.facets.size(), k_no_partner);
-  for (const Edge& edge : edges.edges()) {
+  for (std::size_t i = 0; i < edges.edges().size(); ++i) {
+    const Edge& edge = edges.edges()[i];
     const auto at = edges.at(edge);
     if (at.size() == 2) {
       twin[at[0]] = at[1];
       twin[at[1]] = at[0];
       continue;
     }
-    // The solid is behind a facet: clockwise about its own direction. Its partner is the first facet that way, which runs against it.
+    // The solid is behind a facet: clockwise about its own direction, the fluid before it. Its partner is the first facet that way, which runs against it.
     const Vec3 &u = state.points[edge.low], &v = state.points[edge.high];
     const Vec3 axis = normalized(v - u);
     for (const std::uint32_t h : at) {
@@ -36,7 +43,7 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
         if (g == h || (state.facets[g / 3][g % 3] == edge.low) == is_along) continue;
         const Vec3 other = state.points[state.facets[g / 3][previous_halfedge(g) % 3]] - u;
         double angle = std::atan2(dot(other, e2), dot(other, e1));  // counter-clockwise about the axis
-        if (is_along) angle = -angle;
+        if (is_along != (!is_of_fluid.empty() && is_of_fluid[i])) angle = -angle;
         if (angle <= 0.0) angle += 6.283185307179586;
         if (angle < best) {
           best = angle;
@@ -50,39 +57,273 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
   return twin;
 }
 
-}  // namespace
+/// Half-edges that start at each vertex.
+std::vector<std::vector<std::uint32_t>> corners_of(const RepairState& state) {
+  std::vector<std::vector<std::uint32_t>> corners_at(state.points.size());
+  for (std::uint32_t h = 0; h < 3 * state.facets.size(); ++h) corners_at[state.facets[h / 3][h % 3]].push_back(h);
+  return corners_at;
+}
 
-void separate_touching(RepairState& state) {
-  const EdgeTable edges = state.edges();
-  const std::vector<std::uint32_t> twin = wedge_twins(state, edges);
-  std::vector<std::vector<std::uint32_t>> corners_at(state.points.size());  // half-edges that start there
-  for (std::uint32_t h = 0; h < twin.size(); ++h) corners_at[state.facets[h / 3][h % 3]].push_back(h);
-  const std::size_t n_points = state.points.size();
-  const std::vector<Vec3> before = state.points;
-  for (std::uint32_t v = 0; v < n_points; ++v) {
-    std::map<std::uint32_t, std::uint32_t> fan;  // by half-edge
-    std::vector<std::vector<std::uint32_t>> fans;
-    for (const std::uint32_t start : corners_at[v]) {
-      if (fan.count(start)) continue;
-      auto& members = fans.emplace_back();
-      std::vector<std::uint32_t> stack{start};
-      fan[start] = 1;
-      while (!stack.empty()) {
-        const std::uint32_t h = stack.back();
-        stack.pop_back();
-        members.push_back(h);
-        // The neighbours over both edges of this corner, whatever their sense.
-        for (const std::uint32_t over : {previous_halfedge(h), h}) {
-          if (twin[over] == k_no_partner) continue;
-          const std::uint32_t facet = twin[over] / 3;
-          for (std::uint32_t g = 3 * facet; g < 3 * facet + 3; ++g) {
-            if (state.facets[facet][g % 3] != v || fan.count(g)) continue;
-            fan[g] = 1;
-            stack.push_back(g);
-          }
+/// Corners at a vertex that hang together over twins.
+std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const std::vector<std::uint32_t>& twin,
+                                                const std::vector<std::uint32_t>& corners_at_v, std::uint32_t v) {
+  std::map<std::uint32_t, std::uint32_t> fan;  // by half-edge
+  std::vector<std::vector<std::uint32_t>> fans;
+  for (const std::uint32_t start : corners_at_v) {
+    if (fan.count(start)) continue;
+    auto& members = fans.emplace_back();
+    std::vector<std::uint32_t> stack{start};
+    fan[start] = 1;
+    while (!stack.empty()) {
+      const std::uint32_t h = stack.back();
+      stack.pop_back();
+      members.push_back(h);
+      // The neighbours over both edges of this corner, whatever their sense.
+      for (const std::uint32_t over : {previous_halfedge(h), h}) {
+        if (twin[over] == k_no_partner) continue;
+        const std::uint32_t facet = twin[over] / 3;
+        for (std::uint32_t g = 3 * facet; g < 3 * facet + 3; ++g) {
+          if (state.facets[facet][g % 3] != v || fan.count(g)) continue;
+          fan[g] = 1;
+          stack.push_back(g);
         }
       }
     }
+  }
+  return fans;
+}
+
+/// Number of the body of each facet: connected over twins.
+std::vector<std::uint32_t> bodies_over(const RepairState& state, const std::vector<std::uint32_t>& twin) {
+  std::vector<std::uint32_t> body(state.facets.size(), k_no_partner);
+  std::vector<std::uint32_t> stack;
+  std::uint32_t n = 0;
+  for (std::uint32_t start = 0; start < state.facets.size(); ++start) {
+    if (body[start] != k_no_partner) continue;
+    body[start] = n;
+    stack.push_back(start);
+    while (!stack.empty()) {
+      const std::uint32_t t = stack.back();
+      stack.pop_back();
+      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        if (twin[h] == k_no_partner || body[twin[h] / 3] != k_no_partner) continue;
+        body[twin[h] / 3] = n;
+        stack.push_back(twin[h] / 3);
+      }
+    }
+    ++n;
+  }
+  return body;
+}
+
+/// Per edge: four facets or more of several bodies.
+std::vector<char> contacts_of(const EdgeTable& edges, const std::vector<std::uint32_t>& body) {
+  std::vector<char> is_contact(edges.edges().size(), 0);
+  for (std::size_t i = 0; i < is_contact.size(); ++i) {
+    const auto at = edges.at(edges.edges()[i]);
+    is_contact[i] = at.size() >= 4 && std::ranges::any_of(at, [&](std::uint32_t h) { return body[h / 3] != body[at[0] / 3]; });
+  }
+  return is_contact;
+}
+
+std::size_t count_crowded(const EdgeTable& edges) {
+  return static_cast<std::size_t>(std::ranges::count_if(edges.edges(), [](const Edge& edge) { return edge.count > 2; }));
+}
+
+/// Gives each of these edges a vertex in its middle, so that it can be opened or joined there though its ends stay as they are.
+void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_split) {
+  std::vector<std::uint32_t> middle(3 * state.facets.size(), k_no_partner);  // of half-edges
+  for (std::size_t i = 0; i < is_split.size(); ++i) {
+    if (!is_split[i]) continue;
+    const Edge& edge = edges.edges()[i];
+    const auto number = static_cast<std::uint32_t>(state.points.size());
+    state.points.push_back(0.5 * (state.points[edge.low] + state.points[edge.high]));
+    for (const std::uint32_t h : edges.at(edge)) middle[h] = number;
+  }
+  for (std::size_t t = 0, n = state.facets.size(); t < n; ++t) {
+    // The corner that a piece is cut from lies between two sides; pieces are cut while a side has a middle, the rest keeps the facet's number.
+    std::vector<std::uint32_t> polygon;
+    for (std::size_t k = 0; k < 3; ++k) {
+      polygon.push_back(state.facets[t][k]);
+      if (middle[3 * t + k] != k_no_partner) polygon.push_back(middle[3 * t + k]);
+    }
+    if (polygon.size() == 3) continue;
+    state.info[t].is_touched = true;
+    const FacetInfo info = state.info[t];
+    if (polygon.size() == 4) {  // from the middle to the opposite corner
+      const auto m = static_cast<std::size_t>(
+          std::ranges::find_if(polygon, [&](std::uint32_t v) { return v != state.facets[t][0] && v != state.facets[t][1] && v != state.facets[t][2]; }) -
+          polygon.begin());
+      const auto at = [&](std::size_t k) { return polygon[(m + k) % 4]; };
+      state.facets[t] = {at(0), at(1), at(2)};
+      state.add({at(0), at(2), at(3)}, info);
+      continue;
+    }
+    const Facet corners = state.facets[t];
+    const std::array<std::uint32_t, 3> m = {middle[3 * t], middle[3 * t + 1], middle[3 * t + 2]};
+    if (polygon.size() == 6) {
+      state.facets[t] = {m[0], m[1], m[2]};
+      for (std::size_t k = 0; k < 3; ++k) state.add({corners[k], m[k], m[(k + 2) % 3]}, info);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {  // two sides beside corner k + 1
+      if (m[k] == k_no_partner || m[(k + 1) % 3] == k_no_partner) continue;
+      state.facets[t] = {m[k], corners[(k + 1) % 3], m[(k + 1) % 3]};
+      state.add({corners[k], m[k], m[(k + 1) % 3]}, info);
+      state.add({corners[k], m[(k + 1) % 3], corners[(k + 2) % 3]}, info);
+    }
+  }
+}
+
+/// Per edge: crowded, and neither end has fans of its own for what meets there, so that opening the ends would leave it crowded.
+std::vector<char> closed_contacts(const RepairState& state, const EdgeTable& edges, const std::vector<std::uint32_t>& twin) {
+  std::vector<char> is_closed(edges.edges().size(), 0);
+  if (count_crowded(edges) == 0) return is_closed;
+  const std::vector<std::vector<std::uint32_t>> corners_at = corners_of(state);
+  for (std::size_t i = 0; i < is_closed.size(); ++i) {
+    const Edge& edge = edges.edges()[i];
+    is_closed[i] =
+        edge.count > 2 && fans_at(state, twin, corners_at[edge.low], edge.low).size() < 2 && fans_at(state, twin, corners_at[edge.high], edge.high).size() < 2;
+  }
+  return is_closed;
+}
+
+/// Names parts that touch each other at a crowded edge of one body: a cavity at the outer shell, a body in a duct at its wall.
+void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const Contacts& contacts) {
+  if (count_crowded(edges) == 0) return;
+  WorkingSurface surface;
+  surface.points = state.points;
+  surface.facets = state.facets;
+  const std::vector<std::uint32_t> part = flood_orientation(surface, edges).component;
+  struct Contact {
+    Vec3 place;
+    std::array<std::uint32_t, 2> patch{};
+  };
+  std::map<std::array<std::uint32_t, 2>, Contact> pairs;  // of parts
+  for (std::size_t i = 0; i < is_contact.size(); ++i) {
+    const Edge& edge = edges.edges()[i];
+    if (is_contact[i] || edge.count < 4) continue;
+    for (const std::uint32_t h : edges.at(edge))
+      for (const std::uint32_t g : edges.at(edge))
+        if (part[h / 3] < part[g / 3])
+          pairs.try_emplace({part[h / 3], part[g / 3]},
+                            Contact{0.5 * (state.points[edge.low] + state.points[edge.high]), {state.info[h / 3].patch, state.info[g / 3].patch}});
+  }
+  const auto name = [&](std::uint32_t p) { return p < contacts.names.size() ? "\"" + contacts.names[p] + "\"" : std::string("the surface"); };
+  std::size_t n = 0;
+  for (const auto& [pair, contact] : pairs) {
+    if (++n > k_most_named) break;
+    std::vector<std::string>& warnings = state.report.stitch.warnings;
+    const std::string who = contact.patch[0] == contact.patch[1] ? "repair: two parts of " + name(contact.patch[0])
+                                                                 : "repair: " + name(contact.patch[0]) + " and " + name(contact.patch[1]);
+    const std::string text = who + " touch along a line at " + format_point(contact.place);
+    if (std::ranges::any_of(warnings, [&](const std::string& known) { return known.starts_with(who); })) continue;
+    warnings.push_back(text + ", where the fluid between them narrows to nothing; the contact is closed over a width of at most " +
+                       short_number(2.0 * k_apart_share * state.length) + " m. Sink one part into the other by a few percent of its size, or lift it." +
+                       (contacts.is_fluid_inside ? "" : " If the fluid is between them, give fluid = \"inside\" (--fluid inside)"));
+  }
+}
+
+/// Joins bodies over the crevice at these edges: facets on the two sides of one wedge of the fluid stay together, and the vertices move into that wedge.
+void join_over(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact) {
+  const std::vector<std::uint32_t> twin = wedge_twins(state, edges, is_contact);
+  std::vector<char> is_at_contact(3 * state.facets.size(), 0);  // half-edges
+  for (std::size_t i = 0; i < is_contact.size(); ++i)
+    if (is_contact[i])
+      for (const std::uint32_t h : edges.at(edges.edges()[i])) is_at_contact[h] = 1;
+  const std::vector<std::vector<std::uint32_t>> corners_at = corners_of(state);
+  const std::vector<Vec3> before = state.points;
+  const std::vector<Facet> facets = state.facets;
+  // Into the facet, across its side.
+  const auto into = [&](std::uint32_t h) {
+    const Vec3 &a = before[facets[h / 3][h % 3]], &b = before[facets[h / 3][next_halfedge(h) % 3]], &c = before[facets[h / 3][previous_halfedge(h) % 3]];
+    const Vec3 axis = normalized(b - a);
+    return normalized((c - a) - dot(c - a, axis) * axis);
+  };
+  for (std::uint32_t v = 0; v < before.size(); ++v) {
+    const std::vector<std::uint32_t>& corners = corners_at[v];
+    if (std::ranges::none_of(corners, [&](std::uint32_t h) { return is_at_contact[h] || is_at_contact[previous_halfedge(h)]; })) continue;
+    const std::vector<std::vector<std::uint32_t>> fans = fans_at(state, twin, corners, v);
+    if (fans.size() < 2) continue;
+    double farthest = 0.0;
+    std::vector<std::uint32_t> concerned;
+    for (std::size_t i = 0; i < fans.size(); ++i) {
+      Vec3 way;
+      double shortest = 1e300;
+      for (const std::uint32_t h : fans[i]) {
+        for (const std::uint32_t side : {h, previous_halfedge(h)})
+          if (is_at_contact[side]) way += into(side);
+        shortest = std::min(
+            {shortest, distance(before[v], before[facets[h / 3][next_halfedge(h) % 3]]), distance(before[v], before[facets[h / 3][previous_halfedge(h) % 3]])});
+      }
+      const double by = norm(way) > 0.0 ? std::min(k_join_share * state.length, k_apart_of_edge * shortest) : 0.0;
+      const Vec3 to = by > 0.0 ? before[v] + by * normalized(way) : before[v];
+      farthest = std::max(farthest, by);
+      std::uint32_t copy = v;
+      if (i > 0) {
+        copy = static_cast<std::uint32_t>(state.points.size());
+        state.points.push_back(to);
+      } else {
+        state.points[v] = to;
+      }
+      for (const std::uint32_t h : fans[i]) {
+        state.facets[h / 3][h % 3] = copy;
+        state.info[h / 3].is_touched = true;
+        concerned.push_back(h / 3);
+      }
+    }
+    state.note(RepairKind::joined, concerned, farthest);
+  }
+}
+
+/// The patch that most facets of a body have.
+std::string name_of_body(const RepairState& state, const std::vector<std::uint32_t>& body, std::uint32_t number, const std::vector<std::string>& names) {
+  std::map<std::uint32_t, std::size_t> n;
+  for (std::size_t t = 0; t < body.size(); ++t)
+    if (body[t] == number) ++n[state.info[t].patch];
+  const auto most = std::ranges::max_element(n, [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most != n.end() && most->first < names.size() ? names[most->first] : "surface";
+}
+
+/// Names the bodies that touch at these edges and will be apart.
+void warn_of_opened(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const std::vector<std::uint32_t>& body,
+                    const std::vector<std::string>& names) {
+  std::map<std::array<std::uint32_t, 2>, Vec3> pairs;
+  for (std::size_t i = 0; i < is_contact.size(); ++i) {
+    if (!is_contact[i]) continue;
+    const Edge& edge = edges.edges()[i];
+    for (const std::uint32_t h : edges.at(edge))
+      for (const std::uint32_t g : edges.at(edge))
+        if (body[h / 3] < body[g / 3]) pairs.try_emplace({body[h / 3], body[g / 3]}, 0.5 * (state.points[edge.low] + state.points[edge.high]));
+  }
+  std::size_t n = 0;
+  for (const auto& [pair, place] : pairs) {
+    if (++n > k_most_named) break;
+    state.report.stitch.warnings.push_back("repair: \"" + name_of_body(state, body, pair[0], names) + "\" and \"" + name_of_body(state, body, pair[1], names) +
+                                           "\" touch along a line at " + format_point(place) + " and are separated by a gap of at most " +
+                                           short_number(2.0 * k_apart_share * state.length) +
+                                           " m: each is a body of its own. Let one part reach into the other, or move them apart");
+  }
+}
+
+/// Joins bodies that touch along edges. \return whether nothing touches there any more, and nothing new crosses
+bool join_contacts(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const RunContext& context) {
+  RepairState joined = state;
+  split_edges(joined, edges, is_contact);
+  const EdgeTable halves = joined.edges();
+  join_over(joined, halves, contacts_of(halves, bodies_over(joined, wedge_twins(joined, halves, {}))));
+  if (count_crowded(joined.edges()) >= count_crowded(edges)) return false;
+  if (find_crossings(joined.points, joined.facets, context).total > find_crossings(state.points, state.facets, context).total) return false;
+  state = std::move(joined);
+  return true;
+}
+
+void open_contacts(RepairState& state, const std::vector<std::uint32_t>& twin) {
+  const std::vector<std::vector<std::uint32_t>> corners_at = corners_of(state);
+  const std::size_t n_points = state.points.size();
+  const std::vector<Vec3> before = state.points;
+  for (std::uint32_t v = 0; v < n_points; ++v) {
+    const std::vector<std::vector<std::uint32_t>> fans = fans_at(state, twin, corners_at[v], v);
     if (fans.size() < 2) continue;
     double farthest = 0.0;
     std::vector<std::uint32_t> concerned;
@@ -116,6 +357,24 @@ void separate_touching(RepairState& state) {
     }
     state.note(RepairKind::separated, concerned, farthest);
   }
+}
+
+}  // namespace
+
+void separate_touching(RepairState& state, const Contacts& contacts, const RunContext& context) {
+  {
+    const EdgeTable edges = state.edges();
+    const std::vector<std::uint32_t> body = bodies_over(state, wedge_twins(state, edges, {}));
+    const std::vector<char> is_contact = contacts_of(edges, body);
+    warn_of_tangent(state, edges, is_contact, contacts);
+    if (!contacts.is_fluid_inside && std::ranges::find(is_contact, 1) != is_contact.end() && !join_contacts(state, edges, is_contact, context))
+      warn_of_opened(state, edges, is_contact, body, contacts.names);
+  }
+  {
+    const EdgeTable edges = state.edges();
+    split_edges(state, edges, closed_contacts(state, edges, wedge_twins(state, edges, {})));
+  }
+  open_contacts(state, wedge_twins(state, state.edges(), {}));
 }
 
 }  // namespace sterna::surfmesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "geom/base/error.h"
@@ -96,6 +97,26 @@ void find_nesting(const WorkingSurface& surface, const Orientation& orientation,
   }
 }
 
+/// The patch that has most of the component's facets.
+std::string name_of_component(const WorkingSurface& surface, const Component& component, const std::vector<std::string>& names) {
+  std::map<std::uint32_t, std::size_t> n;
+  for (const std::uint32_t t : component.facets) ++n[surface.patch[t]];
+  std::uint32_t most = n.begin()->first;
+  for (const auto& [patch, count] : n)
+    if (count > n[most]) most = patch;
+  return most < names.size() ? names[most] : "surface";
+}
+
+/// Whether a component and the one around it both have their normals outwards in the file, or both inwards.
+bool is_same_sense(const std::vector<Component>& components, const Orientation& orientation, std::uint32_t i) {
+  const auto is_outward = [&](const Component& component) {
+    std::int64_t n_flipped = 0;
+    for (const std::uint32_t t : component.facets) n_flipped += orientation.is_flipped[t];
+    return (component.volume > 0.0) == (2 * n_flipped <= static_cast<std::int64_t>(component.facets.size()));
+  };
+  return is_outward(components[i]) == is_outward(components[components[i].parent]);
+}
+
 }  // namespace
 
 Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& edges) {
@@ -132,12 +153,14 @@ Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& ed
   return result;
 }
 
-void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report,
-                    const RunContext& context) {
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside,
+                    const std::vector<std::string>& names, StitchReport& report, const RunContext& context) {
   std::vector<Component> components = measure_components(surface, edges, orientation);
   find_nesting(surface, orientation, components, context);
   report.n_components = orientation.n_components;
   std::int64_t n_inconsistent = 0, n_inverted = 0, n_inverted_facets = 0;
+  const auto plain_name = [&](std::uint32_t i) { return name_of_component(surface, components[i], names); };
+  const auto name_of = [&](std::uint32_t i) { return "\"" + plain_name(i) + "\""; };
   for (std::uint32_t i = 0; i < components.size(); ++i) {
     const Component& component = components[i];
     std::int64_t n_minority = 0;
@@ -157,6 +180,11 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
     report.n_flipped += n_turned;
     for (const std::uint32_t t : component.facets)
       if (is_inside_out != static_cast<bool>(orientation.is_flipped[t])) std::swap(surface.facets[t][1], surface.facets[t][2]);
+    if (is_hollow && component.depth > 0 && component.is_closed && is_same_sense(components, orientation, i))
+      report.warnings.push_back("part " + name_of(i) + " (" + count_of(n, "facet", "facets") + " about " +
+                                format_point(surface.metres(component.box.center())) + ") lies inside part " + name_of(component.parent) +
+                                ", both with normals outwards: it is turned inside out and is a cavity, which the outer flow does not reach. If \"" +
+                                plain_name(component.parent) + "\" is no solid, leave it out, or make it a source or an interface");
     if (is_hollow && component.depth > 0 && component.is_closed)
       report.messages.push_back("component " + std::to_string(i + 1) + " (" + count_of(n, "facet", "facets") + " about " +
                                 format_point(surface.metres(component.box.center())) + ") lies inside component " + std::to_string(component.parent + 1) +

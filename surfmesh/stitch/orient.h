@@ -19,8 +19,9 @@ Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& ed
 
 /// Applies a consistent orientation: closed components by signed volume and nesting depth (0 = a body, normals out; 1 = a cavity in it, normals into the
 /// cavity; 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers.
+/// A body inside another whose normals both point outwards in the file becomes a cavity with a warning. `names`: of the patches.
 /// \pre no crowded edge, orientation without conflicts.
-void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report,
-                    const RunContext& context);
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside,
+                    const std::vector<std::string>& names, StitchReport& report, const RunContext& context);
 
 }  // namespace sterna::surfmesh

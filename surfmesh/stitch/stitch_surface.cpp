@@ -82,7 +82,7 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     const Orientation orientation = flood_orientation(surface, edges);
     throw_on_defects(surface, edges, defects, orientation, options, context);
     report.is_closed = defects.boundary.empty();
-    orient_outward(surface, edges, orientation, options.fluid == "inside", report, context);
+    orient_outward(surface, edges, orientation, options.fluid == "inside", clean_patch_names(soups), report, context);
   }
   flip_flat_facets(surface, report);
   scale_to_metres(surface);

@@ -30,6 +30,7 @@ struct StitchReport {
   std::int64_t n_components = 0;
   bool is_closed = true;
   std::vector<std::string> messages;  ///< one sentence for each repair, as logged
+  std::vector<std::string> warnings;  ///< what changes the meaning of the geometry: parts turned into cavities, contacts opened; the caller logs them
 };
 
 struct StitchResult {

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* k_completing_attempt = "completing the boundary";
 constexpr double k_shape_snap = 0.3;  ///< share of HalfOptions: the shape's own triangles matter less than good ones at its rim
 
-bool is_given(const FarfieldOptions& options) {
+bool is_changed(const FarfieldOptions& options) {
   FarfieldOptions defaults, copy = options;
   const OptionTable table = sterna::options_of(copy), of_defaults = sterna::options_of(defaults);
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -243,7 +243,7 @@ void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh&
 }
 
 void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
-  if (is_enclosed && farfield.farfield_shape != "none" && is_given(farfield))
+  if (is_enclosed && farfield.farfield_shape != "none" && is_changed(farfield))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_completing_attempt,
                  .problem = "a farfield is given, but the surface encloses its fluid already: its outermost part has normals inwards",
@@ -280,6 +280,63 @@ TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, c
   append(mesh, shape);
   if (!ends.empty()) fill_ends(mesh, ends, of_planes, context);
   return mesh;
+}
+
+std::vector<RimPlane> rim_planes_of(const TriMesh& surface, const RunContext& context) {
+  const Topology topology(surface, context);
+  TriMesh mesh = surface;
+  flatten_rims(topology, mesh, context);
+  const Constraints rims = constraints_of_rims(mesh, topology);
+  const std::vector<EndPlane> ends = end_planes_of(rims);
+  std::vector<RimPlane> planes;
+  const Box box = bounding_box(mesh);
+  for (const EndPlane& end : ends) planes.push_back({.axis = end.axis, .at = end.at, .is_above = end.inward > 0.0, .rim = {}, .covered = 0.0});
+  for (const VertexId v : rims.vertex.ids())
+    for (const std::int32_t k : rims.vertex[v].on)
+      if (k >= 0) planes[static_cast<std::size_t>(k)].rim.add(mesh.points[v]);
+  const double tolerance = k_rim_tolerance * box.longest_side();
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto c = corners(mesh, t);
+    for (RimPlane& plane : planes)
+      if (std::ranges::all_of(c, [&](const Point& p) { return std::abs(p[plane.axis] - plane.at) <= tolerance; }))
+        plane.covered += triangle_area(c[0], c[1], c[2]);
+  }
+  return planes;
+}
+
+bool is_farfield_given(const FarfieldOptions& options) { return options.farfield_shape != "none" && is_changed(options); }
+
+std::int64_t turn_to_bodies(TriMesh& surface, const RunContext& context) {
+  const Topology topology(surface, context);
+  if (topology.n_boundary_halfedges() == 0) return 0;
+  TriMesh mesh = surface;
+  flatten_rims(topology, mesh, context);
+  const Constraints rims = constraints_of_rims(mesh, topology);
+  const std::vector<EndPlane> ends = end_planes_of(rims);
+  snap_rims(rims, ends, mesh);
+  const Components components = connected_components(mesh, topology);
+  const std::vector<double> volumes = volumes_of(mesh, components, ends);
+  const std::vector<std::uint32_t> outer = outermost(mesh, components, ends);
+  std::vector<std::uint8_t> is_turned(components.count, 0);
+  std::int64_t n = 0;
+  for (const std::uint32_t c : outer) {
+    is_turned[c] = volumes[c] < 0.0;
+    n += is_turned[c];
+  }
+  if (n == 0) return 0;
+  std::vector<Box> boxes(components.count);
+  for (const TriangleId t : mesh.triangles.ids())
+    for (const Point& p : corners(mesh, t)) boxes[components.component[t]].add(p);
+  for (std::uint32_t inner = 0; inner < components.count; ++inner)
+    for (const std::uint32_t c : outer) {
+      if (is_turned[c] == 0 || inner == c) continue;
+      bool is_within = true;
+      for (std::size_t k = 0; k < 3; ++k) is_within &= boxes[inner].min[k] >= boxes[c].min[k] && boxes[inner].max[k] <= boxes[c].max[k];
+      if (is_within) return 0;
+    }
+  for (const TriangleId t : surface.triangles.ids())
+    if (is_turned[components.component[t]] != 0) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+  return n;
 }
 
 }  // namespace sterna::volmesh

@@ -27,4 +27,23 @@ struct OuterOptions {
 /// or when a shape is asked for around a surface that encloses its fluid; (empty_surface)
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context);
 
+/// A plane x, y or z = constant that an open surface ends in.
+struct RimPlane {
+  std::size_t axis = 0;
+  double at = 0.0;       ///< m
+  bool is_above = true;  ///< the surface is on the side of larger coordinates
+  Box rim;               ///< m, of the vertices of rims in it
+  double covered = 0.0;  ///< m^2 of the surface that lie in it
+};
+/// The planes that all rims of the surface lie in; empty for a closed surface.
+/// \throws Error(open_surface) when some rim lies in no such plane or the surface is on both sides of one
+std::vector<RimPlane> rim_planes_of(const TriMesh& surface, const RunContext& context);
+
+/// Whether the options name or change an outer shape.
+bool is_farfield_given(const FarfieldOptions& options);
+
+/// An open surface whose outermost parts have their normals inwards, as a domain has them, but which is to be a body in a farfield: turns these parts. Nothing
+/// happens where other parts lie within them, or where the normals point outwards. \return number of parts that were turned
+std::int64_t turn_to_bodies(TriMesh& surface, const RunContext& context);
+
 }  // namespace sterna::volmesh
