@@ -21,7 +21,7 @@ struct NamedScale {
   Unit dimension;
 };
 /// SI value of each unit that a number may carry; exact by definition (inch = 25.4 mm, ft = 12 inch).
-constexpr std::array<NamedScale, 13> k_units = {{{"m", 1.0, Unit::metre},
+constexpr std::array<NamedScale, 14> k_units = {{{"m", 1.0, Unit::metre},
                                                  {"mm", 1e-3, Unit::metre},
                                                  {"um", 1e-6, Unit::metre},
                                                  {"cm", 1e-2, Unit::metre},
@@ -33,9 +33,11 @@ constexpr std::array<NamedScale, 13> k_units = {{{"m", 1.0, Unit::metre},
                                                  {"s", 1.0, Unit::second},
                                                  {"kB", 1e3, Unit::byte},
                                                  {"MB", 1e6, Unit::byte},
-                                                 {"GB", 1e9, Unit::byte}}};
+                                                 {"GB", 1e9, Unit::byte},
+                                                 {"K", 1.0, k_kelvin}}};
 
 std::string_view dimension_text(Unit dimension) {
+  if (dimension == k_kelvin) return "a temperature";
   switch (dimension) {
     case Unit::none: return "a number without a unit";
     case Unit::metre: return "a length";
@@ -156,6 +158,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view to_string(Unit unit) {
+  if (unit == k_kelvin) return "K";
   switch (unit) {
     case Unit::none: return "";
     case Unit::metre: return "m";
@@ -236,9 +239,9 @@ const Option& find_option(const OptionTable& table, std::string_view name, std::
 namespace {
 
 /// parse_number_with_unit that says which option it was.
-double number_of_text(const Option& option, std::string_view text) {
+double number_of_text(const Option& option, std::string_view text, BareAngle bare_angle) {
   try {
-    return parse_number_with_unit(text, option.unit);
+    return parse_number_with_unit(text, option.unit, bare_angle);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = "option " + std::string(option.stage) + "." + std::string(option.name);
@@ -248,7 +251,9 @@ double number_of_text(const Option& option, std::string_view text) {
 
 }  // namespace
 
-void set_option_from_text(const Option& option, std::string_view text) {
+void set_option_from_text(const Option& option, std::string_view text) { set_option_from_text(option, text, BareAngle::radians); }
+
+void set_option_from_text(const Option& option, std::string_view text, BareAngle bare_angle) {
   switch (option.kind) {
     case OptionKind::boolean:
       if (text != "true" && text != "false") reject(option, "\"" + std::string(text) + "\"", "true or false");
@@ -263,7 +268,7 @@ void set_option_from_text(const Option& option, std::string_view text) {
     case OptionKind::number:
       if (text == "automatic") return set_option(option, k_automatic);
       if (!option.choices.empty() && !text.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) return set_option(option, std::string(text));
-      return set_option(option, number_of_text(option, text));
+      return set_option(option, number_of_text(option, text, bare_angle));
   }
 }
 
@@ -292,7 +297,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   return best;
 }
 
-double parse_number_with_unit(std::string_view text, Unit expected) {
+double parse_number_with_unit(std::string_view text, Unit expected, BareAngle bare_angle) {
   const auto fail = [&]() -> double {
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading a number",
@@ -300,6 +305,7 @@ double parse_number_with_unit(std::string_view text, Unit expected) {
                  .hint = expected == Unit::radian  ? "write for example 35*deg"
                          : expected == Unit::metre ? "write for example 2e-6 or 0.5*mm"
                          : expected == Unit::byte  ? "write for example 16GB or 2e9"
+                         : expected == k_kelvin    ? "write for example 288.15, in kelvin"
                                                    : "write for example 1.25"});
   };
   double number = 0.0;
@@ -309,7 +315,9 @@ double parse_number_with_unit(std::string_view text, Unit expected) {
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   if (!unit.empty() && unit.front() == '*') unit.remove_prefix(1);
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
-  if (unit.empty()) return result.ptr == text.data() + text.size() ? number : fail();
+  if (unit.empty() && result.ptr != text.data() + text.size()) return fail();
+  if (unit.empty() && expected == Unit::radian && bare_angle == BareAngle::degrees) unit = "deg";
+  if (unit.empty()) return number;
   for (const NamedScale& known : k_units) {
     if (known.name != unit) continue;
     if (known.dimension == expected) return number * known.scale;

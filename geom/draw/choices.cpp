@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/number_with_unit.h"
 #include "geom/math/constants.h"
 
 namespace sterna::draw {
@@ -17,15 +17,15 @@ struct NamedView {
   Vec3 toward;
 };
 
+/// Angles in radians.
 Vec3 toward_of(double azimuth, double elevation) {
-  return {std::cos(k_degree * elevation) * std::cos(k_degree * azimuth), std::cos(k_degree * elevation) * std::sin(k_degree * azimuth),
-          std::sin(k_degree * elevation)};
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
 /// x downstream, y to the right wing, z upwards. iso: from ahead, left and above, more from the side than a true isometric view, so that a nose does not hide
 /// its wing.
 const std::array<NamedView, 7>& named_views() {
-  static const std::array<NamedView, 7> views = {{{"iso", toward_of(232.0, 28.0)},
+  static const std::array<NamedView, 7> views = {{{"iso", toward_of(k_degree * 232.0, k_degree * 28.0)},
                                                   {"front", {-1, 0, 0}},
                                                   {"back", {1, 0, 0}},
                                                   {"left", {0, -1, 0}},
@@ -42,26 +42,26 @@ const std::array<NamedView, 7>& named_views() {
                .hint = std::move(hint)});
 }
 
-/// Numbers between commas or blanks; empty where something else is among them.
-std::vector<double> numbers_of(std::string_view text) {
+/// Numbers between commas or blanks, with or without a unit: in metres, in radians (degrees without a unit); empty where something else is among them.
+std::vector<double> numbers_of(std::string_view text, Unit unit) {
   std::vector<double> numbers;
-  const char *at = text.data(), *const end = text.data() + text.size();
-  while (at != end) {
-    if (*at == ',' || *at == ' ') {
-      ++at;
-      continue;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(", "), text.size());
+    std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (word.starts_with('+')) word.remove_prefix(1);
+    if (word.empty()) continue;
+    try {
+      numbers.push_back(parse_number_with_unit(word, unit, BareAngle::degrees));
+    } catch (const Error&) {
+      return {};  // no number: the caller decides what else it may be
     }
-    double value = 0.0;
-    const auto [next, error] = std::from_chars(*at == '+' ? at + 1 : at, end, value);
-    if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',' && *next != ' ')) return {};
-    numbers.push_back(value);
-    at = next;
   }
   return numbers;
 }
 
-std::optional<Vec3> vector_of(std::string_view text) {
-  const std::vector<double> numbers = numbers_of(text);
+std::optional<Vec3> vector_of(std::string_view text, Unit unit) {
+  const std::vector<double> numbers = numbers_of(text, unit);
   if (numbers.size() != 3) return std::nullopt;
   return Vec3{numbers[0], numbers[1], numbers[2]};
 }
@@ -103,9 +103,8 @@ std::optional<Vec3> view_of(const std::string& text) {
   const auto& views = named_views();
   if (const auto found = std::find_if(views.begin(), views.end(), [&](const NamedView& view) { return view.name == lower(text); }); found != views.end())
     return found->toward;
-  const std::vector<double> numbers = numbers_of(text);
-  if (numbers.size() == 2) return toward_of(numbers[0], numbers[1]);
-  if (numbers.size() == 3) {
+  if (const std::vector<double> angles = numbers_of(text, Unit::radian); angles.size() == 2) return toward_of(angles[0], angles[1]);
+  if (const std::vector<double> numbers = numbers_of(text, Unit::none); numbers.size() == 3) {
     const Vec3 toward{numbers[0], numbers[1], numbers[2]};
     if (norm(toward) > 0.0) return toward;
     reject("view", text, "the direction has no length");
@@ -120,12 +119,12 @@ std::optional<CutPlane> plane_of(const std::string& text) {
   CutPlane plane;
   const auto point = value_of(text, "point"), normal = value_of(text, "normal");
   if (point || normal) {
-    const std::optional<Vec3> origin = point ? vector_of(*point) : Vec3{}, direction = normal ? vector_of(*normal) : std::nullopt;
+    const std::optional<Vec3> origin = point ? vector_of(*point, Unit::metre) : Vec3{}, direction = normal ? vector_of(*normal, Unit::none) : std::nullopt;
     if (!origin || !direction || !(norm(*direction) > 0.0)) reject("cut", text, std::string(k_plane_hint));
     return CutPlane{*origin, normalized(*direction), std::nullopt};
   }
   const std::string axis = lower(text.substr(0, text.find('=')));
-  const std::vector<double> at = numbers_of(std::string_view(text).substr(text.find('=') + 1));
+  const std::vector<double> at = numbers_of(std::string_view(text).substr(text.find('=') + 1), Unit::metre);
   if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z' || at.size() != 1) reject("cut", text, std::string(k_plane_hint));
   const auto k = static_cast<std::size_t>(axis[0] - 'x');
   plane.normal = {};
@@ -138,11 +137,11 @@ std::optional<Sphere> sphere_of(const std::string& text) {
   const auto radius = value_of(text, "radius");
   const std::size_t blank = text.rfind(' ', text.find("radius="));
   if (!radius) {
-    if (!numbers_of(text).empty()) reject("focus", text, "say how far to look: \"1,2,0 radius=0.5\"");
+    if (!numbers_of(text, Unit::metre).empty()) reject("focus", text, "say how far to look: \"1,2,0 radius=0.5\"");
     return std::nullopt;
   }
-  const std::optional<Vec3> center = vector_of(std::string_view(text).substr(0, blank == std::string::npos ? 0 : blank));
-  const std::vector<double> length = numbers_of(*radius);
+  const std::optional<Vec3> center = vector_of(std::string_view(text).substr(0, blank == std::string::npos ? 0 : blank), Unit::metre);
+  const std::vector<double> length = numbers_of(*radius, Unit::metre);
   if (!center || length.size() != 1 || !(length[0] > 0.0)) reject("focus", text, "write \"1,2,0 radius=0.5\", metres");
   return Sphere{*center, length[0]};
 }

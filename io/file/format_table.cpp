@@ -7,6 +7,9 @@
 #include "geom/base/error.h"
 #include "io/input/file_buffer.h"
 #include "io/input/text_scanner.h"
+#include "io/names/edge_conditions.h"
+#include "io/names/names_file.h"
+#include "io/names/tau_mapping.h"
 #include "io/surface/surface_cart3d.h"
 #include "io/surface/surface_cgns.h"
 #include "io/surface/surface_dwfs.h"
@@ -56,6 +59,15 @@ bool is_fluent(std::string_view head) {
   return first != std::string_view::npos && head[first] == '(';
 }
 
+/// The one of .aboc and .bboc that is there.
+std::filesystem::path edge_kinds_path(const std::filesystem::path& path) {
+  const std::filesystem::path text = edge_conditions_path(path);
+  std::filesystem::path binary = text;
+  binary.replace_extension(".bboc");
+  std::error_code ignored;  // of a file that cannot be looked at
+  return std::filesystem::exists(text, ignored) ? text : binary;
+}
+
 // One line for each format; the order counts where extensions are shared.
 constexpr std::array k_formats = {
     Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .write_surface = write_stl, .carries_patch_names = true},
@@ -80,6 +92,7 @@ constexpr std::array k_formats = {
            .read_volume = read_volume_fluent,
            .write_volume = write_volume_fluent,
            .carries_patch_names = true,
+           .carries_patch_kinds = true,
            .write_numbered = write_numbered_fluent},
     Format{.name = "Medit",
            .extensions = ".mesh .meshb",
@@ -87,7 +100,8 @@ constexpr std::array k_formats = {
            .write_surface = write_surface_medit,
            .read_volume = read_volume_medit,
            .write_volume = write_volume_medit,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .kinds_beside = names_path},
     Format{.name = "dwfs", .extensions = ".msh", .is_content = is_xml, .read_surface = read_dwfs, .write_surface = write_dwfs, .carries_patch_names = true},
     Format{.name = "UGRID",
            .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid",
@@ -95,21 +109,24 @@ constexpr std::array k_formats = {
            .write_surface = write_ugrid,
            .read_volume = read_volume_ugrid,
            .write_volume = write_volume_ugrid,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .kinds_beside = ugrid_kinds_path},
     Format{.name = "CGNS",
            .extensions = ".cgns .adf.cgns",
            .read_surface = read_cgns,
            .write_surface = write_cgns,
            .read_volume = read_volume_cgns,
            .write_volume = write_volume_cgns,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .carries_patch_kinds = true},
     Format{.name = "TAU",
            .extensions = ".taumesh .grid .netcdf .nc",
            .read_surface = read_tau,
            .write_surface = write_tau,
            .read_volume = read_volume_tau,
            .write_volume = write_volume_tau,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .kinds_beside = bmap_path},
     Format{.name = "SU2",
            .extensions = ".su2",
            .read_surface = read_su2,
@@ -123,14 +140,16 @@ constexpr std::array k_formats = {
            .write_surface = write_surface_vtkhdf,
            .read_volume = read_volume_vtkhdf,
            .write_volume = write_volume_vtkhdf,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .carries_patch_kinds = true},
     Format{.name = "VTU",
            .extensions = ".vtu",
            .read_surface = read_surface_vtu,
            .write_surface = write_surface_vtu,
            .read_volume = read_volume_vtu,
            .write_volume = write_volume_vtu,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .carries_patch_kinds = true},
     Format{.name = "VTK",
            .extensions = ".vtk",
            .is_content = is_vtk_surface,
@@ -142,7 +161,8 @@ constexpr std::array k_formats = {
            .is_content = is_vtk_grid,
            .read_surface = read_surface_vtk,
            .read_volume = read_volume_vtk,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .carries_patch_kinds = true},
     Format{.name = "VTK text", .extensions = ".vtk", .write_surface = write_surface_vtk_text, .carries_patch_names = true},
     Format{.name = "VTP", .extensions = ".vtp", .read_surface = read_surface_vtu, .write_surface = write_surface_vtp, .carries_patch_names = true},
     Format{.name = "Nastran", .extensions = ".nas .bdf", .read_surface = read_nastran, .write_surface = write_nastran, .carries_patch_names = true},
@@ -159,7 +179,8 @@ constexpr std::array k_formats = {
            .write_surface = write_surface_sterna,
            .read_volume = read_volume_sterna,
            .write_volume = write_volume_sterna,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .carries_patch_kinds = true},
     Format{.name = "OpenFOAM",
            .extensions = ".foam .text.foam polymesh",
            .read_volume = read_volume_foam,
@@ -167,9 +188,15 @@ constexpr std::array k_formats = {
            .carries_patch_names = true,
            .files = polymesh_files,
            .require_output = require_foam_place,
+           .carries_patch_kinds = true,
            .write_numbered = write_numbered_foam},
-    Format{.name = "Edge", .extensions = ".bmsh .v2.bmsh", .read_volume = read_volume_edge, .write_volume = write_volume_edge, .carries_patch_names = true},
-    Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true},
+    Format{.name = "Edge",
+           .extensions = ".bmsh .v2.bmsh",
+           .read_volume = read_volume_edge,
+           .write_volume = write_volume_edge,
+           .carries_patch_names = true,
+           .kinds_beside = edge_kinds_path},
+    Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true, .kinds_beside = edge_kinds_path},
 };
 
 /// Calls f(extension) for each blank-separated word.
@@ -270,6 +297,22 @@ const Format& format_of(const std::filesystem::path& path) {
   for (const Format* format : candidates)
     if (format->is_content && format->is_content(head)) return *format;
   return *candidates.front();
+}
+
+bool states_patch_kinds(const std::filesystem::path& path) {
+  const Format& format = format_of(path);
+  std::error_code ignored;  // of a file that cannot be looked at
+  return format.carries_patch_kinds || (format.kinds_beside && std::filesystem::exists(format.kinds_beside(path), ignored));
+}
+
+const Format& format_of(const std::filesystem::path& path, FormatUse use) {
+  std::error_code ignored;  // a path that cannot be asked is no folder, and format_of says what is wrong with folders
+  if (!is_known_format(path) && !std::filesystem::is_directory(path, ignored) && path != "-" && !path.string().starts_with("/dev/")) {
+    const bool is_surface = use == FormatUse::read_surface || use == FormatUse::write_surface;
+    throw_unknown_extension("finding the format of " + path.string(),
+                            std::string(is_surface ? "surfaces" : "volume meshes") + " are read from " + list_formats_with(use));
+  }
+  return format_of(path);
 }
 
 bool is_known_format(const std::filesystem::path& path) { return !formats_of_name(path).empty(); }

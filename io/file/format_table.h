@@ -26,6 +26,8 @@ using NumberedWriter = void (*)(const HybridMesh&, const std::filesystem::path&,
 using FileList = std::vector<std::filesystem::path> (*)(const std::filesystem::path&);
 /// Throws Error(write_failed) where `path` must not be written; called before the work whose result it is to hold.
 using OutputTest = void (*)(const std::filesystem::path&);
+/// The file beside a mesh that says what its patches are; empty where there is none.
+using KindsPath = std::filesystem::path (*)(const std::filesystem::path&);
 /// Whether a file that begins with these bytes (unpacked, at most k_sniffed_bytes) is of the format.
 using ContentTest = bool (*)(std::string_view head);
 
@@ -40,6 +42,8 @@ struct Format {
   bool carries_patch_names = false;
   FileList files = nullptr;
   OutputTest require_output = nullptr;
+  bool carries_patch_kinds = false;         ///< what patches are (wall, inflow ...) stands in the file
+  KindsPath kinds_beside = nullptr;         ///< or in this second file, which hash_input does not cover
   NumberedWriter write_numbered = nullptr;  ///< of formats that number the cells of all kinds as one: the same as write_volume, with an order of the cells
 
   bool is_read() const { return read_surface || read_volume; }
@@ -53,10 +57,15 @@ inline constexpr std::size_t k_sniffed_bytes = 4096;
 
 std::span<const Format> formats();
 
+/// Whether the file, or the one beside it, says of what kind its patches are; else only their names do.
+bool states_patch_kinds(const std::filesystem::path& path);
+
 /// The format of a file that is to be read, by its name (case-insensitive; ".gz" peeled off) and, where several formats have that extension, by what the file
 /// begins with. A file that cannot be opened, or that is none of them, goes to the first of them: its reader says what it misses.
 /// \throws Error(unsupported_format) with the list of known extensions.
 const Format& format_of(const std::filesystem::path& path);
+/// The same; where the extension is not known, the error lists the formats that have this use.
+const Format& format_of(const std::filesystem::path& path, FormatUse use);
 /// Whether format_of knows the extension.
 bool is_known_format(const std::filesystem::path& path);
 

@@ -6,7 +6,7 @@
 namespace sterna::io {
 
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context) {
-  const Format& format = format_of(path);
+  const Format& format = format_of(path, FormatUse::read_volume);
   if (!format.read_volume)
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "reading " + path.string(),

@@ -98,7 +98,7 @@ void UgridSource::fail(const std::string& problem, std::string_view hint) const 
   text_->fail(problem, hint);
 }
 
-std::map<std::int64_t, UgridPatch> read_mapbc(const std::filesystem::path& mesh_path, const RunContext& context) {
+std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path) {
   std::string stem = mesh_path.filename().string();
   std::filesystem::path file;
   std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
@@ -109,6 +109,11 @@ std::map<std::int64_t, UgridPatch> read_mapbc(const std::filesystem::path& mesh_
     if (file.empty() && std::filesystem::exists(candidate, status)) file = candidate;
     if (ugrid_variant(mesh_path).is_text) break;
   }
+  return file;
+}
+
+std::map<std::int64_t, UgridPatch> read_mapbc(const std::filesystem::path& mesh_path, const RunContext& context) {
+  const std::filesystem::path file = found_mapbc(mesh_path);
   std::map<std::int64_t, UgridPatch> patches;
   if (file.empty()) return patches;
   const FileBuffer buffer = load_file(file, context);

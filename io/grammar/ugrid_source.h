@@ -69,6 +69,7 @@ struct UgridPatch {
 
 /// The .mapbc file beside the mesh, wing.mapbc or wing.lb8.mapbc for wing.lb8.ugrid: a count, then lines "id condition name". Empty when there is none.
 /// \throws Error(file_malformed) with its line
+std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path);  ///< that file
 std::map<std::int64_t, UgridPatch> read_mapbc(const std::filesystem::path& mesh_path, const RunContext& context);
 
 /// Where the writer puts it: wing.mapbc for wing.lb8.ugrid.

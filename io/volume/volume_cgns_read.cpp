@@ -329,6 +329,9 @@ class CgnsReader {
     }
     condition.patch = patch_named(name);
     mesh_.patches[condition.patch].kind = kind_of(type, name);
+    if (!type.starts_with("BC") && mesh_.patches[condition.patch].kind == PatchKind::wall)
+      context_.warn(tree_.source() + ": patch \"" + name + "\" has no type of boundary condition (" + (type.empty() ? "none" : type) +
+                    "): it is taken as a wall");
     const CgnsNode* set = nullptr;
     for (const char* const spelling : {"PointRange", "PointList", "ElementRange", "ElementList"})
       if (!set) set = node.find(spelling);

@@ -18,6 +18,7 @@ struct FoamPatch {
   Patch patch;
   std::uint64_t first_face = 0, n_faces = 0;
   std::string neighbour;  ///< of a cyclic one
+  bool is_guess = false;  ///< neither its type nor its groups nor its name say what it is
 };
 
 PatchKind kind_of(std::string_view type, const std::vector<std::string>& groups, std::string_view name) {
@@ -71,6 +72,8 @@ FoamPatch read_patch(FoamFile& file) {
   }
   if (!has_first || !has_number || type.empty()) file.fail("patch " + quoted_excerpt(patch.patch.name) + " has no type, nFaces or startFace");
   patch.patch.kind = kind_of(type, groups, patch.patch.name);
+  patch.is_guess = type == "patch" && patch.patch.kind == PatchKind::farfield && kind_of_name(patch.patch.name) != PatchKind::farfield &&
+                   std::ranges::find(groups, to_string(PatchKind::farfield)) == groups.end();
   if (type != "cyclic") patch.neighbour.clear();
   return patch;
 }
@@ -89,6 +92,9 @@ std::vector<std::string> read_boundary(const std::filesystem::path& folder, std:
       file.fail("patch " + quoted_excerpt(patch.patch.name) + " starts at face " + std::to_string(patch.first_face) + ", expected " + std::to_string(next));
     if (patch.n_faces > faces.n_faces() - next)
       file.fail("patch " + quoted_excerpt(patch.patch.name) + " ends behind the last face, " + std::to_string(faces.n_faces() - 1));
+    if (patch.is_guess && patch.n_faces > 0)
+      context.warn((folder / "boundary").string() + ": patch " + quoted_excerpt(patch.patch.name) +
+                   " is of type patch, which does not say what it is: it is taken as a farfield");
     const PatchId id = mesh.patches.push_back(patch.patch);
     neighbours.push_back(patch.neighbour);
     std::fill_n(faces.patch.begin() + static_cast<std::ptrdiff_t>(next), patch.n_faces, id);

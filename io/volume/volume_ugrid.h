@@ -25,4 +25,7 @@ HybridMesh read_volume_ugrid(const std::filesystem::path& path, const RunContext
 /// \throws Error overflow (a count beyond 2^31-1 with 32-bit integers), mesh_invalid, write_failed, cancelled, unsupported_format.
 void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
+/// The .mapbc file that the reader takes for a mesh; empty where there is none.
+std::filesystem::path ugrid_kinds_path(const std::filesystem::path& path);
+
 }  // namespace sterna::io

@@ -94,4 +94,6 @@ HybridMesh read_volume_ugrid(const std::filesystem::path& path, const RunContext
   return mesh;
 }
 
+std::filesystem::path ugrid_kinds_path(const std::filesystem::path& path) { return found_mapbc(path); }
+
 }  // namespace sterna::io

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "geom/base/error.h"
-#include "geom/base/number_with_unit.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/flow_verbs.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/case_tables.h"
 #include "scripting/verbs/foam_verbs.h"
@@ -53,7 +53,7 @@ void add_flow_words(const std::string& text, OptionOverrides& options) {
 Point point_of_words(const std::string& text) {
   std::vector<double> values;
   std::istringstream list(text);
-  for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value, Unit::metre));
+  for (std::string value; std::getline(list, value, ',');) values.push_back(typed_number(value, Unit::metre));
   if (values.size() != 3)
     throw Error({.code = ErrorCode::bad_argument, .attempted = "--moment-origin " + text, .problem = "expected three coordinates, as 15,0,0"});
   return {values[0], values[1], values[2]};
@@ -151,7 +151,7 @@ int execute(const CaseCommand& command, const CommandContext& context) {
   if (!command.moment_origin.empty()) request.reference.moment_origin = point_of_words(command.moment_origin);
   CaseProblems problems;  // what is wrong whatever the mesh is, before it is read
   if (is_foam) require_foam_flow(settings.foam, request.flow, problems);
-  else require_su2_flow(request.flow, request.reference, std::nullopt, problems);
+  else require_su2_flow(request.flow, std::nullopt, problems);
   if (const std::string problem = problem_of_su2_mesh(settings.su2.mesh); !problem.empty()) problems.add(problem);
   problems.require_none(attempted);
   const std::filesystem::path output = is_foam ? case_folder(command.output) : command.output;

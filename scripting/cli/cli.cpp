@@ -87,6 +87,7 @@ void add_cache_options(CLI::App& command, CacheChoice& cache) {
                   "keep results of stages in this folder, and take them from there where all that they depend on is the same: equal bytes in less time")
       ->type_name("FOLDER");
   command.add_option("--cache-limit", cache.limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")
+      ->needs("--cache")
       ->check(CLI::PositiveNumber)
       ->type_name("BYTES");
 }
@@ -209,7 +210,12 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       "give the surface new triangles first, as `sterna remesh` does; its options with --set remesh.max_edge=0.1 --set remesh.curvature_angle=10*deg");
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
-  add_schema_options(*command, all_options(surface, volume), mesh.options);
+  OptionTable of_triangulations = sterna::options_of(surface), of_both = volmesh::options_of(volume);
+  const auto shared = std::ranges::find(of_triangulations, "unit", &Option::name);
+  of_both.insert(of_both.begin(), *shared);
+  of_triangulations.erase(shared);
+  add_schema_options(*command, of_triangulations, mesh.options, "of triangulations only");
+  add_schema_options(*command, of_both, mesh.options);
   WriteOptions writing;
   add_schema_options(*command, sterna::options_of(writing), mesh.writing);
   add_set_option(*command, set);
@@ -220,18 +226,18 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
                    "what `sterna surface "
                    "--patch` takes: max_edge ...; may be given several times");
   command->footer(
-      "Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch. Heights may be found from the flow: --first-height \"y_plus 1 mach=0.78 altitude=11000 "
+      "Numbers take units: 0.5mm, 35deg, --unit inch; without one they are metres, degrees, kelvin. Heights may be found from the flow: --first-height "
+      "\"y_plus 1 mach=0.78 altitude=11000 "
       "length=4.2\", --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"; `sterna run` a script with help(y_plus). Of models, options of their "
       "surface: --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
-  command->final_callback([&] {
-    for (auto& [names, options] : mesh.patches)
-      for (auto& [name, text] : options) text = with_degrees(name, text);
+  command->final_callback([&, command] {
     for (const auto& [name, value] : set)
       (name.starts_with("half.")     ? mesh.half
        : name.starts_with("remesh.") ? mesh.remesh
        : name.starts_with("write.")  ? mesh.writing
                                      : mesh.options)
           .emplace_back(name, value);
+    mesh.given = given_options(*command);
     request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
     request.trouble = beside(mesh.outputs.front());
   });
@@ -262,11 +268,8 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
       ->type_name("SOURCE")
       ->allow_extra_args(false)
       ->take_all();
-  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too.");
+  command->footer("Numbers take units: 5mm, 12deg; without one they are metres and degrees.");
   command->final_callback([&] {
-    for (auto& [names, options] : surface.patches)
-      for (auto& [name, text] : options) text = with_degrees(name, text);
-    for (auto& [name, text] : surface.options) text = with_degrees(name, text);
     surface.options.insert(surface.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(surface, context); };
     request.trouble = beside(surface.outputs.front());
@@ -310,11 +313,8 @@ void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& s
       ->take_all();
   command->add_option_function<std::string>(
       "--unit", [&remesh](const std::string& text) { remesh.options.emplace_back("unit", text); }, "length of one unit of the file: mm, inch, 0.5mm ...");
-  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too.");
+  command->footer("Numbers take units: 5mm, 12deg; without one they are metres and degrees.");
   command->final_callback([&] {
-    for (auto& [names, of_patch] : remesh.patches)
-      for (auto& [name, text] : of_patch) text = with_degrees(name, text);
-    for (auto& [name, text] : remesh.options) text = with_degrees(name, text);
     remesh.options.insert(remesh.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(remesh, context); };
     request.trouble = beside(remesh.outputs.front());
@@ -355,7 +355,6 @@ void add_repair_command(CLI::App& app, RepairCommand& repair, OptionOverrides& s
   add_cache_options(*command, repair.cache);
   command->footer("docs/dirty_surfaces.md says what is done, in which order and how far it goes.");
   command->final_callback([&] {
-    for (auto& [name, text] : repair.options) text = with_degrees(name, text);
     repair.options.insert(repair.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(repair, context); };
     request.trouble = beside(repair.output);
@@ -372,9 +371,10 @@ void add_wrap_command(CLI::App& app, WrapCommand& wrap, OptionOverrides& set, Re
   add_schema_options(*command, sterna::options_of(options), wrap.options);
   add_set_option(*command, set);
   add_cache_options(*command, wrap.cache);
-  command->footer("Numbers take units: --edge 5mm, --gap 20mm, --features 35deg, --unit inch. docs/wrap.md says what is done and how far it goes.");
+  command->footer(
+      "Numbers take units: --edge 5mm, --gap 20mm, --features 35deg, --unit inch; without one they are metres and degrees. docs/wrap.md says what is done and "
+      "how far it goes.");
   command->final_callback([&] {
-    for (auto& [name, text] : wrap.options) text = with_degrees(name, text);
     wrap.options.insert(wrap.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(wrap, context); };
     request.trouble = beside(wrap.output);
@@ -410,7 +410,8 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
       ->allow_extra_args(false)
       ->take_all();
   command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
-  command->final_callback([&] {
+  command->final_callback([&, command] {
+    check.given = given_options(*command);
     request.execute = [&](const CommandContext& context) { return execute(check, context); };
     request.trouble = beside(std::filesystem::path(check.input).filename());
   });
@@ -441,7 +442,8 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing)}) add_schema_options(*command, table, convert.options);
   WriteOptions of_mesh;
   add_schema_options(*command, sterna::options_of(of_mesh), convert.writing);
-  command->final_callback([&] {
+  command->final_callback([&, command] {
+    convert.given = given_options(*command);
     request.execute = [&](const CommandContext& context) { return execute(convert, context); };
     request.trouble = beside(convert.output);
   });

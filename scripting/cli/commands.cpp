@@ -34,8 +34,10 @@
 #include "scripting/values/repair_surfaces.h"
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
 #include "scripting/values/wake_verbs.h"
+#include "scripting/values/wall_files.h"
 #include "scripting/values/wrap_surfaces.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/gate_limits.h"
@@ -62,10 +64,12 @@ void print_box(const CommandContext& context, const Box& box) {
     context.console.print(fmt::format("  box      {} to {}, longest side {:.6g} m", format_point(box.min), format_point(box.max), box.longest_side()));
 }
 
-void print_patches(const CommandContext& context, const Column<PatchId, Patch>& patches, const std::vector<PatchSize>& sizes) {
+void print_patches(const CommandContext& context, const Column<PatchId, Patch>& patches, const std::vector<PatchSize>& sizes,
+                   const std::set<std::string>& unknown_kinds = {}) {
   for (const PatchId id : patches.ids()) {
     const PatchSize& size = sizes[id.index()];
-    std::string text = fmt::format("  patch    \"{}\", {}: {} triangles", patches[id].name, to_string(patches[id].kind), count_text(size.n_triangles));
+    const std::string kind = unknown_kinds.contains(patches[id].name) ? "kind unknown" : std::string(to_string(patches[id].kind));
+    std::string text = fmt::format("  patch    \"{}\", {}: {} triangles", patches[id].name, kind, count_text(size.n_triangles));
     if (size.n_quads > 0) text += ", " + count_text(size.n_quads) + " quads";
     context.console.print(text);
   }
@@ -81,7 +85,7 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   for (const BoundaryQuad& face : value.mesh.boundary_quads) ++sizes[face.patch.index()].n_quads;
   context.console.print("  " + describe(value));
   print_box(context, box);
-  print_patches(context, value.mesh.patches, sizes);
+  print_patches(context, value.mesh.patches, sizes, value.unknown_kinds);
   // In brief: without the slow exact test for intersections.
   const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
   context.console.print("  check    " +
@@ -119,21 +123,19 @@ void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) 
 }
 
 int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
-  const SurfaceSoup soup = io::read_surface_file(input.path, context.run.part("read", 0.0, 0.3));
-  context.console.print(fmt::format("  surface  {} triangles, {} points, patches {}", count_text(static_cast<std::int64_t>(soup.triangles.size())),
-                                    count_text(static_cast<std::int64_t>(soup.points.size())), soup.has_names ? "by name" : "without names"));
-  Box box;
-  for (const Vec3& p : soup.points) box.add(unit * p);
-  print_box(context, box);
   // Joined as `sterna mesh` would join it, but for the slow exact test for intersections; what cannot be joined is reported by the caller.
   surfmesh::StitchOptions options;
   options.unit = unit;
   options.allow_open = true;
   options.check_intersections = false;
-  SurfaceValue wall;
-  surfmesh::StitchResult stitched = surfmesh::stitch_surface({soup}, options, context.run.part("stitch", 0.3, 1.0));
-  wall.mesh = std::move(stitched.mesh);
-  wall.report = std::move(stitched.report);
+  const WallFiles files = read_wall_files(std::span(&input, 1), options, context.run.part("read", 0.0, 0.3));
+  const SurfaceSoup& soup = files.soups.front();
+  context.console.print(fmt::format("  surface  {} triangles, {} points, patches {}", count_text(static_cast<std::int64_t>(soup.triangles.size())),
+                                    count_text(static_cast<std::int64_t>(soup.points.size())), soup.has_names ? "by name" : "without names"));
+  Box box;
+  for (const Vec3& p : soup.points) box.add(unit * p);
+  print_box(context, box);
+  const SurfaceValue wall = join_wall(files, context.run.part("stitch", 0.3, 1.0));
   std::vector<PatchSize> sizes(wall.mesh.patches.size());
   for (const PatchId patch : wall.mesh.triangle_patch) ++sizes[patch.index()].n_triangles;
   context.console.print("  joined   " + describe(wall));
@@ -184,6 +186,10 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   const auto refuse_done = [&](std::string_view option) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "mesh the surface anew"});
   };
+  refuse_without_effect(command.given, {"--half", "--auto", "--repair", "--wrap", "--remesh"}, "mesh",
+                        "the surface is done already in " + command.inputs.front(), "mesh the surface anew");
+  for (const OptionOverrides* options : {&command.half, &command.remesh})
+    if (!options->empty()) refuse_done(options->front().first);
   if (!command.discs.empty()) refuse_done("--disc");
   if (!command.sheets.empty()) refuse_done("--wake-sheet");
   if (!command.periodic.empty()) refuse_done("--periodic");
@@ -240,7 +246,13 @@ void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext&
   wall = half_surface(wall, options, context.run);
 }
 
-/// With --remesh: the surface with new triangles, as fine as the family asks.
+std::vector<volmesh::SizeSource> sources_of(const std::vector<std::string>& texts) {
+  std::vector<volmesh::SizeSource> sources;
+  for (const std::string& text : texts) sources.push_back(source_of_text(text));
+  return sources;
+}
+
+/// With --remesh: the surface with new triangles, as fine as the family asks; sources refine it as they do the volume.
 void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, SurfaceValue& wall, const Reuse& reuse, const CommandContext& context) {
   if (!command.is_remeshed) {
     if (!command.remesh.empty())
@@ -250,7 +262,25 @@ void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, Su
   RemeshRecipe recipe;
   if (is_given(command, "family", "refinement")) recipe.options.refinement = volume.family.refinement;
   set_options(sterna::options_of(recipe.options), command.remesh, context);
+  layer_rules_of(command.patches, &recipe.patches);
+  recipe.sources = sources_of(command.sources);
   wall = remeshed(wall, recipe, {}, context.run, reuse);
+}
+
+/// Options that `sterna mesh` has for other inputs or with other flags.
+std::vector<OptionsElsewhere> elsewhere_of(const MeshCommand& command, bool is_model, AutoSurface& unused) {
+  const std::string& name = command.inputs.front();
+  std::vector<OptionsElsewhere> result;
+  if (is_model) {
+    OptionTable table = sterna::options_of(unused.stitching);
+    result.push_back({std::move(table), "is for triangulations (STL ...), and " + name + " is a model"});
+  } else {
+    result.push_back(
+        {model_surface_options(unused.recipe.options, unused.reading), "is for the faces of models (STEP ...), and " + name + " is a triangulation"});
+  }
+  result.push_back({sterna::options_of(unused.repair), "is given without --repair"});
+  result.push_back({sterna::options_of(unused.wrap), "is given without --wrap"});
+  return result;
 }
 
 /// What follows from the options together, and what heights were found from flow conditions.
@@ -300,6 +330,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;
+  recipe.sources = sources_of(command.sources);
   const std::size_t n_changes = wall.changes.size();
   const SurfaceValue first = without_needles(wall, recipe, part, reuse);
   const bool is_new = first.changes.size() > n_changes;
@@ -327,10 +358,13 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   ReadCadOptions& reading = asked.reading;
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
+  recipe.sources = sources_of(command.sources);  // one source means wall and volume
+  if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   OptionTable table = volmesh::required_options_of(volume_options);
   add_preparation(command, asked, table);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
-  set_options(table, command.options, context);
+  AutoSurface unused;
+  set_options(table, command.options, context, elsewhere_of(command, true, unused));
   if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
     recipe.options.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
@@ -354,12 +388,17 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
     return make_mesh_of_models(command, inputs, reuse, context);
   AutoSurface asked;
   volmesh::MeshCase volume_options;
-  volume_options.patches = layer_rules_of(command.patches);
+  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // of the new triangles
+  volume_options.patches = layer_rules_of(command.patches, command.is_remeshed ? &sizes : nullptr);
   asked.stitching.allow_open = command.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);
   for (Option& option : sterna::options_of(asked.stitching)) table.push_back(std::move(option));
   add_preparation(command, asked, table);
-  set_options(table, command.options, context);
+  AutoSurface unused;
+  set_options(table, command.options, context, elsewhere_of(command, false, unused));
+  if (!command.sources.empty() && !command.is_remeshed)
+    context.run.info(std::string("--source refines the volume; the triangles of the wall stay ") +
+                     (command.is_auto ? "unless --auto remeshes them, which sources refine as well" : "as they are: --remesh refines the wall, too"));
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.wakes = sheets_of(command);
@@ -634,7 +673,7 @@ void require_cells_output(const std::filesystem::path& path, const std::filesyst
 
 int execute(const CheckCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return check_model(command, context);
-  if (const io::Format& format = io::format_of(command.input); !format.read_volume)
+  if (const io::Format& format = io::format_of(command.input, io::FormatUse::read_volume); !format.read_volume)
     refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
   for (const std::string& model : command.models)
     if (!is_model_file(model))
@@ -666,9 +705,9 @@ int execute(const CheckCommand& command, const CommandContext& context) {
 int execute(const InfoCommand& command, const CommandContext& context) {
   surfmesh::StitchOptions unit;
   const OptionTable schema = sterna::options_of(unit);
-  set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
+  if (!command.unit.empty()) set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
   if (command.is_json) {
-    const std::string json = info_json(command.input, unit.unit, context);
+    const std::string json = info_json(command.input, command.unit.empty() ? std::nullopt : std::optional(unit.unit), context);
     context.console.end_progress();
     context.console.print(json);
     return k_exit_success;
@@ -691,6 +730,7 @@ int execute(const ConvertCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return convert_model(command, context);
   ConvertSettings settings = command.settings;
   set_options(sterna::options_of(settings.writing), command.writing, context);
+  settings.is_numbering_given = !command.writing.empty();
   if (!command.options.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "convert",

@@ -57,6 +57,7 @@ struct MeshCommand {
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
   OptionOverrides writing;            ///< --numbering and --set write.numbering=both
   CacheChoice cache;
+  std::vector<std::string> given;  ///< given_options
 };
 
 struct SurfaceCommand {
@@ -121,11 +122,12 @@ struct CheckCommand {
   CheckSettings options;
   std::vector<std::string> gates;  ///< set_gate_limits
   std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
+  std::vector<std::string> given;  ///< given_options
 };
 
 struct InfoCommand {
   std::string input;
-  std::string unit = "1";
+  std::string unit;  ///< empty: not given; of models what the file says, else metres
   bool is_json = false;
 };
 
@@ -133,8 +135,9 @@ struct ConvertCommand {
   std::string input;
   std::filesystem::path output;
   ConvertSettings settings;
-  OptionOverrides options;  ///< of models: --unit, --tolerance ...
-  OptionOverrides writing;  ///< of volume meshes: --numbering
+  OptionOverrides options;         ///< of models: --unit, --tolerance ...
+  OptionOverrides writing;         ///< of volume meshes: --numbering
+  std::vector<std::string> given;  ///< given_options
 };
 
 /// `sterna info` and `sterna check` of a model file (model_commands.cpp): what it holds with its reference data; whether it is closed, with every open edge.

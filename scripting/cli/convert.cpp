@@ -4,24 +4,37 @@
 
 #include "geom/base/error.h"
 #include "io/file/format_table.h"
+#include "io/file/input_hash.h"
 #include "io/file/surface_file.h"
-#include "io/file/volume_file.h"
+#include "scripting/values/manifest.h"
+#include "scripting/values/mesh_manifest.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/surface_manifest.h"
 
 namespace sterna::scripting {
 namespace {
 
 constexpr double k_convert_read_end = 0.5;  // reading and writing take about the same time
 
-std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context) {
+/// The manifest goes along, because the output's format may not hold what it knows (kinds of patches, periodic sides, options).
+std::string convert_volume(const InputPath& input, const MeshValue& value, const std::filesystem::path& output, const ConvertSettings& settings,
+                           const RunContext& context) {
+  const HybridMesh& mesh = value.mesh;
+  const std::optional<std::string> manifest = fitting_manifest(input, value.inputs.front().hash, RunContext());
   write_mesh_alone(mesh, output, settings.format, settings.writing, context);
+  if (manifest) write_manifest_of_copy(*manifest, output);
+  else write_manifest(value, output, context);
   return fmt::format("volume mesh, {} nodes, {} cells, {} patches", count_text(static_cast<std::int64_t>(mesh.points.size())),
                      count_text(count_cells(mesh).total()), mesh.patches.size());
 }
 
 std::string convert_surface(const InputPath& input, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
+  const std::string hash = io::hash_input(input.path);
+  const bool has_manifest = read_surface_manifest(input, hash, context).has_value();
+  const std::optional<std::string> manifest = has_manifest ? fitting_manifest(input, hash, RunContext()) : std::nullopt;
   const TriMesh mesh = io::to_tri_mesh(io::read_surface_file(input.path, context.part("read", 0.0, k_convert_read_end)));
   io::write_surface_file(mesh, output, context.part("write", k_convert_read_end, 1.0), format);
+  if (manifest) write_manifest_of_copy(*manifest, output);
   return fmt::format("surface, {} triangles, {} patches", count_text(static_cast<std::int64_t>(mesh.n_triangles())), mesh.patches.size());
 }
 
@@ -41,13 +54,21 @@ bool can_write(const std::filesystem::path& output, io::FormatUse use, const std
 std::string convert(const InputPath& input, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context) {
   const io::Format& from = io::format_of(input.path);
   const bool has_volume = can_write(output, io::FormatUse::write_volume, settings.format);
-  if (!has_volume) io::format_to_write(output, io::FormatUse::write_surface, settings.format);  // throws where it has neither
+  if (!has_volume && !can_write(output, io::FormatUse::write_surface, settings.format))  // says which formats there are for what the input most likely is
+    io::format_to_write(output, from.read_volume && !settings.as_surface ? io::FormatUse::write_volume : io::FormatUse::write_surface, settings.format);
+  const auto require_no_numbering = [&](const std::string& why) {
+    if (settings.is_numbering_given)
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "converting " + input.name, .problem = "--numbering has no effect: " + why});
+  };
   if (settings.as_surface || !from.read_volume) {
+    require_no_numbering("a surface is written, which has no cells");
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
-  const HybridMesh mesh = io::read_volume_file(input.path, context.part("read", 0.0, k_convert_read_end));
+  const MeshValue value = read_mesh(input, context.part("read", 0.0, k_convert_read_end));
+  const HybridMesh& mesh = value.mesh;
   if (count_cells(mesh).total() == 0) {
+    require_no_numbering("the file holds a surface, which has no cells");
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
@@ -56,7 +77,7 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
                  .attempted = "converting " + input.name + " into " + output.string(),
                  .problem = "the input is a volume mesh of " + count_text(count_cells(mesh).total()) + " cells, the output's format holds surfaces only",
                  .hint = "--surface writes the boundary; volume meshes are written as " + io::list_formats_with(io::FormatUse::write_volume)});
-  return convert_volume(mesh, output, settings, context.part("write", k_convert_read_end, 1.0));
+  return convert_volume(input, value, output, settings, context.part("write", k_convert_read_end, 1.0));
 }
 
 }  // namespace sterna::scripting

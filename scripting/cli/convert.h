@@ -10,9 +10,10 @@
 namespace sterna::scripting {
 
 struct ConvertSettings {
-  std::string format;       ///< name of the output's format; empty: by the extension
-  bool as_surface = false;  ///< of a volume mesh take the boundary
-  WriteOptions writing;     ///< of a volume mesh
+  std::string format;               ///< name of the output's format; empty: by the extension
+  bool as_surface = false;          ///< of a volume mesh take the boundary
+  WriteOptions writing;             ///< of a volume mesh
+  bool is_numbering_given = false;  ///< which is refused where there are no cells
 };
 
 /// Volume meshes stay volume meshes where the output's format has them, else it is an error unless the boundary is asked for. Connectivity, coordinates and,

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file/format_table.h"
-#include "io/file/surface_file.h"
 #include "scripting/values/models.h"
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
+#include "scripting/values/wall_files.h"
 #include "surfmesh/stitch/stitch_surface.h"
 
 namespace sterna::scripting {
@@ -24,12 +24,15 @@ struct PatchSum {
   double area = 0.0;
 };
 
-Json patches_json(const Column<PatchId, Patch>& patches, const std::vector<PatchSum>& sums) {
+Json patches_json(const Column<PatchId, Patch>& patches, const std::vector<PatchSum>& sums, const std::set<std::string>& unknown_kinds = {}) {
   Json list = Json::array();
   for (const PatchId p : patches.ids()) {
     const PatchSum& sum = sums[p.index()];
-    list.push_back(
-        {{"name", patches[p].name}, {"kind", to_string(patches[p].kind)}, {"triangles", sum.n_triangles}, {"quads", sum.n_quads}, {"area", sum.area}});
+    list.push_back({{"name", patches[p].name},
+                    {"kind", unknown_kinds.contains(patches[p].name) ? "unknown" : to_string(patches[p].kind)},
+                    {"triangles", sum.n_triangles},
+                    {"quads", sum.n_quads},
+                    {"area", sum.area}});
   }
   return list;
 }
@@ -58,7 +61,7 @@ Json of_volume(const MeshValue& value, double unit) {
       {"cells",
        {{"total", cells.total()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"hexahedra", cells.hexahedra}, {"tetrahedra", cells.tetrahedra}}},
       {"box", box_json(box)},
-      {"patches", patches_json(mesh.patches, sums)}};
+      {"patches", patches_json(mesh.patches, sums, value.unknown_kinds)}};
 }
 
 Json of_surface(const std::filesystem::path& file, double unit, const CommandContext& context) {
@@ -66,8 +69,8 @@ Json of_surface(const std::filesystem::path& file, double unit, const CommandCon
   options.unit = unit;
   options.allow_open = true;
   options.check_intersections = false;
-  const surfmesh::StitchResult wall =
-      surfmesh::stitch_surface({io::read_surface_file(file, context.run.part("read", 0.0, 0.3))}, options, context.run.part("stitch", 0.3, 1.0));
+  const InputPath input{file.string(), file};
+  const SurfaceValue wall = join_wall(read_wall_files(std::span(&input, 1), options, context.run.part("read", 0.0, 0.3)), context.run.part("stitch", 0.3, 1.0));
   std::vector<PatchSum> sums(wall.mesh.patches.size());
   for (const TriangleId t : wall.mesh.triangles.ids()) {
     PatchSum& sum = sums[wall.mesh.triangle_patch[t].index()];
@@ -95,8 +98,8 @@ Json part_json(const PartMeasures& part) {
           {"box", box_json(part.box)}};
 }
 
-Json of_model(const std::string& file, const CommandContext& context) {
-  const ModelValue value = read_model({file, file}, {}, context.run.part("read", 0.0, 0.5));
+Json of_model(const std::string& file, std::optional<double> unit, const CommandContext& context) {
+  const ModelValue value = read_model({file, file}, {.unit = unit.value_or(k_automatic)}, context.run.part("read", 0.0, 0.5));
   const ModelReport measures = measure_model(value, context.run.part("measure", 0.5, 1.0));
   Json json = {{"kind", "model"}};
   json["total"] = part_json(measures.total);
@@ -122,15 +125,16 @@ Json of_model(const std::string& file, const CommandContext& context) {
 
 }  // namespace
 
-std::string info_json(const std::string& file, double unit, const CommandContext& context) {
+std::string info_json(const std::string& file, std::optional<double> given_unit, const CommandContext& context) {
   Json json = {{"schema", "sterna-info-1"}, {"program", "sterna " STERNA_VERSION}, {"file", file}};
   if (is_model_file(file)) {
-    json.update(of_model(file, context));
+    json.update(of_model(file, given_unit, context));
     return json.dump(2) + "\n";
   }
   const io::Format& format = io::format_of(file);
   if (!std::filesystem::exists(file)) throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + file, .problem = "there is no such file"});
   json["format"] = format.name;
+  const double unit = given_unit.value_or(1.0);
   json["unit"] = unit;
   if (format.read_volume) {
     const MeshValue mesh = read_mesh({file, file}, context.run);

@@ -2,7 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <iterator>
+
 #include "geom/base/error.h"
+#include "geom/mesh/half.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/flow_verbs.h"
@@ -10,6 +14,7 @@
 #include "scripting/values/layer_options.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
+#include "scripting/verbs/half_verbs.h"
 #include "scripting/verbs/source_verbs.h"
 
 namespace sterna::scripting {
@@ -36,6 +41,18 @@ bool is_given(const InspectCommand& command, std::string_view name) {
   return std::ranges::any_of(command.options, [&](const auto& option) {
     return option.first == name || option.first == "envelope." + std::string(name) || option.first == "family." + std::string(name);
   });
+}
+
+bool is_of_half(const std::string& name) { return name.starts_with("half."); }
+OptionOverrides half_options_of(const OptionOverrides& given) {
+  OptionOverrides result;
+  std::ranges::copy_if(given, std::back_inserter(result), [](const auto& option) { return is_of_half(option.first); });
+  return result;
+}
+OptionOverrides options_but_half(const OptionOverrides& given) {
+  OptionOverrides result;
+  std::ranges::copy_if(given, std::back_inserter(result), [](const auto& option) { return !is_of_half(option.first); });
+  return result;
 }
 
 std::string names_of(const InspectCommand& command) {
@@ -67,6 +84,10 @@ void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std
       ->type_name("SOURCE")
       ->allow_extra_args(false)
       ->take_all();
+  command.add_flag(
+      "--half", inspect.is_half,
+      "inspect the half of the surface beside a plane, as `sterna mesh --half` meshes it, by default y = 0 on the side of y > 0; others with --set "
+      "half.axis=z --set half.at=0.5 --set half.keep=-");
   surfmesh::StitchOptions surface;
   volmesh::InspectRequest request;
   add_schema_options(command, inspect_options(surface, request), inspect.options);
@@ -90,13 +111,34 @@ int execute(const InspectCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   for (const std::string& source : command.sources) request.volume.sources.push_back(source_of_text(source));
   request.volume.patches = layer_rules_of(command.patches, is_model ? &recipe.patches : nullptr);
-  set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), command.options, context);
+  if (is_model)
+    for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
+  HalfOptions half;
+  const OptionOverrides of_half = half_options_of(command.options), others = options_but_half(command.options);
+  if (!command.is_half && !of_half.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + of_half.front().first, .problem = "is given without --half"});
+  CommandContext silent = context;
+  silent.only_options = false;
+  set_options(sterna::options_of(half), of_half, silent);
+  surfmesh::StitchOptions unused_stitching;
+  SurfaceRecipe unused_recipe;
+  ReadCadOptions unused_reading;
+  const std::string name_of_input = command.inputs.front();
+  const OptionsElsewhere elsewhere = is_model
+                                         ? OptionsElsewhere{sterna::options_of(unused_stitching), "is for triangulations, and " + name_of_input + " is a model"}
+                                         : OptionsElsewhere{model_surface_options(unused_recipe.options, unused_reading),
+                                                            "is for the faces of models, and " + name_of_input + " is a triangulation"};
+  set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), others, context, {elsewhere});
+  if (command.is_half) surface.allow_open = true;
   choose_solve_for(
       request.volume, [&](std::string_view name) { return is_given(command, name); }, "reading the options");
   choose_family_wake(request.volume, is_given(command, "refinement"));
   if (!command.flow.empty()) request.flow = quantity_of_text("y_plus 1 " + command.flow).flow;
   if (!command.output.empty()) require_inspection_output(command.output);
-  const Inspection report = is_model ? inspect_models(inputs, reading, recipe, request, context.run) : inspect_files(inputs, surface, request, context.run);
+  const SurfaceChange cut =
+      !command.is_half ? SurfaceChange() : [&](const SurfaceValue& whole, const RunContext& part) { return half_surface(whole, half, part); };
+  const Inspection report =
+      is_model ? inspect_models(inputs, reading, recipe, request, context.run, cut) : inspect_files(inputs, surface, request, context.run, cut);
   context.console.end_progress();
   const std::string name = names_of(command);
   context.console.print(command.is_json ? json_of(report, name) : text_of(report, name));

@@ -29,6 +29,7 @@ struct InspectCommand {
   std::filesystem::path output;
   bool is_json = false;
   bool is_strict = false;  ///< warnings count, too
+  bool is_half = false;    ///< the half of the surface
 };
 
 /// Adds the arguments of the command, and calls `chosen` where it was chosen.

@@ -1,6 +1,8 @@
 // The commands on files of models: STEP, IGES, BREP, sumo, CPACS.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "geom/base/error.h"
 #include "geom/cad/unite.h"
 #include "scripting/cli/commands.h"
@@ -26,7 +28,7 @@ InputPath input_of(const std::string& name) { return {name, name}; }
 
 int print_model_info(const InfoCommand& command, const CommandContext& context) {
   ReadCadOptions options;
-  if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}}, context);
+  if (!command.unit.empty()) set_options(sterna::options_of(options), {{"unit", command.unit}}, context);
   const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_model_read_end));
   const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
   context.console.end_progress();
@@ -45,6 +47,8 @@ int check_model(const CheckCommand& command, const CommandContext& context) {
                  .hint = "sterna check mesh.su2 --model " + command.input});
   if (command.is_json)
     throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
+  refuse_without_effect(command.given, {"--findings-per-kind", "--strict", "--cell-centred", "--no-cell-centred", "--cells", "--gate", "--intersections"},
+                        "check", command.input + " is a model, of which check says whether it is closed");
   const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
   context.console.end_progress();
   context.console.print(describe(value));
@@ -60,12 +64,39 @@ OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCad
   return table;
 }
 
+namespace {
+
+/// With --auto the command takes triangulations, too, whose triangles stay or are wrapped: sizes of faces have no effect on them.
+void refuse_on_triangulations(const SurfaceCommand& command) {
+  const auto input = std::ranges::find_if(command.inputs, [](const std::string& name) { return !is_model_file(name); });
+  if (input == command.inputs.end() || !command.is_auto) return;  // without --auto a triangulation is refused
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const auto& [name, text] : command.options)
+    if (name != "unit" && name != "read_cad.unit") add(name);
+  if (!command.sources.empty()) add("--source");
+  surfmesh::PatchSurfaceOptions sizes;
+  const OptionTable table = patch_rule_options(sizes);
+  for (const auto& [pattern, options] : command.patches)
+    for (const auto& [name, text] : options)
+      if (std::ranges::find(table, name, &Option::name) != table.end()) add("--patch " + pattern + ":" + name);
+  if (names.empty()) return;
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "surface",
+               .problem = "no effect on a triangulation, which " + *input + " is: " + names,
+               .hint = "`sterna remesh " + *input + " ...` gives it new triangles with these sizes"});
+}
+
+}  // namespace
+
 int execute(const SurfaceCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
   set_options(model_surface_options(recipe.options, reading), command.options, context);
   const std::vector<volmesh::PatchRule> layers = layer_rules_of(command.patches, &recipe.patches);
   for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
+  if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
+  refuse_on_triangulations(command);
   for (const auto& output : command.outputs) require_surface_output(output);
   std::vector<InputPath> inputs;
   for (const std::string& name : command.inputs) inputs.push_back(input_of(name));
@@ -118,6 +149,7 @@ int convert_model(const ConvertCommand& command, const CommandContext& context) 
                  .attempted = "convert",
                  .problem = "--format and --surface are for meshes; " + command.input + " is a model",
                  .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
+  refuse_without_effect(command.given, {"--numbering"}, "convert", command.input + " is a model, which has no cells");
   ReadCadOptions reading;
   WriteCadOptions writing;
   OptionTable table = sterna::options_of(reading);

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "geom/base/error.h"
@@ -14,6 +13,14 @@ std::string kebab(std::string_view name) {
   std::string text(name);
   std::replace(text.begin(), text.end(), '_', '-');
   return text;
+}
+
+/// "NUMBER[deg]": with the unit of a number that is given without one.
+std::string type_name(const Option& option) {
+  if (option.kind == OptionKind::boolean) return "[true|false]";
+  if (option.kind == OptionKind::text) return "TEXT";
+  if (option.unit == Unit::none) return "NUMBER";
+  return "NUMBER[" + std::string(option.unit == Unit::radian ? "deg" : to_string(option.unit)) + "]";
 }
 
 /// "stage.option=value" as name and value.
@@ -38,7 +45,7 @@ void add_set_option(CLI::App& command, OptionOverrides& overrides) {
       ->take_all();
 }
 
-void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
+void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides, const std::string& note) {
   for (const Option& option : table) {
     const std::string name(option.name);
     std::string help = std::string(option.help) + "; " + option.default_text();
@@ -50,23 +57,19 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
           for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
         },
         help);
-    added->group("Options of stage " + std::string(option.stage));
-    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
+    added->group("Options of stage " + std::string(option.stage) + (note.empty() ? "" : ", " + note));
+    added->type_name(type_name(option));
     added->allow_extra_args(false)->take_all();
     if (option.kind == OptionKind::boolean) added->expected(0, 1);
   }
 }
 
-std::string with_degrees(const std::string& name, const std::string& text) {
-  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
-  if (value > k_surely_degrees) return text + "deg";
-  throw Error({.code = ErrorCode::bad_argument,
-               .attempted = "option curvature_angle",
-               .problem = text + " may be degrees or radians",
-               .hint = "write " + text + "deg or " + text + "rad"});
+std::vector<std::string> given_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0)
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
 }
 
 void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help, const std::string& name) {

@@ -16,11 +16,10 @@ namespace sterna::scripting {
 
 /// --set stage.option=value
 void add_set_option(CLI::App& command, OptionOverrides& overrides);
-/// One --kebab-name for each option of the schema, grouped by stage.
-void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides);
-/// A bare number of an angle is in degrees here; what could be either is left as it is, and refused.
-/// \throws Error(bad_argument)
-std::string with_degrees(const std::string& name, const std::string& text);
+/// One --kebab-name for each option of the schema, grouped by stage. \param note behind the group's name, such as "of triangulations only"
+void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides, const std::string& note = {});
+/// Names of the options that the command line gives to this command: "--json".
+std::vector<std::string> given_options(const CLI::App& command);
 /// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
 /// \param name of the option, where it is another one of the same form
 void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
@@ -22,14 +23,28 @@ OptionTable not_meant(const OptionTable& table, const OptionOverrides& given) {
   return result;
 }
 
+bool has_option(const OptionTable& table, const std::string& name) {
+  return std::ranges::any_of(table,
+                             [&](const Option& option) { return option.name == name || std::string(option.stage) + "." + std::string(option.name) == name; });
+}
+
+std::string why_elsewhere(const OptionTable& table, const std::string& name, const std::vector<OptionsElsewhere>& elsewhere) {
+  if (has_option(table, name)) return {};
+  for (const OptionsElsewhere& other : elsewhere)
+    if (has_option(other.table, name)) return other.why;
+  return {};
+}
+
 }  // namespace
 
-void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context) {
+void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context, const std::vector<OptionsElsewhere>& elsewhere) {
   std::string problems;
   std::size_t n_problems = 0;
   std::map<std::string, std::pair<std::string, OptionValue>> before;  // what options were set to, by full name
   for (const auto& [name, text] : given) {
     try {
+      if (const std::string why = why_elsewhere(table, name, elsewhere); !why.empty())
+        throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + name, .problem = why});
       const Option& option = find_option(table, name, "option " + name);
       set_option_as_typed(option, text);
       const auto [same, is_new] = before.try_emplace(std::string(option.stage) + "." + std::string(option.name), text, option.get());
@@ -53,6 +68,19 @@ void set_options(const OptionTable& table, const OptionOverrides& given, const C
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "reading the options",
                .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
+}
+
+void refuse_without_effect(const std::vector<std::string>& given, std::initializer_list<std::string_view> without_effect, const std::string& attempted,
+                           const std::string& why, const std::string& hint) {
+  std::string names;
+  int n = 0;
+  for (const std::string_view name : without_effect) {
+    if (std::ranges::find(given, name) == given.end()) continue;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+    ++n;
+  }
+  if (n == 0) return;
+  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = names + (n == 1 ? " has" : " have") + " no effect: " + why, .hint = hint});
 }
 
 }  // namespace sterna::scripting

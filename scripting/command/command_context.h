@@ -2,7 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
@@ -24,8 +27,19 @@ struct OptionsShown {
   std::string json;
 };
 
+/// Options that the command has for other inputs, or with another flag; whoever gives one of them here is told why it has no effect.
+struct OptionsElsewhere {
+  OptionTable table;
+  std::string why;  ///< "is for models (STEP ...), and wall.stl is a triangulation"
+};
+
 /// Sets every option; all problems are reported together, also options that are given twice with different values.
 /// \throws Error(bad_argument); OptionsShown
-void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context);
+void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context, const std::vector<OptionsElsewhere>& elsewhere = {});
+
+/// \param given as given_options has it. \throws Error(bad_argument) that names those of `without_effect` that were given: "--strict has no effect: a.step is a
+/// model"
+void refuse_without_effect(const std::vector<std::string>& given, std::initializer_list<std::string_view> without_effect, const std::string& attempted,
+                           const std::string& why, const std::string& hint = {});
 
 }  // namespace sterna::scripting

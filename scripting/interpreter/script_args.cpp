@@ -28,13 +28,16 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
 }
 
-/// "4", "2.5mm", "10*deg": a number in SI.
+/// "4", "2.5mm", "10*deg", "288K": a number in SI; without a unit as it is, because only the script can say what it is of (number{}).
 std::optional<double> number_of_text(const std::string& text) {
-  try {
-    return parse_number_with_unit(text, text.find_first_of("dr") == std::string::npos ? Unit::metre : Unit::radian);
-  } catch (const Error&) {
-    return std::nullopt;  // no number: the caller decides what else it may be
+  for (const Unit unit : {Unit::metre, Unit::radian, k_kelvin}) {
+    try {
+      return parse_number_with_unit(text, unit, BareAngle::radians);  // a number alone is taken as a length: as it is
+    } catch (const Error&) {
+      continue;  // of another dimension, or no number: the caller decides what else it may be
+    }
   }
+  return std::nullopt;
 }
 
 /// A text as the value that it looks like.

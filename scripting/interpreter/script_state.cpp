@@ -18,6 +18,7 @@
 #include "scripting/lua/script_watch.h"
 #include "scripting/values/cached_model.h"
 #include "scripting/values/script_key.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
 
 namespace sterna::scripting {

@@ -5,7 +5,7 @@
     mesh = sterna.mesh("wall.stl", "case.su2", layers=30, first_height=1e-5, farfield="sphere radius=400")
     print(mesh["verdict"], mesh["mesh"]["nodes"], sterna.check("case.su2")["quality_verdict"])
 
-Options are those of the command line with _ for - (`sterna mesh --help`): numbers, text, True and False; a list gives an option several times. Lengths are metres, angles radians
+Options are those of the command line with _ for - (`sterna mesh --help`): numbers, text, True and False; a list gives an option several times. Lengths are metres, angles degrees
 or text with a unit ("12*deg"), as there. What goes wrong raises SternaError with the program's own words.
 """
 from __future__ import annotations

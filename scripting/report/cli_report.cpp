@@ -22,7 +22,7 @@ constexpr double k_megabyte = 1e6;
 
 }  // namespace
 
-std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable& limits,
+std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable* limits,
                                           const RunContext& context) {
   const std::string name = std::filesystem::path(input.name).filename().string();
   const RunContext reading = context.part("read", 0.0, k_read_end), writing = context.part("report", k_check_end, 1.0);
@@ -34,10 +34,14 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
   if (io::format_of(input.path).read_volume) {
     const MeshValue mesh = read_mesh(input, reading);
     if (count_cells(mesh.mesh).total() > 0) {
-      mesh.check = check(mesh.mesh, {.limits = limits}, context.part("check", k_read_end, k_check_end));
+      mesh.check = check(mesh.mesh, limits ? CheckOptions{.limits = *limits} : CheckOptions{}, context.part("check", k_read_end, k_check_end));
       return {report_html(mesh, options, cuts, name, writing), !mesh.check->is_valid()};
     }
   }
+  if (limits)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "a report of " + input.name,
+                 .problem = "--gate has no effect: the file holds a surface, and gates are of volume meshes"});
   if (!cuts.empty())
     throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a surface, which has no cells to cut"});
   surfmesh::StitchOptions stitching;
@@ -88,7 +92,7 @@ int execute(const ReportCommand& command, const CommandContext& context) {
   require_report_cuts(command.cuts);
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
-  const auto [html, is_invalid] = page_of_file({command.input, command.input}, options, command.cuts, limits, context.run);
+  const auto [html, is_invalid] = page_of_file({command.input, command.input}, options, command.cuts, command.gates.empty() ? nullptr : &limits, context.run);
   write_page(html, command.output, context.run);
   context.console.end_progress();
   return is_invalid ? k_exit_invalid : k_exit_success;

@@ -32,7 +32,7 @@ int execute(const ReportCommand& command, const CommandContext& context);
 void require_page_output(const std::filesystem::path& path);
 /// The page of a volume mesh or surface file, and whether the mesh is INVALID.
 /// \throws Error(bad_argument) for a model, and for cuts of a surface; what reading throws; as report_html
-std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable& limits,
+std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable* limits,
                                           const RunContext& context);
 /// The page appears whole or not at all.
 /// \throws Error(write_failed)

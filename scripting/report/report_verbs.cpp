@@ -66,7 +66,7 @@ ScriptValue make_report(const ScriptCall& call) {
   const std::filesystem::path path = output_path(call, *output);
   const std::string name = path.stem().string();
   const RunContext context = call.session.context.part("report", 0.0, 1.0);
-  if (file) write_page(page_of_file(find_input(call, *file), options, cuts, {}, context).first, path, call.session.context);
+  if (file) write_page(page_of_file(find_input(call, *file), options, cuts, nullptr, context).first, path, call.session.context);
   else write_page(mesh ? report_html(**mesh, options, cuts, name, context) : report_html(**surface, options, name, context), path, call.session.context);
   return std::monostate{};
 }

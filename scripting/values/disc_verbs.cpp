@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "geom/base/error.h"
-#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/values/typed_number.h"
 
 namespace sterna::scripting {
 
@@ -130,7 +130,7 @@ ActuatorDisc disc_of_text(const std::string& text) {
     std::vector<ScriptValue> values;
     std::istringstream list(word.substr(equals + 1));
     const std::string key = word.substr(0, equals);
-    for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value, key == "axis" ? Unit::none : Unit::metre));
+    for (std::string value; std::getline(list, value, ',');) values.push_back(typed_number(value, key == "axis" ? Unit::none : Unit::metre));
     ScriptValue& field = table.fields[key];
     if (values.size() == 1) field = values.front();
     else field = std::make_shared<const ScriptTable>(ScriptTable{.items = std::move(values), .fields = {}, .other_keys = {}});

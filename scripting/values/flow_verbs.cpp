@@ -8,6 +8,7 @@
 #include "geom/base/error.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
 #include "volmesh/flow/boundary_layer.h"
 

@@ -134,7 +134,8 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
 
 }  // namespace
 
-Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context) {
+Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context,
+                         const SurfaceChange& cut) {
   WallFiles files = read_wall_files(inputs, options, context.part("read", 0.0, 0.5 * k_joined));
   files.wall.options.check_intersections = false;  // inspect_wall finds the pairs itself
   std::optional<Finding> refusal;
@@ -152,6 +153,7 @@ Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::Stit
   Inspection report;
   const RunContext inspecting = context.part("inspect", k_joined, k_inspected);
   if (wall) {
+    if (cut) wall = cut(*wall, context.part("half", k_joined, k_joined));
     request.volume = with_wall_facts(*wall, request.volume);
     static_cast<InspectReport&>(report) = volmesh::inspect_wall(wall->mesh, request, inspecting);
     if (refusal) replace_finding(report, std::move(*refusal));
@@ -189,7 +191,7 @@ Inspection inspect_surface(const SurfaceValue& surface, InspectRequest request, 
 }
 
 Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, InspectRequest request,
-                          const RunContext& context) {
+                          const RunContext& context, const SurfaceChange& cut) {
   std::optional<Error> refusal;
   SurfaceValue surface;
   try {
@@ -211,7 +213,8 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
       return report;
     }
   }
-  Inspection report = inspect_joined(surface, request, true, context.part("inspect", k_joined, 1.0));
+  if (cut) surface = cut(surface, context.part("half", k_joined, k_joined));
+  Inspection report = inspect_joined(surface, request, !cut, context.part("inspect", k_joined, 1.0));
   if (refusal) replace_finding(report, finding_of(*refusal, request));
   complete_for_model(report.preparation, static_cast<std::int64_t>(surface.mesh.n_triangles()), surface.changes, names_of(files));
   return report;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -17,14 +18,18 @@ struct Inspection : volmesh::InspectReport {
   Preparation preparation;
 };
 
+using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunContext&)>;
+
 /// Reads the files and joins them as read_surface does; what that refuses is a finding, and as much as can be is looked at all the same. The rules of manifests
 /// beside the files come before those of the request.
 /// \throws Error of io (no such file, no such format), cancelled
-Inspection inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request, const RunContext& context);
+/// \param cut where it is given: what is done to the surface before (half)
+Inspection inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request, const RunContext& context,
+                         const SurfaceChange& cut = {});
 /// Meshes the models' faces as mesh_model_files does, and inspects that surface; where that refuses them, their triangles with what crosses.
 /// \throws Error of reading models and of options; of meshing them only where it is not about the surface; cancelled
 Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, volmesh::InspectRequest request,
-                          const RunContext& context);
+                          const RunContext& context, const SurfaceChange& cut = {});
 /// \throws Error(cancelled)
 Inspection inspect_surface(const SurfaceValue& surface, volmesh::InspectRequest request, const RunContext& context);
 

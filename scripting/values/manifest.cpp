@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "io/file/input_hash.h"
 #include "io/output/atomic_file.h"
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/geometry_changes.h"
@@ -91,11 +92,12 @@ Json improvement_json(const volmesh::ImproveReport& report) {
 
 }  // namespace
 
-std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed) {
+std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash) {
   Json json;
   json["schema"] = "sterna-manifest-1";
   json["program"] = "sterna " STERNA_VERSION;
   json["output"] = output.filename().string();
+  if (!hash.empty()) json["output_xxh3_128"] = hash;
   json["seed"] = seed;
   json["inputs"] = Json::array();
   for (const InputFile& input : mesh.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
@@ -154,7 +156,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
 std::filesystem::path manifest_path(const std::filesystem::path& output) { return (output.has_filename() ? output : output.parent_path()).string() + ".json"; }
 
 void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context) {
-  io::write_whole(manifest_path(output), manifest_json(mesh, output, context.seed()));
+  io::write_whole(manifest_path(output), manifest_json(mesh, output, context.seed(), io::hash_input(output)));
 }
 
 }  // namespace sterna::scripting

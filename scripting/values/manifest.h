@@ -8,13 +8,14 @@
 
 namespace sterna::scripting {
 
-/// JSON text of the manifest, schema "sterna-manifest-1".
-std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed);
+/// JSON text of the manifest, schema "sterna-manifest-1". \param hash io::hash_input of the finished file, by which a later run knows that the manifest is of
+/// it
+std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash = {});
 
 /// Where the manifest of a mesh goes: NAME.json beside it, also of a folder with a slash at its end.
 std::filesystem::path manifest_path(const std::filesystem::path& output);
 
-/// Writes it there, whole or not at all.
+/// Writes it there, whole or not at all. \pre `output` is the finished file
 /// \throws Error(write_failed).
 void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context);
 

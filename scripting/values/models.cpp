@@ -86,7 +86,25 @@ ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSet
   return result;
 }
 
+namespace {
+
+/// Files of components (sumo, CPACS) are data in metres: nothing of reading CAD has an effect on them.
+void refuse_cad_options(const InputPath& file, ReadCadOptions options) {
+  for (const Option& option : sterna::options_of(options)) {
+    const OptionValue value = option.get();
+    const double* number = std::get_if<double>(&value);
+    if (number && is_automatic(*number) ? is_automatic(std::get<double>(option.default_value)) : value == option.default_value) continue;
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "reading " + file.name,
+                 .problem = "option read_cad." + std::string(option.name) + " has no effect: the file holds components as data, in metres",
+                 .hint = "leave it out; it is for STEP, IGES and BREP"});
+  }
+}
+
+}  // namespace
+
 ModelValue read_model(const InputPath& file, const ReadCadOptions& options, const RunContext& context) {
+  if (is_smx(file.path) || is_xml(file.path)) refuse_cad_options(file, options);
   if (is_smx(file.path)) return read_smx_model(file, context);
   if (is_xml(file.path)) return read_cpacs_model(file, context);
   CadFile cad = io::read_cad(file.path, options, context);

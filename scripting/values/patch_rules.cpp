@@ -7,6 +7,7 @@
 #include "geom/base/glob.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/model_surface.h"
+#include "scripting/values/typed_number.h"
 #include "volmesh/envelope/patch_layers.h"
 
 namespace sterna::scripting {
@@ -109,7 +110,16 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
     surfmesh::PatchSurfaceOptions size{.names = names};
     if (sizes) sizes->push_back(size);
     const OptionTable table = sizes ? surface_and_layer_options(sizes->back(), rules.back()) : patch_rule_options(rules.back());
-    for (const auto& [name, text] : options) set_option_as_typed(find_option(table, name, "--patch \"" + names + "\""), text);
+    const std::string attempted = "--patch \"" + names + "\"";
+    for (const auto& [name, text] : options) {
+      if (const OptionTable of_surface = patch_rule_options(size);
+          !sizes && std::ranges::find(table, name, &Option::name) == table.end() && std::ranges::find(of_surface, name, &Option::name) != of_surface.end())
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = attempted,
+                     .problem = name + " is a size of triangles, and those of a triangulation stay as they are",
+                     .hint = "--remesh gives the surface new triangles with such sizes"});
+      set_option_as_typed(find_option(table, name, attempted), text);
+    }
   }
   if (sizes) {
     keep_set_rules(rules);

@@ -1,5 +1,6 @@
 #include "scripting/values/surface_manifest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -112,7 +113,6 @@ std::vector<std::string> changes_of(const Json& json, const InputPath& file) {
 }  // namespace
 
 std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written) {
-  const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
   Json json = {{"schema", k_schema},
                {"program", "sterna " STERNA_VERSION},
                {"output", written.filename().string()},
@@ -120,7 +120,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
                {"inputs", Json::array()}};
   for (const InputFile& input : surface.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
   SurfaceRecipe recipe = surface.recipe.value_or(SurfaceRecipe{});
-  json["options"] = Json::parse(options_to_json(sterna::options_of(recipe.options)));
+  if (surface.recipe || surface.mesh_report) json["options"] = Json::parse(options_to_json(sterna::options_of(recipe.options)));
   if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
   json["patches"] = Json::array();
   Column<PatchId, std::int64_t> n_triangles(surface.mesh.patches.size(), 0);
@@ -134,10 +134,19 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
   json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
                   {"triangles", surface.mesh.n_triangles()},
                   {"closed", surface.report.is_closed},
-                  {"free_edges", report.n_free_edges},
-                  {"encloses_fluid", encloses_fluid(surface.mesh)}};
-  json["quality"] = quality_json(report);
+                  {"encloses_fluid", surface.mesh_report || surface.report.is_closed ? encloses_fluid(surface.mesh) : surface.options.fluid == "inside"}};
+  if (surface.mesh_report) {
+    json["mesh"]["free_edges"] = surface.mesh_report->n_free_edges;
+    json["quality"] = quality_json(*surface.mesh_report);
+  } else if (surface.smooth_angle) {
+    json["quality"] = {{"max_smooth_angle", {{"degrees", k_degrees * *surface.smooth_angle}}}};
+  }
   return json.dump(2) + "\n";
+}
+
+bool has_surface_manifest(const SurfaceValue& surface) {
+  return surface.mesh_report || surface.smooth_angle || !surface.layers.empty() || !surface.changes.empty() ||
+         std::ranges::any_of(surface.mesh.patches, [](const Patch& patch) { return patch.kind != PatchKind::wall; });
 }
 
 void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::path& written) {
@@ -150,20 +159,30 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
   if (!json.is_object() || json.value("schema", Json()) != k_schema) return std::nullopt;  // somebody else's file
   if (json.value("output_xxh3_128", Json()) != hash) {
-    context.info(file.name + ".json is of another state of " + file.name + " and does not count");
+    context.warn(file.name + ".json is of another state of " + file.name +
+                 ": kinds of patches and rules for layers in it do not count. Write the surface anew, or delete it");
     return std::nullopt;
   }
   const Json::json_pointer pointer("/quality/max_smooth_angle/degrees");
-  if (!json.contains(pointer) || !json.at(pointer).is_number() || !(json.at(pointer).get<double>() >= 0.0 && json.at(pointer).get<double>() <= 180.0))
-    refuse_manifest(file, "its quality.max_smooth_angle.degrees is no angle");
+  std::optional<double> smooth_angle;
+  if (json.contains("quality")) {
+    if (!json.contains(pointer) || !json.at(pointer).is_number() || !(json.at(pointer).get<double>() >= 0.0 && json.at(pointer).get<double>() <= 180.0))
+      refuse_manifest(file, "its quality.max_smooth_angle.degrees is no angle");
+    smooth_angle = json.at(pointer).get<double>() / k_degrees;
+  }
   const Json::json_pointer inside("/mesh/encloses_fluid");
   const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
-  return KnownSurface{json.at(pointer).get<double>() / k_degrees,
+  return KnownSurface{smooth_angle,
                       kinds_of(json, file),
                       encloses,
                       layer_rules_of_json(json.value("layers", Json::array()).dump()),
                       changes_of(json, file),
                       changed_of_json(json.value("changed", Json::array()).dump())};
+}
+
+void set_kinds(Column<PatchId, Patch>& patches, const std::map<std::string, PatchKind>& kinds) {
+  for (Patch& patch : patches)
+    if (const auto kind = kinds.find(patch.name); kind != kinds.end()) patch.kind = kind->second;
 }
 
 }  // namespace sterna::scripting

@@ -20,6 +20,7 @@
 #include "scripting/values/geometry_changes.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/manifest.h"
+#include "scripting/values/mesh_manifest.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_manifest.h"
 #include "scripting/values/wall_files.h"
@@ -68,8 +69,8 @@ WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::Stit
     require_surface(result.soups.back(), file, options);
     wall.inputs.push_back({file.name, io::hash_input(file.path)});
     const auto known = read_surface_manifest(file, wall.inputs.back().hash, context);
-    if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;
-    else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, known->smooth_angle);
+    if (!known || !known->smooth_angle || wall.inputs.size() == 1) wall.smooth_angle = known ? known->smooth_angle : std::nullopt;
+    else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, *known->smooth_angle);
     if (known) {
       if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
       result.kinds.insert(known->kinds.begin(), known->kinds.end());
@@ -88,8 +89,7 @@ SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
   surfmesh::StitchResult stitched = surfmesh::stitch_surface(files.soups, wall.options, context);
   wall.mesh = std::move(stitched.mesh);
   wall.report = std::move(stitched.report);
-  for (Patch& patch : wall.mesh.patches)
-    if (const auto kind = files.kinds.find(patch.name); kind != files.kinds.end()) patch.kind = kind->second;
+  set_kinds(wall.mesh.patches, files.kinds);
   for (const std::string& text : wall.report.warnings) context.warn(text);
   note_reading(wall, files.soups, context);
   return wall;
@@ -127,6 +127,8 @@ SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const
     }
     parts.push_back({read.inputs.empty() ? "" : std::filesystem::path(read.inputs.front().name).stem().string(), std::move(read.mesh)});
     for (InputFile& input : read.inputs) result.inputs.push_back(std::move(input));
+    result.layers.insert(result.layers.end(), read.layers.begin(), read.layers.end());
+    result.changes.insert(result.changes.end(), read.changes.begin(), read.changes.end());
   }
   const StageTimer timer(context, "union");
   UnionResult united = unite_meshes(parts, options, context.part("union", k_union_read_end, 1.0));
@@ -146,6 +148,9 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context) {
   MeshValue value;
   value.mesh = io::read_volume_file(file.path, context.part("read", 0.0, 1.0));
   value.inputs.push_back({file.name, io::hash_input(file.path)});
+  complete_from_manifest(value, file, value.inputs.back().hash, context);
+  if (!value.unknown_kinds.empty() && count_cells(value.mesh).total() > 0)
+    context.warn("the kind of " + quoted_list(value.unknown_kinds) + " is not known and taken as wall: " + why_kinds_are_unknown(file));
   return value;
 }
 
@@ -212,32 +217,13 @@ void write_surface(const SurfaceValue& surface, const std::filesystem::path& pat
           fmt::format("{}: STL is single precision, which puts {} of {} vertices onto others: read again, the surface may be open or touch itself there. "
                       ".obj, .ply and .off keep all digits",
                       path.string(), count_text(n), count_text(static_cast<std::int64_t>(surface.mesh.n_vertices()))));
-  if (surface.mesh_report) write_surface_manifest(surface, path);
+  if (has_surface_manifest(surface)) write_surface_manifest(surface, path);
 }
 
 OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& volume) {
   OptionTable table = sterna::options_of(surface);
   for (Option& option : volmesh::options_of(volume)) table.push_back(std::move(option));
   return table;
-}
-
-void set_option_as_typed(const Option& option, std::string_view text) {
-  if (is_flow_text(text) && option.kind == OptionKind::number && option.unit == Unit::metre)
-    return set_option(option, quantity_of_text(std::string(text)).metres);
-  const bool is_bare_unit = option.kind == OptionKind::number && option.unit == Unit::metre && !text.empty() &&
-                            std::isalpha(static_cast<unsigned char>(text.front())) && text != "automatic";
-  try {
-    set_option_from_text(option, is_bare_unit ? "1*" + std::string(text) : std::string(text));
-  } catch (const Error& error) {
-    if (option.unit != Unit::radian && !is_bare_unit) throw;
-    ErrorInfo info = error.info();
-    if (is_bare_unit) {
-      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, um, cm, inch, in, ft)";
-      throw Error(std::move(info));
-    }
-    if (text.find("deg") == std::string_view::npos) info.hint = "angles are in radians; write degrees as 40deg";
-    throw Error(std::move(info));
-  }
 }
 
 }  // namespace sterna::scripting

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <variant>
@@ -95,6 +96,7 @@ struct MeshValue {
   std::optional<MeshOrigin> origin;
   mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so
                                              ///< that manifests and reports say what that found
+  std::set<std::string> unknown_kinds = {};  ///< patches of a file of which neither it, nor a manifest, nor their name says what they are
 };
 
 /// Reads the files and joins them to one surface; manifests beside them say how far smooth places turn.
@@ -107,8 +109,9 @@ using UnionItem = std::variant<SurfaceHandle, InputPath>;
 /// \throws Error of read_wall and of unite_meshes.
 SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context);
 
-/// Reads a volume mesh.
-/// \throws Error of io.
+/// Reads a volume mesh, with what the manifest beside it knows (mesh_manifest.h); patches whose kind nothing says are a warning. Every command and verb that
+/// takes a volume mesh reads it here.
+/// \throws Error of io, file_malformed of a manifest.
 MeshValue read_mesh(const InputPath& file, const RunContext& context);
 
 /// \throws Error unsupported_format or write_failed when a mesh of this name cannot be written: unknown extension, no such folder. Before the work.
@@ -126,15 +129,11 @@ void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path,
 
 /// \throws Error unsupported_format or write_failed when a surface cannot be written to a file of this name. Before the work.
 void require_surface_output(const std::filesystem::path& path);
-/// Writes a surface; format by extension; of one that surface_mesh made also its manifest "<path>.json".
+/// Writes a surface; format by extension; also its manifest "<path>.json" where there is something that the format cannot hold (has_surface_manifest).
 /// \throws Error of io.
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 
 /// The options of reading a surface and of all stages of the volume mesh, for `--set stage.option=value`. The arguments must outlive the table.
 OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& volume);
-
-/// set_option_from_text that also takes a bare unit for a length ("mm" is 1*mm) and says how angles are written.
-/// \throws Error(bad_argument)
-void set_option_as_typed(const Option& option, std::string_view text);
 
 }  // namespace sterna::scripting

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "geom/base/error.h"
-#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/values/typed_number.h"
 
 namespace sterna::scripting {
 
@@ -154,7 +154,10 @@ WakeSheet wake_sheet_of_text(const std::string& text) {
     }
     std::vector<ScriptValue> values;
     std::istringstream list(value);
-    for (std::string number; std::getline(list, number, ',');) values.push_back(parse_number_with_unit(number, Unit::none));
+    SheetNumbers numbers;
+    const OptionTable options = sterna::options_of(numbers);
+    const auto option = std::ranges::find(options, key, &Option::name);
+    for (std::string number; std::getline(list, number, ',');) values.push_back(typed_number(number, option == options.end() ? Unit::none : option->unit));
     ScriptValue& field = table.fields[key];
     if (values.size() == 1) field = values.front();
     else field = std::make_shared<const ScriptTable>(ScriptTable{.items = std::move(values), .fields = {}, .other_keys = {}});

@@ -4,12 +4,14 @@
 
 #include "geom/base/error.h"
 #include "io/file/format_table.h"
+#include "io/file/input_hash.h"
 #include "io/file/surface_file.h"
-#include "io/file/volume_file.h"
 #include "io/output/atomic_file.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/models.h"
+#include "scripting/values/surface_manifest.h"
+#include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -56,11 +58,12 @@ std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double u
                  .problem = "it is a model, which has no mesh yet",
                  .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces; draw what that writes"});
   if (io::format_of(input.path).read_volume) {
-    HybridMesh mesh = io::read_volume_file(input.path, context);
+    HybridMesh mesh = read_mesh(input, context).mesh;
     for (Point& p : mesh.points) p *= unit;
     if (count_cells(mesh).total() > 0) return mesh;
   }
   TriMesh surface = io::to_tri_mesh(io::read_surface_file(input.path, context));
+  if (const auto known = read_surface_manifest(input, io::hash_input(input.path), context)) set_kinds(surface.patches, known->kinds);
   for (Point& p : surface.points) p *= unit;
   return surface;
 }

@@ -9,6 +9,7 @@
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/verbs/source_verbs.h"
 
 namespace sterna::scripting {

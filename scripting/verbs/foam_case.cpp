@@ -67,7 +67,10 @@ Vec3 direction_of(const HybridMesh& mesh, const CaseSite& site, const CaseOption
 
 void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& reference, const RunContext& context) {
   std::string text = fmt::format("OpenFOAM: {}, {}, {} patches whose forces count", setup.application, setup.model, setup.monitored.size());
-  if (is_automatic(setup.area)) {
+  if (site.is_internal) {
+    text = fmt::format("OpenFOAM: {}, {}, an internal flow: postProcessing has mean pressures and flow rates of its openings", setup.application, setup.model);
+    if (setup.has_pressure_drop()) text += " and the pressure drop";
+  } else if (is_automatic(setup.area)) {
     text += "; no reference area, so forces in N and no coefficients";
   } else {
     text +=
@@ -82,6 +85,22 @@ void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& ref
     context.warn(
         fmt::format("OpenFOAM: Mach {:.3g} is above {}: {} solves for the pressure and may not converge with strong shocks; rhoCentralFoam runs in time",
                     setup.flow.mach, k_supersonic_advice, setup.application));
+}
+
+/// Options that were given and do nothing in this case.
+void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
+  const FoamOptions &given = setup.options, usual;
+  const auto warn = [&](bool is_given, const char* name, const std::string& why) {
+    if (is_given) context.warn(std::string("OpenFOAM: ") + name + " has no effect: " + why);
+  };
+  warn(given.turbulence_intensity != usual.turbulence_intensity && setup.model != "kOmegaSST", "turbulence_intensity",
+       "it is for the model kOmegaSST, and this is " + setup.model);
+  warn(!is_automatic(given.viscosity_ratio) && !setup.is_turbulent, "viscosity_ratio", "the model " + setup.model + " has no turbulence");
+  warn(!is_automatic(given.end_time) && given.steady, "end_time", "the run is steady, and ends after `iterations`");
+  warn(given.courant != usual.courant && given.steady, "courant", "the run is steady");
+  warn(given.residual != usual.residual && !given.steady, "residual", "the run is in time, and ends at end_time");
+  warn(setup.common.iterations != CaseOptions{}.iterations && !given.steady, "iterations", "the run is in time, and ends at end_time");
+  warn(!is_automatic(setup.common.wall_temperature) && !setup.is_compressible, "wall_temperature", "the flow is incompressible, and has no temperature");
 }
 
 }  // namespace
@@ -114,6 +133,10 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   setup.moment_origin = moment_origin(reference, setup.flow);
   const std::vector<std::string> names = io::foam_patch_names(mesh.patches, RunContext());
   for (const PatchId p : site.monitored) setup.monitored.push_back(names[p.index()]);
+  if (site.is_tunnel) {
+    for (const PatchId p : site.inflows) setup.inflows.push_back(names[p.index()]);
+    for (const PatchId p : site.outflows) setup.outflows.push_back(names[p.index()]);
+  }
 
   FoamCase result{.application = setup.application, .files = {}, .joined = {}};
   UsedBoundaries used(boundaries);
@@ -122,6 +145,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   problems.require_none("making a case of OpenFOAM");
   for (CaseFile& file : foam_settings(setup)) result.files.push_back(std::move(file));
   tell(setup, site, reference, context);
+  tell_without_effect(setup, context);
   return result;
 }
 

@@ -91,6 +91,38 @@ class FoamSettings {
            ";\n        CofR " + foam_vector(s_.moment_origin) + ";\n" + more + "    }\n";
   }
 
+  /// What a value at an opening is of: mean pressure in Pa (without compressibility the solver's times the density), flow rate in kg/s or m^3/s.
+  std::string at_opening(const std::string& patch, const std::string& operation, const std::string& field, const std::string& indent) const {
+    const bool is_scaled = field == "p" && !s_.is_compressible && s_.is_density_known;
+    return indent + "type surfaceFieldValue;\n" + indent + "libs (fieldFunctionObjects);\n" + indent + "writeControl timeStep;\n" + indent +
+           "writeInterval 1;\n" + indent + "log no;\n" + indent + "writeFields no;\n" + indent + "regionType patch;\n" + indent + "name " + patch + ";\n" +
+           indent + "operation " + operation + ";\n" + (is_scaled ? indent + "scaleFactor " + case_number(s_.density) + ";\n" : "") + indent + "fields (" +
+           field + ");\n";
+  }
+
+  /// Of tunnels and ducts: mean pressure and flow rate of each opening; from each inflow to each outflow the drop of pressure.
+  std::string openings() const {
+    std::string text;
+    const auto add = [&](const std::string& name, const std::string& content) { text += "    " + name + "\n    {\n" + content + "    }\n"; };
+    for (const auto* patches : {&s_.inflows, &s_.outflows})
+      for (const std::string& patch : *patches) {
+        add("pressure_" + patch, at_opening(patch, "areaAverage", "p", "        "));
+        add("flowRate_" + patch, at_opening(patch, "sum", "phi", "        "));
+      }
+    const auto region = [&](const char* name, const std::string& patch) {
+      return std::string("        ") + name + "\n        {\n" + at_opening(patch, "areaAverage", "p", "            ") + "        }\n";
+    };
+    const bool is_one = s_.inflows.size() == 1 && s_.outflows.size() == 1;
+    for (const std::string& in : s_.inflows)
+      for (const std::string& out : s_.outflows)
+        add(is_one ? "pressureDrop" : "pressureDrop_" + in + "_" + out,
+            "        type fieldValueDelta;\n        libs (fieldFunctionObjects);\n        writeControl timeStep;\n        writeInterval 1;\n        log no;\n  "
+            "      "
+            "operation subtract;\n" +
+                region("region1", in) + region("region2", out));
+    return text;
+  }
+
   std::string control() const {
     const double step = k_first_step * s_.flow.length / s_.flow.speed;
     const double end = is_automatic(s_.options.end_time) ? k_lengths_in_time * s_.flow.length / s_.flow.speed : s_.options.end_time;
@@ -101,8 +133,10 @@ class FoamSettings {
                        ";\npurgeWrite 2;\nwriteFormat " + (s_.options.format == "binary" ? "binary" : "ascii") +
                        ";\nwritePrecision 12;\ntimePrecision 12;\nrunTimeModifiable true;\n";
     if (!is_steady_) text += "adjustTimeStep yes;\nmaxCo " + case_number(s_.options.courant) + ";\n";
-    text += "\nfunctions\n{\n" + forces("forces", "forces", "");
-    if (!is_automatic(s_.area)) {
+    text += "\nfunctions\n{\n";
+    if (!s_.monitored.empty()) text += forces("forces", "forces", "");
+    text += openings();
+    if (!is_automatic(s_.area) && !s_.monitored.empty()) {
       const Vec3 drag = normalized(s_.velocity);
       // Lift stands on the flow, in the plane of x and z; moments nose-up.
       const Vec3 lift = std::hypot(drag.x, drag.z) > 0.0 ? normalized(Vec3{-drag.z, 0.0, drag.x}) : Vec3{0.0, 0.0, 1.0};

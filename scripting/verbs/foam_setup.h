@@ -19,15 +19,18 @@ struct FoamSetup {
   double nu = 0.0;       ///< m^2/s, kinematic viscosity
   double density = 1.0;  ///< kg/m^3, that forces are told with
   bool is_density_known = false;
-  Vec3 velocity;                       ///< m/s, of the free stream
-  double nu_tilda = 0.0;               ///< m^2/s
-  double k = 0.0;                      ///< m^2/s^2
-  double omega = 0.0;                  ///< 1/s
-  double area = k_automatic;           ///< m^2, reference; automatic: no coefficients
-  double length = 0.0;                 ///< m, reference
-  Point moment_origin;                 ///< m
-  std::vector<std::string> monitored;  ///< names of patches
+  Vec3 velocity;                               ///< m/s, of the free stream
+  double nu_tilda = 0.0;                       ///< m^2/s
+  double k = 0.0;                              ///< m^2/s^2
+  double omega = 0.0;                          ///< 1/s
+  double area = k_automatic;                   ///< m^2, reference; automatic: no coefficients
+  double length = 0.0;                         ///< m, reference
+  Point moment_origin;                         ///< m
+  std::vector<std::string> monitored;          ///< names of patches
+  std::vector<std::string> inflows, outflows;  ///< of tunnels and ducts
   std::string application;
+
+  bool has_pressure_drop() const { return !inflows.empty() && !outflows.empty(); }
 };
 
 /// The files of 0/: one for each field that the solver reads. \p used notes which conditions were asked for.

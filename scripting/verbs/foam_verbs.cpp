@@ -51,6 +51,12 @@ void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& f
 std::filesystem::path case_folder(const std::filesystem::path& path) { return path.has_filename() ? path : path.parent_path(); }
 
 void require_new_case(const std::filesystem::path& folder, const std::string& attempted) {
+  const std::string whole = std::filesystem::absolute(folder).lexically_normal().string();
+  if (whole.find_first_of(" \t\n\"'") != std::string::npos)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "the path " + whole + " has a blank or a quotation mark, and OpenFOAM's programs do not run in such a folder",
+                 .hint = "choose a folder without them"});
   std::vector<std::string> results;
   std::error_code status;  // of a folder that is not there: there are no results
   for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
@@ -70,6 +76,7 @@ void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const 
   require_new_case(folder, attempted);
   const std::optional<HybridMesh> changed = with_kinds(mesh.mesh, request.kinds, attempted);
   const HybridMesh& seen = changed ? *changed : mesh.mesh;
+  require_known_kinds(mesh.unknown_kinds, request.kinds, attempted);
   FoamCase files;
   try {
     files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context);

@@ -5,8 +5,8 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
-#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
+#include "scripting/values/typed_number.h"
 
 namespace sterna::scripting {
 namespace {
@@ -138,7 +138,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
     if (!limit || equals == std::string_view::npos) refuse("\"" + std::string(entry) + "\" is none of hard=, target=, usual=, share=");
     const std::string_view number = entry.substr(equals + 1);
     try {
-      *limit = number == "none" && key != "share" ? k_none : parse_number_with_unit(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
+      *limit = number == "none" && key != "share" ? k_none : typed_number(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
     } catch (const Error& error) {
       refuse(std::string(key) + ": " + error.info().problem, error.info().hint);
     }

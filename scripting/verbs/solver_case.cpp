@@ -8,11 +8,17 @@
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
+#include "scripting/values/mesh_manifest.h"
 
 namespace sterna::scripting {
 namespace {
 
 constexpr double k_straight = 1e-9;  ///< rad: smaller angles of the flow are zero
+
+/// The kind of the patches that such a value is for.
+PatchKind kind_with(std::string_view value) {
+  return value == "pressure" ? PatchKind::outflow : value.starts_with("total_") ? PatchKind::inflow : PatchKind::interface;
+}
 
 Column<PatchId, PatchFacts> facts_of(const HybridMesh& mesh) {
   Column<PatchId, PatchFacts> facts(mesh.patches.size());
@@ -59,7 +65,7 @@ std::vector<std::string> names_of_patches(const HybridMesh& mesh) {
 
 void find_half(const CaseOptions& options, int n_symmetry, CaseSite& site, CaseProblems& problems) {
   site.is_half = options.half == "yes" || (options.half == "automatic" && n_symmetry > 0);
-  if (options.half == "automatic" && n_symmetry > 1)
+  if (options.half == "automatic" && n_symmetry > 1 && !site.is_internal)
     problems.add(
         fmt::format("the mesh has {} symmetry planes: is it a half model? give half = \"yes\" or \"no\", and the reference area accordingly", n_symmetry));
   if (site.is_half && std::abs(options.beta) > k_straight) problems.add("a half model has no sideslip (beta)");
@@ -86,7 +92,8 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
   }
   for (const std::string& pattern : patterns)
     if (!used.contains(pattern)) problems.add("monitor: no patch has a name like \"" + pattern + "\" (" + names_hint(names_of_patches(mesh), pattern) + ")");
-  if (site.monitored.empty() && patterns.empty()) problems.add("no wall is left whose forces count: name some with monitor");
+  site.is_internal = site.is_tunnel && site.monitored.empty() && patterns.empty();
+  if (site.monitored.empty() && patterns.empty() && !site.is_tunnel) problems.add("no wall is left whose forces count: name some with monitor");
 }
 
 }  // namespace
@@ -120,6 +127,19 @@ std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKin
   return changed;
 }
 
+void require_known_kinds(const std::set<std::string>& unknown, const std::vector<CaseKind>& kinds, const std::string& attempted) {
+  std::set<std::string> left = unknown;
+  std::erase_if(left,
+                [&](const std::string& name) { return std::ranges::any_of(kinds, [&](const CaseKind& rule) { return matches_glob(name, rule.names); }); });
+  if (left.empty()) return;
+  throw Error(
+      {.code = ErrorCode::bad_argument,
+       .attempted = attempted,
+       .problem = "the kind of " + quoted_list(left) + " is not known: neither the mesh file nor a manifest beside it says what the boundary condition is",
+       .hint = "give it with --kind \"inlet=inflow\" --kind \"*=wall\" (in scripts kinds = { inlet = \"inflow\", [\"*\"] = \"wall\" }), read the .sterna "
+               "file instead, or put the mesh's manifest (.json) beside it"});
+}
+
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems) {
   CaseSite site;
   site.facts = facts_of(mesh);
@@ -132,10 +152,12 @@ CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProbl
     has_farfield = has_farfield || kind == PatchKind::farfield;
     has_opening = has_opening || kind == PatchKind::inflow || kind == PatchKind::outflow;
     n_symmetry += kind == PatchKind::symmetry && !is_periodic(mesh, p) ? 1 : 0;
+    if (kind == PatchKind::inflow) site.inflows.push_back(p);
+    if (kind == PatchKind::outflow) site.outflows.push_back(p);
   }
   site.is_tunnel = has_opening && !has_farfield;
-  find_half(options, n_symmetry, site, problems);
   find_monitored(mesh, options, site, problems);
+  find_half(options, n_symmetry, site, problems);
   return site;
 }
 
@@ -159,7 +181,7 @@ std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& sit
 CaseBoundary UsedBoundaries::of(const Patch& patch) {
   const auto found = boundaries_.find(patch.name);
   if (found == boundaries_.end()) return {};
-  used_.insert(found->first);
+  used_[found->first] = patch.kind;
   return found->second;
 }
 
@@ -173,8 +195,20 @@ std::optional<double> UsedBoundaries::pressure_jump(const Patch& disc, double ar
 }
 
 void UsedBoundaries::require_used(CaseProblems& problems) const {
-  for (const auto& [name, boundary] : boundaries_)
-    if (!used_.contains(name)) problems.add("boundaries: no inflow, outflow or actuator disc of the mesh is called \"" + name + "\"");
+  for (const auto& [name, boundary] : boundaries_) {
+    const auto used = used_.find(name);
+    if (used == used_.end()) {
+      problems.add("boundaries: no inflow, outflow or actuator disc of the mesh is called \"" + name + "\"");
+      continue;
+    }
+    CaseBoundary given = boundary;
+    for (const Option& option : sterna::options_of(given)) {
+      const bool is_given = !is_automatic(std::get<double>(option.get())) && option.get() != option.default_value;
+      if (is_given && kind_with(option.name) != used->second)
+        problems.add(fmt::format("boundaries: {} of \"{}\" has no effect: it is for patches of kind {}, and this one is of kind {}", option.name, name,
+                                 to_string(kind_with(option.name)), to_string(used->second)));
+    }
+  }
 }
 
 double reference_area(const CaseReference& reference, const CaseSite& site) { return site.is_half ? 0.5 * reference.area : reference.area; }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/flow/flow_state.h"
@@ -83,13 +84,19 @@ struct CaseSite {
   std::vector<PatchId> monitored;    ///< whose forces count: those that `monitor` names, else all walls but those of tunnels
   std::vector<PatchId> unmonitored;  ///< walls of a tunnel: they touch an inflow or outflow
   bool has_layers = false;
-  bool is_tunnel = false;  ///< openings and no farfield
+  bool is_tunnel = false;    ///< openings and no farfield
+  bool is_internal = false;  ///< a tunnel without a model in it (duct, nozzle): what counts is what happens between its openings, not forces
   bool is_half = false;
+  std::vector<PatchId> inflows, outflows;
 };
 
 /// The mesh with other kinds of patches; nothing where none is asked for. Cells stay as they are, so layers may stand on a slip wall.
 /// \throws Error(bad_argument) for a pattern that no patch is like, the kind interface, periodic sides and actuator discs
 std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKind> kinds, const std::string& attempted);
+
+/// \param unknown patches of which nothing says the kind (MeshValue::unknown_kinds): a guess would become a boundary condition
+/// \throws Error(bad_argument) that names those for which there is no rule in `kinds`
+void require_known_kinds(const std::set<std::string>& unknown, const std::vector<CaseKind>& kinds, const std::string& attempted);
 
 /// \param mesh of which a plane of symmetry makes a half model
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);
@@ -108,12 +115,12 @@ class UsedBoundaries {
   CaseBoundary of(const Patch& patch);
   /// Pa, over an actuator disc; nothing, and a problem, where it cannot be known.
   std::optional<double> pressure_jump(const Patch& disc, double area, CaseProblems& problems);
-  /// A problem for every name that no patch asked for.
+  /// A problem for every name that no patch asked for, and for every value that means nothing at such a patch (a thrust at an inflow).
   void require_used(CaseProblems& problems) const;
 
  private:
   const CaseBoundaries& boundaries_;
-  std::set<std::string> used_;
+  std::map<std::string, PatchKind> used_;
 };
 
 /// m^2 and m, as the solver is to count.
@@ -156,7 +163,13 @@ struct Schema<scripting::CaseOptions> {
                .member = &O::half,
                .help = "half model: the solver's area is half of the reference area; automatic: where one patch is a symmetry plane",
                .choices = "automatic yes no"},
-      Field<O>{.name = "wall_temperature", .member = &O::wall_temperature, .min = 50.0, .max = 5000.0, .help = "K", .automatic = "adiabatic walls"},
+      Field<O>{.name = "wall_temperature",
+               .member = &O::wall_temperature,
+               .unit = k_kelvin,
+               .min = 50.0,
+               .max = 5000.0,
+               .help = "of all walls",
+               .automatic = "adiabatic walls"},
       Field<O>{.name = "monitor",
                .member = &O::monitor,
                .help = "patterns of the names of patches whose forces count, separated by blanks; empty: all walls but those of tunnels"},
@@ -175,9 +188,10 @@ struct Schema<scripting::CaseBoundary> {
           .name = "total_pressure", .member = &O::total_pressure, .min = 1e-6, .max = 1e10, .help = "Pa, of an inflow", .automatic = "of the flow, in tunnels"},
       Field<O>{.name = "total_temperature",
                .member = &O::total_temperature,
+               .unit = k_kelvin,
                .min = 1.0,
                .max = 1e4,
-               .help = "K, of an inflow",
+               .help = "of an inflow",
                .automatic = "of the flow, in tunnels"},
       Field<O>{.name = "thrust",
                .member = &O::thrust,
@@ -187,7 +201,7 @@ struct Schema<scripting::CaseBoundary> {
                .automatic = "not given"},
       Field<O>{
           .name = "pressure_jump", .member = &O::pressure_jump, .min = -1e9, .max = 1e9, .help = "Pa, over an actuator disc", .automatic = "thrust over area"},
-      Field<O>{.name = "temperature_jump", .member = &O::temperature_jump, .min = -1e4, .max = 1e4, .help = "K, total, over an actuator disc"},
+      Field<O>{.name = "temperature_jump", .member = &O::temperature_jump, .unit = k_kelvin, .min = -1e4, .max = 1e4, .help = "total, over an actuator disc"},
   };
 };
 

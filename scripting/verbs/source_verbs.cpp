@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "geom/base/error.h"
-#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 #include "io/field/point_field.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/geometry_verbs.h"
@@ -293,13 +293,13 @@ SizeSource source_of_text(const std::string& text) {
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) {
-      numbers.push_back(parse_number_with_unit(word, Unit::metre));
+      numbers.push_back(typed_number(word, Unit::metre));
       continue;
     }
     const std::string key = word.substr(0, equals);
     std::vector<double> values;
     std::istringstream list(word.substr(equals + 1));
-    for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value, unit_of_key(key)));
+    for (std::string value; std::getline(list, value, ',');) values.push_back(typed_number(value, unit_of_key(key)));
     if (key == "from" || key == "to" || key == "center") {
       if (values.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three coordinates"});
       numbers.insert(key == "to" ? numbers.end() : numbers.begin(), values.begin(), values.end());
@@ -329,12 +329,12 @@ SizeSource wake_of_text(const std::string& text, const TriMesh& wall) {
           {.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + " is not NAME=VALUE", .hint = "such as --wake \"length=2 size=5cm\""});
     const std::string value = word.substr(equals + 1);
     if (word.substr(0, equals) != "direction") {
-      set_option_from_text(find_option(table, word.substr(0, equals), attempted), value);
+      set_option_as_typed(find_option(table, word.substr(0, equals), attempted), value);
       continue;
     }
     std::vector<double> numbers;
     std::istringstream list(value);
-    for (std::string number; std::getline(list, number, ',');) numbers.push_back(parse_number_with_unit(number, Unit::none));
+    for (std::string number; std::getline(list, number, ',');) numbers.push_back(typed_number(number, Unit::none));
     if (numbers.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three numbers"});
     direction = {numbers[0], numbers[1], numbers[2]};
   }

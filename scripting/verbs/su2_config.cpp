@@ -46,7 +46,9 @@ class Configuration {
   std::string text() {
     sort_patches();
     add_periodic();
-    require_su2_flow(flow_, reference_, is_viscous_, problems_);
+    require_su2_flow(flow_, is_viscous_, problems_);
+    if (is_automatic(reference_.area) && !site_.is_tunnel)
+      problems_.add("the reference area cannot be known: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
     boundaries_.require_used(problems_);
     problems_.require_none("making a configuration of SU2");
     choose_wall_functions();
@@ -141,16 +143,32 @@ class Configuration {
       discs_.push_back(fmt::format("{0}, {1}, {2}, {3}, 0, {2}, {3}, 0", name, names_[back->index()], case_number(*jump), case_number(warmer)));
   }
 
-  double area() const { return reference_area(reference_, site_); }
+  bool has_area() const { return !is_automatic(reference_.area); }
+  double area() const { return has_area() ? reference_area(reference_, site_) : 1.0; }
   double length() const { return reference_length(reference_, flow_); }
   Point origin() const { return moment_origin(reference_, flow_); }
 
   void tell() {
+    if (site_.is_internal)
+      context_.info(fmt::format("SU2: {}, a flow from {} to {}: the history has mass flow, pressures and their drop between these markers", solver_,
+                                list(openings(site_.inflows)), list(openings(site_.outflows))));
+    if (!has_area() && !site_.is_internal)
+      context_.warn("SU2: no reference area was given, so coefficients of forces count for 1 m^2: give --reference-area for others");
+    if (!is_viscous_ && !is_automatic(common_.wall_temperature)) context_.warn("SU2: wall_temperature has no effect: the solver is " + solver_);
+    if (solver_ != "RANS" && (options_.turbulence != Su2Options{}.turbulence || options_.wall_functions == "yes"))
+      context_.warn("SU2: turbulence and wall_functions have no effect: the solver is " + solver_);
+    if (site_.is_internal) return;
     context_.info(fmt::format("SU2: {}, {} walls, reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", solver_,
                               walls_.size() + (is_viscous_ ? 0 : euler_.size()), area(),
                               site_.is_half ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "",
                               reference_.source.empty() ? "" : " of " + reference_.source, length(), origin().x, origin().y, origin().z));
     if (!unmonitored_.empty()) context_.info("SU2: walls of the tunnel, whose forces do not count: " + list(unmonitored_));
+  }
+
+  std::vector<std::string> openings(const std::vector<PatchId>& patches) const {
+    std::vector<std::string> result;
+    for (const PatchId p : patches) result.push_back(names_[p.index()]);
+    return result;
   }
 
   static std::string title(const std::string& text) { return "\n% ---- " + text + "\n"; }
@@ -178,9 +196,12 @@ class Configuration {
 
   std::string reference_values() const {
     const Point o = origin();
-    return title("Reference values" + (site_.is_half ? " (half model: half the area of the aircraft)" : std::string())) + "REF_AREA= " + case_number(area()) +
-           "\nREF_LENGTH= " + case_number(length()) + "\nREF_ORIGIN_MOMENT_X= " + case_number(o.x) + "\nREF_ORIGIN_MOMENT_Y= " + case_number(o.y) +
-           "\nREF_ORIGIN_MOMENT_Z= " + case_number(o.z) + "\nREF_DIMENSIONALIZATION= DIMENSIONAL\n";
+    const std::string note = !has_area()     ? " (no area was given: coefficients count for 1 m^2)"
+                             : site_.is_half ? " (half model: half the area of the aircraft)"
+                                             : "";
+    return title("Reference values" + note) + "REF_AREA= " + case_number(area()) + "\nREF_LENGTH= " + case_number(length()) +
+           "\nREF_ORIGIN_MOMENT_X= " + case_number(o.x) + "\nREF_ORIGIN_MOMENT_Y= " + case_number(o.y) + "\nREF_ORIGIN_MOMENT_Z= " + case_number(o.z) +
+           "\nREF_DIMENSIONALIZATION= DIMENSIONAL\n";
   }
 
   std::string markers() const {
@@ -206,8 +227,15 @@ class Configuration {
     add("MARKER_PERIODIC", periodic_);
     if (!discs_.empty()) text += "ACTDISK_TYPE= VARIABLES_JUMP\nACTDISK_JUMP= DIFFERENCE\n";
     add("MARKER_ACTDISK", discs_);
-    add("MARKER_PLOTTING", monitored_);
+    add("MARKER_PLOTTING", site_.is_internal ? unmonitored_ : monitored_);
     add("MARKER_MONITORING", monitored_);
+    if (site_.is_internal) text += "MARKER_MONITORING= ( NONE )\n";
+    std::vector<std::string> analyzed = openings(site_.inflows);
+    for (const std::string& name : openings(site_.outflows)) analyzed.push_back(name);
+    if (site_.is_tunnel) {
+      add("MARKER_ANALYZE", analyzed);
+      text += "MARKER_ANALYZE_AVERAGE= MASSFLUX\n";
+    }
     return text;
   }
 
@@ -220,13 +248,18 @@ class Configuration {
     return text + "ITER= " + std::to_string(common_.iterations) + "\nCONV_FIELD= RMS_DENSITY\nCONV_RESIDUAL_MINVAL= -9\nCONV_STARTITER= 10\n";
   }
 
+  /// SU2 has it where there are two markers at least.
+  std::string drop() const { return site_.inflows.size() + site_.outflows.size() > 1 ? ", SURFACE_PRESSURE_DROP" : ""; }
+
   std::string files() const {
     const bool is_cgns = options_.mesh.ends_with(".cgns");
     return title("Files") + "MESH_FILENAME= " + options_.mesh + "\nMESH_FORMAT= " + (is_cgns ? "CGNS" : "SU2") +
            "\nTABULAR_FORMAT= CSV\nCONV_FILENAME= history\nRESTART_FILENAME= restart_flow\nSOLUTION_FILENAME= restart_flow\nVOLUME_FILENAME= "
            "flow\nSURFACE_FILENAME= "
            "surface_flow\nOUTPUT_FILES= ( RESTART, PARAVIEW, SURFACE_PARAVIEW )\n" +
-           "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, LIFT, DRAG )\nHISTORY_OUTPUT= ( ITER, RMS_RES, AERO_COEFF )\n";
+           (site_.is_internal ? "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, SURFACE_MASSFLOW, SURFACE_TOTAL_PRESSURE" + drop() + " )\n"
+                              : "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, LIFT, DRAG )\n") +
+           "HISTORY_OUTPUT= ( ITER, RMS_RES" + (site_.is_internal ? "" : ", AERO_COEFF") + (site_.is_tunnel ? ", FLOW_COEFF" : "") + " )\n";
   }
 
   const HybridMesh& mesh_;
@@ -248,11 +281,9 @@ class Configuration {
 
 }  // namespace
 
-void require_su2_flow(const FlowState& flow, const CaseReference& reference, std::optional<bool> is_viscous, CaseProblems& problems) {
+void require_su2_flow(const FlowState& flow, std::optional<bool> is_viscous, CaseProblems& problems) {
   if (is_automatic(flow.mach)) problems.add("the Mach number cannot be known: give mach, or speed with the temperature of the air");
   if (is_viscous.value_or(false) && is_automatic(flow.temperature)) problems.add("the temperature cannot be known: give altitude or temperature");
-  if (is_automatic(reference.area))
-    problems.add("the reference area cannot be known: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
 }
 
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const FlowState& flow, const CaseReference& reference,

@@ -24,13 +24,14 @@ struct Su2Options {
 /// The text of the configuration. Walls: MARKER_HEATFLUX (adiabatic) or MARKER_ISOTHERMAL, without viscosity MARKER_EULER; slip: MARKER_EULER; symmetry:
 /// MARKER_SYM; farfield: MARKER_FAR; inflow and outflow of tunnels (no farfield): total conditions and pressure of the flow, along the patch's normal; of
 /// bodies in a farfield, and actuator discs: as `boundaries` says. Forces are counted on all walls but those of tunnels (which touch an inflow or outflow).
-/// Half models: half the area. What was decided goes to the log. \p boundaries by the names of patches
+/// Half models: half the area. Tunnels need no reference area; those without a model in them (ducts) monitor no forces. MARKER_ANALYZE are their openings.
+/// What was decided goes to the log. \p boundaries by the names of patches
 /// \throws Error(bad_argument) with everything that cannot be known from the mesh and what was given
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const volmesh::FlowState& flow,
                        const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context);
 
-/// What a configuration needs of flow and reference, whatever the mesh is. \param is_viscous unknown before meshing: nothing is asked of the temperature
-void require_su2_flow(const volmesh::FlowState& flow, const CaseReference& reference, std::optional<bool> is_viscous, CaseProblems& problems);
+/// What a configuration needs of the flow, whatever the mesh is. \param is_viscous unknown before meshing: nothing is asked of the temperature
+void require_su2_flow(const volmesh::FlowState& flow, std::optional<bool> is_viscous, CaseProblems& problems);
 
 }  // namespace sterna::scripting
 

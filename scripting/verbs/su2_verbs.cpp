@@ -21,9 +21,11 @@ void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest
                     const RunContext& context) {
   if (options.mesh.empty()) options.mesh = file.stem().string() + ".su2";
   const std::optional<HybridMesh> changed = with_kinds(mesh.mesh, request.kinds, attempted);
+  const HybridMesh& seen = changed ? *changed : mesh.mesh;
+  require_known_kinds(mesh.unknown_kinds, request.kinds, attempted);
   std::string text;
   try {
-    text = su2_config(changed ? *changed : mesh.mesh, options, request.options, request.flow, request.reference, request.boundaries, context);
+    text = su2_config(seen, options, request.options, request.flow, request.reference, request.boundaries, context);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = attempted;
@@ -55,7 +57,7 @@ ScriptValue write_su2_config(const ScriptCall& call) {
   if (flow && call.session.check && !reader.has_problems()) {  // in a run the mesh says the rest, and all is told together
     CaseProblems needed;
     const bool asks_viscous = options.solver == "RANS" || options.solver == "NAVIER_STOKES";
-    require_su2_flow(*flow, request.reference, asks_viscous ? std::optional<bool>(true) : std::nullopt, needed);
+    require_su2_flow(*flow, asks_viscous ? std::optional<bool>(true) : std::nullopt, needed);
     for (const std::string& problem : needed.all()) reader.add_problem(problem);
   }
   reader.finish();

@@ -219,6 +219,8 @@ const std::set<std::string> k_su2_keys = {"SOLVER",
                                           "MARKER_ACTDISK",
                                           "MARKER_PLOTTING",
                                           "MARKER_MONITORING",
+                                          "MARKER_ANALYZE",
+                                          "MARKER_ANALYZE_AVERAGE",
                                           "NUM_METHOD_GRAD",
                                           "CFL_NUMBER",
                                           "CFL_ADAPT",
@@ -332,9 +334,27 @@ TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
   EXPECT_THAT(inlet, AllOf(HasSubstr("( inlet, 294.79"), HasSubstr(", 1, 0, 0 )")));  // into the box; T0 = T + V^2 / (2 cp)
   EXPECT_EQ(keys.at("INIT_OPTION"), "TD_CONDITIONS");
   EXPECT_EQ(keys.at("MARKER_HEATFLUX"), "( floor, 0.0 )");
-  test::expect_error(ErrorCode::bad_argument, "no wall is left whose forces count: name some with monitor", [&] {
-    (void)su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, {}, flow, {.area = 1.0}, {}, RunContext());
-  });  // all walls are the tunnel's
+  EXPECT_EQ(keys.at("MARKER_ANALYZE"), "( inlet, outlet )");
+  EXPECT_THAT(keys.at("HISTORY_OUTPUT"), AllOf(HasSubstr("AERO_COEFF"), HasSubstr("FLOW_COEFF")));
+}
+
+/// A duct: all walls are the tunnel's, no forces count, and no reference area is needed.
+TEST(Su2Config, internal_flows_need_no_forces_and_no_area) {
+  const HybridMesh mesh = test::box_of_patches(
+      {{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::symmetry}, {"roof", PatchKind::symmetry}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
+  const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, {}, flow, {}, {}, RunContext()));
+  EXPECT_EQ(keys.at("MARKER_MONITORING"), "( NONE )");
+  EXPECT_EQ(keys.at("MARKER_ANALYZE"), "( inlet, outlet )");
+  EXPECT_EQ(keys.at("MARKER_ANALYZE_AVERAGE"), "MASSFLUX");
+  EXPECT_THAT(keys.at("SCREEN_OUTPUT"), HasSubstr("SURFACE_PRESSURE_DROP"));
+  EXPECT_THAT(keys.at("HISTORY_OUTPUT"), HasSubstr("FLOW_COEFF"));
+  EXPECT_EQ(keys.at("REF_AREA"), "1");
+  for (const auto& [key, value] : keys) EXPECT_TRUE(k_su2_keys.contains(key)) << key;
+  // A body in a farfield has forces, and coefficients an area.
+  const HybridMesh outer = test::box_of_patches({{"wing", PatchKind::wall}, {"far", PatchKind::farfield}});
+  test::expect_error(ErrorCode::bad_argument, "reference area cannot be known",
+                     [&] { (void)su2_config(outer, {.mesh = "a.su2"}, {}, flow, {}, {}, RunContext()); });
 }
 
 TEST(Su2Config, discs_need_what_they_do) {

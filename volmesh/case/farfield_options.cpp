@@ -30,7 +30,7 @@ SideRule parse_side(const std::string& entry) {
     if (part.starts_with("name:") && part.size() > 5) {
       rule.name = part.substr(5);
     } else if (part.starts_with("edge:")) {
-      rule.edge = parse_number_with_unit(part.substr(5), Unit::metre);
+      rule.edge = parse_number_with_unit(part.substr(5), Unit::metre, BareAngle::degrees);
       if (!(rule.edge > 0.0)) refuse(entry, "an edge length is above zero");
     } else {
       rule.kind = patch_kind_of(part, std::string(k_sides_attempt) + ": \"" + entry + "\"");

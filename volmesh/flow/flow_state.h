@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 
 namespace sterna::volmesh {
@@ -76,10 +77,12 @@ struct Schema<volmesh::FlowConditions> {
                .automatic = not_given},
       Field<O>{.name = "temperature_offset",
                .member = &O::temperature_offset,
+               .unit = k_kelvin,
                .min = -150.0,
                .max = 150.0,
-               .help = "K, the air at the altitude is so much warmer than standard (ISA+15: 15)"},
-      Field<O>{.name = "temperature", .member = &O::temperature, .min = 50.0, .max = 5000.0, .help = "K, static, of air", .automatic = not_given},
+               .help = "how much warmer the air at the altitude is than standard (ISA+15: 15)"},
+      Field<O>{
+          .name = "temperature", .member = &O::temperature, .unit = k_kelvin, .min = 50.0, .max = 5000.0, .help = "static, of air", .automatic = not_given},
       Field<O>{.name = "pressure", .member = &O::pressure, .min = 1e-6, .max = 1e10, .help = "Pa, static, of air", .automatic = not_given},
       Field<O>{.name = "density", .member = &O::density, .min = 1e-12, .max = 1e5, .help = "kg/m^3", .automatic = "of temperature and pressure"},
       Field<O>{.name = "viscosity", .member = &O::viscosity, .min = 1e-9, .max = 1e3, .help = "Pa s, dynamic", .automatic = "of air, by Sutherland's formula"},

@@ -1,0 +1,122 @@
+// What the command line asks for and the input cannot have is an error that names it and says why; nothing is passed over.
+#include <gmock/gmock.h>
+
+#include "scripting/terminal/exit_status.h"
+#include "tests/scripting/script_fixture.h"
+#include "tests/support/process.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class WithoutEffect : public ScriptFixture {
+ protected:
+  WithoutEffect() {
+    std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl");
+    run("box{ {0, -0.1, 0}, {1, 0.2, 0.3} }:write(" + out("box.step") + ")");
+    run("body_of_revolution{ name = 'b', profile = { {0,0}, {1,0.3}, {2,0} } }:model():write(" + out("b.smx") + ")");
+  }
+  test::ProcessResult sterna(const std::vector<std::string>& arguments) const { return test::run_process(test::sterna_program(), arguments, folder_); }
+};
+
+TEST_F(WithoutEffect, RequestsAreRefusedByName) {
+  const std::vector<std::string> mesh_stl = {"mesh", "box.stl", "-o", "m.su2", "--first-height", "1e-3"},
+                                 mesh_step = {"mesh", "box.step", "-o", "m.su2", "--first-height", "1e-3"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {with(mesh_step, {"--split-angle", "40"}), "option split_angle: is for triangulations"},
+      {with(mesh_step, {"--set", "surface.split_angle=40"}), "is for triangulations"},
+      {with(mesh_step, {"--repair"}), "is a model"},
+      {with(mesh_stl, {"--set", "surface_mesh.max_edge=0.2"}), "is for the faces of models"},
+      {with(mesh_stl, {"--set", "repair.gap=1e-3"}), "is given without --repair"},
+      {with(mesh_stl, {"--set", "wrap.edge=1e-3"}), "is given without --wrap"},
+      {with(mesh_stl, {"--set", "remesh.max_edge=1"}), "is given without --remesh"},
+      {with(mesh_stl, {"--set", "half.at=1"}), "is given without --half"},
+      {with(mesh_stl, {"--patch", "*:max_edge=0.1"}), "--remesh gives the surface new triangles"},
+      {with(mesh_stl, {"--cache-limit", "1e9"}), "--cache"},
+      {with(mesh_stl, {"--patch", "nothing*:layers=3"}), "nothing*"},
+      {{"surface", "box.stl", "--auto", "-o", "a.stl", "--max-edge", "0.1"}, "no effect on a triangulation, which box.stl is: max_edge"},
+      {{"surface", "box.stl", "--auto", "-o", "a.stl", "--source", "point 0 0 0 size=0.1 radius=1"}, "--source"},
+      {{"surface", "b.smx", "-o", "a.stl", "--unit", "mm"}, "option read_cad.unit has no effect"},
+      {{"info", "b.smx", "--unit", "mm"}, "option read_cad.unit has no effect"},
+      {{"check", "box.step", "--strict"}, "--strict has no effect"},
+      {{"check", "box.step", "--gate", "orthogonality:none", "--no-intersections"}, "have no effect: box.step is a model"},
+      {{"convert", "box.step", "a.step", "--numbering", "both"}, "--numbering has no effect"},
+      {{"convert", "box.stl", "a.obj", "--numbering", "both"}, "--numbering has no effect"},
+      {{"convert", "box.stl", "a.obj", "--unit", "mm"}, "is for models"},
+      {{"report", "box.stl", "-o", "a.html", "--gate", "orthogonality:hard=3"}, "--gate has no effect"},
+      {{"report", "box.stl", "-o", "a.html", "--cut", "x=0"}, "no cells to cut"},
+      {{"draw", "box.stl", "-o", "a.png", "--places"}, "this is a surface"},
+      {{"draw", "box.stl", "-o", "a.png", "--cut", "x=0.5"}, "no cells to cut"},
+      {{"inspect", "box.stl", "--set", "half.at=0.1"}, "is given without --half"},
+      {{"inspect", "box.stl", "--max-edge", "0.1"}, "max-edge"},
+      {{"inspect", "box.stl", "--set", "surface_mesh.max_edge=0.1"}, "is for the faces of models"},
+      {{"union", "box.stl", "-o", "u.stl", "--tolerance", "1e-3"}, "tolerance"},
+  };
+  for (const auto& [arguments, text] : cases) {
+    const test::ProcessResult result = sterna(arguments);
+    std::string line;
+    for (const std::string& word : arguments) line += word + " ";
+    EXPECT_EQ(result.status, k_exit_usage) << line << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr(text)) << line;
+  }
+}
+
+TEST_F(WithoutEffect, TheUnitOfAModelCounts) {
+  const std::string as_it_is = sterna({"info", "box.step"}).output, in_metres = sterna({"info", "box.step", "--unit", "1"}).output,
+                    in_mm = sterna({"info", "box.step", "--unit", "1mm"}).output;
+  EXPECT_NE(as_it_is, in_metres);  // our STEP files are in millimetres
+  EXPECT_THAT(in_metres, HasSubstr("1000"));
+  EXPECT_EQ(as_it_is, in_mm);
+  EXPECT_THAT(sterna({"info", "box.step", "--unit", "1", "--json"}).output, HasSubstr("1000.0"));
+}
+
+TEST_F(WithoutEffect, UnknownExtensionsListWhatIsAskedFor) {
+  EXPECT_THAT(sterna({"check", "mesh.foo"}).errors, AllOf(HasSubstr("CGNS"), HasSubstr("SU2"), Not(HasSubstr("LaWGS"))));
+  EXPECT_THAT(sterna({"mesh", "box.stl", "-o", "mesh.foo", "--first-height", "1e-3"}).errors, AllOf(HasSubstr("volume mesh"), Not(HasSubstr("Nastran"))));
+}
+
+TEST_F(WithoutEffect, CasesInFoldersWithBlanksAreRefused) {
+  EXPECT_THAT(sterna({"foam-case", "none.sterna", "-o", "my case", "--reynolds", "1e6", "--length", "1"}).errors,
+              AllOf(HasSubstr("my case has a blank"), HasSubstr("choose a folder")));
+}
+
+TEST_F(WithoutEffect, InspectTakesAHalf) {
+  const test::ProcessResult whole = sterna({"inspect", "box.step"}), half = sterna({"inspect", "box.step", "--half"});
+  EXPECT_THAT(whole.output, HasSubstr("closed"));
+  EXPECT_THAT(half.output, HasSubstr("not closed"));
+  EXPECT_EQ(half.status, k_exit_success) << half.output << half.errors;
+  const test::ProcessResult of_triangles = sterna({"inspect", "box.stl", "--half", "--set", "half.axis=z", "--set", "half.at=0.5"});
+  EXPECT_THAT(of_triangles.output, HasSubstr("not closed")) << of_triangles.errors;
+}
+
+/// One source means wall and volume.
+TEST_F(WithoutEffect, SourcesRefineTheWallOfModelsAndSayWhatTheyDoElsewhere) {
+  const auto facets = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"mesh", "box.step",          "-o", "m.sterna", "--first-height",           "5e-3", "--layers",
+                                      "2",    "--farfield-radius", "4",  "--set",    "surface_mesh.max_edge=0.2"};
+    words.insert(words.end(), more.begin(), more.end());
+    const test::ProcessResult made = sterna(words);
+    EXPECT_EQ(made.status, k_exit_success) << made.errors;
+    const std::string json = sterna({"info", "m.sterna", "--json"}).output;
+    return json;
+  };
+  const std::string plain = facets({}), refined = facets({"--source", "sphere 0 0 0 radius=0.2 size=0.05"});
+  const auto wall_triangles = [](const std::string& json) {
+    const std::size_t at = json.find("\"wall\""), number = json.find("\"triangles\": ", at);
+    return std::stoi(json.substr(number + 13));
+  };
+  EXPECT_GT(wall_triangles(refined), wall_triangles(plain) + 50);
+  const test::ProcessResult stl = sterna({"mesh", "box.stl", "-o", "s.sterna", "--first-height", "5e-3", "--layers", "2", "--farfield-radius", "4", "--source",
+                                          "sphere 0 0 0 radius=0.2 size=0.1"});
+  EXPECT_THAT(stl.errors, HasSubstr("--remesh refines the wall, too"));
+}
+
+}  // namespace
+}  // namespace sterna::scripting
