@@ -46,7 +46,7 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
-  const HybridMesh mesh = io::read_volume_file(input.path, context.part("read", 0.0, k_convert_read_end));
+  const HybridMesh mesh = io::read_volume_file(input.path, context.part("read", 0.0, k_convert_read_end), io::Incomplete::completed);
   if (count_cells(mesh).total() == 0) {
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
