@@ -10,6 +10,7 @@
 #include "geom/draw/figures.h"
 #include "geom/draw/legend.h"
 #include "geom/draw/scene.h"
+#include "geom/mesh/body_patches.h"
 
 namespace sterna {
 namespace {
@@ -65,10 +66,17 @@ std::string draw_mesh(const HybridMesh& mesh, bool is_surface, const DrawOptions
   const Scene scene = build_scene(mesh, is_surface, options, context);
   const std::string title = title_of(options, name, scene);
   const std::span<const DrawMark> marks = options.places ? given_marks : std::span<const DrawMark>{};
-  const Layout layout = layout_of(options, scene, !title.empty(), marks);
-  const Camera camera = camera_of(scene, layout, options.projection == "perspective");
+  Layout layout = layout_of(options, scene, !title.empty(), marks);
+  Camera camera = camera_of(scene, layout, options.projection == "perspective");
   const RasterOptions raster{options.width, options.height, options.edges, std::max(1.0, 0.05 * layout.text), k_paper};
-  Canvas canvas(rasterise(scene.polygons, camera, raster, context));
+  Image picture = rasterise(scene.polygons, camera, raster, context);
+  if (layout.inset > 0.0 && !place_inset(layout, scene, picture, k_paper)) {  // no corner is empty
+    move_inset_to_panel(layout);
+    camera = camera_of(scene, layout, options.projection == "perspective");
+    picture = rasterise(scene.polygons, camera, raster, context);
+  }
+  Canvas canvas(picture);
+  draw_lines(canvas, layout, camera, scene);
   draw_marks(canvas, layout, camera, marks);
   if (!title.empty()) {
     canvas.rectangle(0.0, 0.0, layout.width, layout.head, k_paper);
@@ -114,15 +122,7 @@ std::string draw_png(const HybridMesh& mesh, const DrawOptions& options, std::st
 }
 
 std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::string_view name, std::span<const DrawMark> marks, const RunContext& context) {
-  HybridMesh mesh;  // boundary faces point out of the fluid, triangles of surfaces into it
-  mesh.points = Column<NodeId, Point>(surface.points.raw());
-  mesh.patches = surface.patches;
-  mesh.boundary_triangles.reserve(surface.n_triangles());
-  for (const TriangleId t : surface.triangles.ids()) {
-    const TriangleVertices& v = surface.triangles[t];
-    mesh.boundary_triangles.push_back({{NodeId(v[0].value()), NodeId(v[2].value()), NodeId(v[1].value())}, surface.triangle_patch[t]});
-  }
-  return draw_mesh(mesh, true, options, name, marks, context);
+  return draw_mesh(boundary_of(surface), true, options, name, marks, context);
 }
 
 }  // namespace sterna

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "geom/base/number_text.h"
 
@@ -131,6 +132,33 @@ Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title,
   return layout;
 }
 
+namespace {
+
+double inset_height(const Layout& layout, const Scene& scene) { return (k_line * static_cast<double>(scene.swatches.size()) + 0.7) * layout.text; }
+
+}  // namespace
+
+bool place_inset(Layout& layout, const Scene& scene, const Image& picture, Rgb paper) {
+  const double gap = 0.6 * layout.text, height = inset_height(layout, scene);
+  const double right = layout.width - layout.inset - gap, top = layout.head + gap, bottom = layout.height - height - gap;
+  const auto is_empty = [&](double x0, double y0) {
+    const auto limit = [](double value, int n) { return std::clamp(static_cast<int>(value), 0, n); };
+    for (int y = limit(y0, picture.height); y < limit(std::ceil(y0 + height), picture.height); ++y)
+      for (int x = limit(x0, picture.width); x < limit(std::ceil(x0 + layout.inset), picture.width); ++x)
+        if (picture.at(x, y) != paper) return false;
+    return true;
+  };
+  for (const auto& [x, y] : {std::pair(right, top), std::pair(gap, top), std::pair(right, bottom)})
+    if (is_empty(x, y)) {
+      layout.inset_x = x;
+      layout.inset_y = y;
+      return true;
+    }
+  return false;
+}
+
+void move_inset_to_panel(Layout& layout) { layout.panel = std::exchange(layout.inset, 0.0); }
+
 void draw_title(Canvas& canvas, const Layout& layout, const std::string& title) {
   const double size = 1.15 * layout.text;
   canvas.text(layout.text, 1.7 * layout.text, fitted(canvas, title, size, layout.width - 2.0 * layout.text), size, k_text_color);
@@ -138,8 +166,8 @@ void draw_title(Canvas& canvas, const Layout& layout, const std::string& title) 
 
 void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks) {
   if (layout.inset > 0.0) {
-    const double t = layout.text, x = layout.width - layout.inset - 0.6 * t, y = layout.head + 0.6 * t;
-    canvas.rectangle(x, y, layout.inset, (k_line * static_cast<double>(scene.swatches.size()) + 0.7) * t, {255, 255, 255}, 0.85);
+    const double t = layout.text, x = layout.inset_x, y = layout.inset_y;
+    canvas.rectangle(x, y, layout.inset, inset_height(layout, scene), {255, 255, 255}, 0.85);
     draw_swatches(canvas, layout, scene.swatches, x + 0.6 * t, y + 0.6 * t);
   }
   if (layout.panel <= 0.0) return;
@@ -190,6 +218,28 @@ void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
   canvas.line(x, y, x + pixels, y, k_text_color, 0.12 * t);
   for (const double end : {x, x + pixels}) canvas.line(end, y - 0.3 * t, end, y + 0.3 * t, k_text_color, 0.12 * t);
   canvas.text(x + 0.5 * pixels, y - 0.5 * t, text, k_small * t, k_text_color, Anchor::center);
+}
+
+void draw_lines(Canvas& canvas, const Layout& layout, const Camera& camera, const Scene& scene) {
+  const double t = layout.text;
+  for (const SceneLines& lines : scene.lines) {
+    Projected middle;
+    double longest = -1.0;
+    for (const auto& [a, b] : lines.segments) {
+      if (camera.is_perspective() && (camera.ahead(a) <= 0.0 || camera.ahead(b) <= 0.0)) continue;
+      const Projected p = camera.project(a), q = camera.project(b);
+      canvas.line(p.x, p.y, q.x, q.y, lines.color, 0.3 * t);
+      const double x = 0.5 * (p.x + q.x), y = 0.5 * (p.y + q.y), length = std::hypot(q.x - p.x, q.y - p.y);
+      const bool is_inside = x > 0.0 && x < layout.width - layout.panel && y > layout.head && y < layout.height;
+      if (!is_inside || length <= longest) continue;
+      longest = length;
+      middle = {x, y, 0.0};
+    }
+    if (longest < 0.0) continue;
+    const double width = canvas.width_of(lines.name, t) + 0.4 * t, x = std::clamp(middle.x + 0.5 * t, 0.0, std::max(0.0, layout.width - layout.panel - width));
+    canvas.rectangle(x, middle.y - 0.7 * t, width, 1.4 * t, {255, 255, 255}, 0.8);
+    canvas.text(x + 0.2 * t, middle.y + 0.35 * t, lines.name, t, lines.color);
+  }
 }
 
 void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std::span<const DrawMark> marks) {

@@ -15,13 +15,19 @@ namespace sterna::draw {
 /// Where things are on a picture, pixels.
 struct Layout {
   double width, height;
-  double text;         ///< size of letters
-  double panel = 0.0;  ///< width of the legend at the right
-  double inset = 0.0;  ///< width of a legend of a few colours, which stands on the picture in its corner
-  double head = 0.0;   ///< height of the title at the top
+  double text;                          ///< size of letters
+  double panel = 0.0;                   ///< width of the legend at the right
+  double inset = 0.0;                   ///< width of a legend of a few colours, which stands on the picture where that is empty
+  double inset_x = 0.0, inset_y = 0.0;  ///< its upper left corner
+  double head = 0.0;                    ///< height of the title at the top
   double middle_x() const { return 0.5 * (width - panel); }
   double middle_y() const { return head + 0.5 * (height - head); }
 };
+/// Puts the inset into the first corner of the picture where all pixels are paper: upper right, upper left, lower right. \returns false where there is none
+bool place_inset(Layout& layout, const Scene& scene, const Image& picture, Rgb paper);
+/// The legend as a panel beside the picture.
+void move_inset_to_panel(Layout& layout);
+
 /// The panel is as wide as what stands in it, up to a limit.
 Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, std::span<const DrawMark> marks);
 
@@ -30,6 +36,8 @@ void draw_title(Canvas& canvas, const Layout& layout, const std::string& title);
 void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks);
 /// The directions of x, y and z; of orthographic views also a length.
 void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera);
+/// Lines of discs and their names. \pre drawn before marks
+void draw_lines(Canvas& canvas, const Layout& layout, const Camera& camera, const Scene& scene);
 void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std::span<const DrawMark> marks);
 
 /// Round numbers from low to high, about `n` of them: 1, 2 or 5 times powers of ten; of logarithmic scales those powers, or 1, 2, 5 where there are few.

@@ -39,6 +39,7 @@ class SceneBuilder {
     if (plane_) cut_cells();
     add_faces();
     if (plane_) add_cells();
+    if (plane_) add_sheets();
     if (scene_.polygons.size() == 0)
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "draw",
@@ -57,13 +58,7 @@ class SceneBuilder {
     is_shown_.assign(mesh_.patches.size(), 0);
     if (options_.patches == "none") return;
     if (options_.patches == "automatic") {
-      std::vector<Box> boxes(mesh_.patches.size());
-      const auto add = [&](const auto& face) {
-        for (const auto v : face.nodes) boxes[face.patch.index()].add(mesh_.points[v]);
-      };
-      std::ranges::for_each(mesh_.boundary_triangles, add);
-      std::ranges::for_each(mesh_.boundary_quads, add);
-      is_shown_ = patches_of_bodies(mesh_.patches, boxes);
+      is_shown_ = patches_of_bodies(mesh_);
       return;
     }
     std::vector<std::string> names;
@@ -280,6 +275,35 @@ class SceneBuilder {
     constexpr std::array<std::string_view, 4> k_plural = {"tetrahedra", "pyramids", "prisms", "hexahedra"};
     for (const std::size_t k : {2u, 0u, 1u, 3u})
       if (is_seen[k] != 0) scene_.swatches.push_back({kind_color(static_cast<CellKind>(k)), std::string(k_plural[k])});
+  }
+
+  /// Lines in which the plane cuts the patches of kind interface, near the focus.
+  void add_sheets() {
+    const auto is_interface = [&](std::string_view name) {
+      return std::ranges::any_of(mesh_.patches, [&](const Patch& patch) { return patch.kind == PatchKind::interface && patch.name == name; });
+    };
+    constexpr std::string_view k_back = ".back";  // of the names of the other sides of discs
+    std::vector<std::uint8_t> is_drawn;
+    for (const Patch& patch : mesh_.patches)
+      is_drawn.push_back(patch.kind == PatchKind::interface &&
+                         !(patch.name.ends_with(k_back) && is_interface(std::string_view(patch.name).substr(0, patch.name.size() - k_back.size()))));
+    const auto add = [&](const auto& face) {
+      const Patch& patch = mesh_.patches[face.patch];
+      if (is_drawn[face.patch.index()] == 0) return;
+      std::vector<Point> ends;
+      for (std::size_t k = 0; k < face.nodes.size(); ++k) {
+        const Point &a = mesh_.points[face.nodes[k]], &b = mesh_.points[face.nodes[(k + 1) % face.nodes.size()]];
+        const double from = dot(a - plane_->origin, plane_->normal), to = dot(b - plane_->origin, plane_->normal);
+        if ((from >= 0.0) != (to >= 0.0)) ends.push_back(a + (from / (from - to)) * (b - a));
+      }
+      if (ends.size() != 2 || (plane_->limits && distance(0.5 * (ends[0] + ends[1]), plane_->limits->center) > plane_->limits->radius)) return;
+      auto lines = std::ranges::find(scene_.lines, patch.name, &SceneLines::name);
+      if (lines == scene_.lines.end()) lines = scene_.lines.insert(lines, {patch.name, patch_color(face.patch.index()), {}});
+      lines->segments.push_back({ends[0], ends[1]});
+    };
+    std::ranges::for_each(mesh_.boundary_triangles, add);
+    std::ranges::for_each(mesh_.boundary_quads, add);
+    for (const SceneLines& lines : scene_.lines) scene_.swatches.push_back({lines.color, lines.name});
   }
 
   const HybridMesh& mesh_;

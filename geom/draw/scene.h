@@ -1,6 +1,7 @@
 // What is on a picture: polygons with their colours, what the colours mean, and where to look.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +32,16 @@ struct ColorBar {
   Rgb color_of(double value) const;
 };
 
+/// Where a plane cuts a patch that has no thickness: an actuator disc, a wake sheet.
+struct SceneLines {
+  std::string name;  ///< of the patch
+  Rgb color;
+  std::vector<std::array<Point, 2>> segments;
+};
+
 struct Scene {
   Polygons polygons;
+  std::vector<SceneLines> lines;  ///< drawn on top of the polygons
   std::vector<Swatch> swatches;
   std::optional<ColorBar> bar;
   bool has_faces_without_value = false;

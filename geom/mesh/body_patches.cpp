@@ -1,12 +1,25 @@
 #include "geom/mesh/body_patches.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geom/math/measures.h"
 
 namespace sterna {
 namespace {
 
 /// Of a body's opening over all walls, by the boxes' diagonals: tunnels' planes are larger.
 constexpr double k_largest_opening = 0.2;
+
+/// Walls that end the fluid from outside are so large, by the diagonals of their boxes over that of the boundary.
+constexpr double k_least_outer = 0.25;
+/// How far the boundary may lie behind such a wall, over its extent along the wall's normal: room for walls that are not quite straight.
+constexpr double k_behind = 0.05;
+/// Directions in which the boundary's outermost points are looked for.
+constexpr std::size_t k_directions = 128;
 
 double diagonal(const Box& box) { return box.empty() ? 0.0 : norm(box.max - box.min); }
 
@@ -16,12 +29,103 @@ bool is_within(const Box& inner, const Box& outer) {
          inner.max.y <= outer.max.y + room && inner.max.z <= outer.max.z + room;
 }
 
+/// f(nodes, patch) for every boundary face.
+template <class F>
+void for_each_boundary_face(const HybridMesh& mesh, const F& f) {
+  for (const BoundaryTriangle& face : mesh.boundary_triangles) f(std::span<const NodeId>(face.nodes), face.patch);
+  for (const BoundaryQuad& face : mesh.boundary_quads) f(std::span<const NodeId>(face.nodes), face.patch);
+}
+
+std::vector<Box> boxes_of_patches(const HybridMesh& mesh) {
+  std::vector<Box> boxes(mesh.patches.size());
+  for_each_boundary_face(mesh, [&](std::span<const NodeId> nodes, PatchId patch) {
+    for (const NodeId node : nodes) boxes[patch.index()].add(mesh.points[node]);
+  });
+  return boxes;
+}
+
+/// Points of the boundary that are the outermost of all in some direction, spread over the sphere by the golden angle.
+std::vector<Point> outermost_points(const HybridMesh& mesh) {
+  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  std::array<Vec3, k_directions> directions;
+  std::array<double, k_directions> best;
+  best.fill(-std::numeric_limits<double>::infinity());
+  std::vector<Point> points(k_directions);
+  for (std::size_t i = 0; i < k_directions; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(k_directions), r = std::sqrt(1.0 - z * z);
+    directions[i] = {r * std::cos(turn * static_cast<double>(i)), r * std::sin(turn * static_cast<double>(i)), z};
+  }
+  for_each_boundary_face(mesh, [&](std::span<const NodeId> nodes, PatchId) {
+    for (const NodeId node : nodes) {
+      const Point& p = mesh.points[node];
+      for (std::size_t i = 0; i < k_directions; ++i)
+        if (const double along = dot(p, directions[i]); along > best[i]) {
+          best[i] = along;
+          points[i] = p;
+        }
+    }
+  });
+  return points;
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> patches_of_bodies(const Column<PatchId, Patch>& patches, std::span<const Box> boxes) {
+std::vector<std::uint8_t> outer_walls(const HybridMesh& mesh) {
+  const std::vector<Box> boxes = boxes_of_patches(mesh);
+  Box all;
+  for (const Box& box : boxes)
+    if (!box.empty()) {
+      all.add(box.min);
+      all.add(box.max);
+    }
+  std::vector<std::uint8_t> is_outer(mesh.patches.size(), 0), is_candidate(mesh.patches.size(), 0);
+  for (const PatchId p : mesh.patches.ids())
+    is_candidate[p.index()] = mesh.patches[p].kind == PatchKind::wall && diagonal(boxes[p.index()]) >= k_least_outer * diagonal(all) ? 1 : 0;
+  if (std::ranges::find(is_candidate, 1) == is_candidate.end()) return is_outer;
+  const std::vector<Point> outermost = outermost_points(mesh);
+  std::vector<double> area(mesh.patches.size(), 0.0), outer_area(mesh.patches.size(), 0.0);
+  for_each_boundary_face(mesh, [&](std::span<const NodeId> nodes, PatchId patch) {
+    if (is_candidate[patch.index()] == 0) return;
+    const Point& at = mesh.points[nodes[0]];
+    Vec3 vector = area_vector(at, mesh.points[nodes[1]], mesh.points[nodes[2]]);
+    if (nodes.size() == 4) vector += area_vector(at, mesh.points[nodes[2]], mesh.points[nodes[3]]);
+    double least = 0.0, most = 0.0;  // of the boundary along the normal, which points out of the fluid
+    for (const Point& p : outermost) {
+      const double along = dot(p - at, vector);
+      least = std::min(least, along);
+      most = std::max(most, along);
+    }
+    area[patch.index()] += norm(vector);
+    if (most <= k_behind * (most - least)) outer_area[patch.index()] += norm(vector);
+  });
+  bool is_any_within = false;
+  for (const PatchId p : mesh.patches.ids()) {
+    is_outer[p.index()] = is_candidate[p.index()] != 0 && outer_area[p.index()] > 0.5 * area[p.index()] ? 1 : 0;
+    is_any_within = is_any_within || (mesh.patches[p].kind == PatchKind::wall && !boxes[p.index()].empty() && is_outer[p.index()] == 0);
+  }
+  if (!is_any_within) std::ranges::fill(is_outer, std::uint8_t{0});
+  return is_outer;
+}
+
+HybridMesh boundary_of(const TriMesh& surface) {
+  HybridMesh mesh;
+  mesh.points = Column<NodeId, Point>(surface.points.raw());
+  mesh.patches = surface.patches;
+  mesh.boundary_triangles.reserve(surface.n_triangles());
+  for (const TriangleId t : surface.triangles.ids()) {
+    const TriangleVertices& v = surface.triangles[t];
+    mesh.boundary_triangles.push_back({{NodeId(v[0].value()), NodeId(v[2].value()), NodeId(v[1].value())}, surface.triangle_patch[t]});
+  }
+  return mesh;
+}
+
+std::vector<std::uint8_t> patches_of_bodies(const HybridMesh& mesh) { return patches_of_bodies(mesh.patches, boxes_of_patches(mesh), outer_walls(mesh)); }
+
+std::vector<std::uint8_t> patches_of_bodies(const Column<PatchId, Patch>& patches, std::span<const Box> boxes, std::span<const std::uint8_t> is_outer) {
+  const auto is_wall = [&](PatchId p) { return patches[p].kind == PatchKind::wall && (is_outer.empty() || is_outer[p.index()] == 0); };
   Box walls;
   for (const PatchId p : patches.ids())
-    if (patches[p].kind == PatchKind::wall && !boxes[p.index()].empty()) {
+    if (is_wall(p) && !boxes[p.index()].empty()) {
       walls.add(boxes[p.index()].min);
       walls.add(boxes[p.index()].max);
     }
@@ -30,7 +134,7 @@ std::vector<std::uint8_t> patches_of_bodies(const Column<PatchId, Patch>& patche
     const Box& box = boxes[p.index()];
     const bool is_opening = (patches[p].kind == PatchKind::inflow || patches[p].kind == PatchKind::outflow) && !box.empty() && !walls.empty() &&
                             is_within(box, walls) && diagonal(box) < k_largest_opening * diagonal(walls);
-    if (patches[p].kind == PatchKind::wall || is_opening) result[p.index()] = 1;
+    if (is_wall(p) || is_opening) result[p.index()] = 1;
   }
   return result;
 }

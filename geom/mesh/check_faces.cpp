@@ -1,9 +1,12 @@
 // Matches faces by their vertex ids. A face falls into the bucket of its lowest node; inside a bucket the faces are sorted by the remaining nodes in a
 // canonical order that keeps the cycle (a quad is the same face only with the same cycle), with one bit for the sense. Buckets are filled by counting
 // (with atomic cursors: the order inside a bucket is restored by its sort), in batches of node ranges that bound the memory.
+#include <algorithm>
 #include <atomic>
+#include <string>
 
 #include "geom/mesh/check_parts.h"
+#include "geom/mesh/open_faces.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -178,3 +181,117 @@ void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
 }
 
 }  // namespace sterna::check_parts
+
+namespace sterna {
+namespace {
+
+using check_parts::Face;
+using check_parts::FaceSlots;
+
+/// A hash of the nodes of a face that does not depend on where they begin and which way round they run.
+std::uint64_t hash_of(const Face& face) {
+  std::array<std::uint32_t, 4> nodes{};
+  for (std::size_t k = 0; k < face.size; ++k) nodes[k] = face.nodes[k].value();
+  std::sort(nodes.begin(), nodes.begin() + face.size);
+  std::uint64_t hash = face.size;
+  for (std::size_t k = 0; k < face.size; ++k) {  // the finaliser of splitmix64
+    hash += 0x9e3779b97f4a7c15u + nodes[k];
+    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+    hash ^= hash >> 31;
+  }
+  return hash;
+}
+
+/// Whether every face occurs an even number of times; a false "yes" has the probability 2^-64.
+bool is_paired(const FaceSlots& slots, const RunContext& context) {
+  constexpr std::size_t k_words = 64;  // so that threads do not wait for each other
+  constexpr std::uint32_t k_slots_per_word = 4096;
+  std::array<std::uint64_t, k_words> words{};
+  slots.for_each(context, [&](std::uint32_t slot, const Face& face) {
+    std::atomic_ref<std::uint64_t>(words[slot / k_slots_per_word % k_words]).fetch_xor(hash_of(face), std::memory_order_relaxed);
+  });
+  std::uint64_t all = 0;
+  for (const std::uint64_t word : words) all ^= word;
+  return all == 0;
+}
+
+template <class F>
+void for_each_node(HybridMesh& mesh, const F& f) {
+  const auto visit = [&f](auto& cells) {
+    for (auto& nodes : cells)
+      for (NodeId& node : nodes) f(node);
+  };
+  visit(mesh.prisms);
+  visit(mesh.pyramids);
+  visit(mesh.hexahedra);
+  visit(mesh.tetrahedra);
+  for (BoundaryTriangle& face : mesh.boundary_triangles)
+    for (NodeId& node : face.nodes) f(node);
+  for (BoundaryQuad& face : mesh.boundary_quads)
+    for (NodeId& node : face.nodes) f(node);
+}
+
+}  // namespace
+
+Point OpenFaces::first_place(const HybridMesh& mesh) const {
+  Vec3 sum;
+  const auto nodes = triangles.empty() ? std::span<const NodeId>(quads.front().nodes) : std::span<const NodeId>(triangles.front().nodes);
+  for (const NodeId node : nodes) sum += mesh.points[node];
+  return sum / static_cast<double>(nodes.size());
+}
+
+OpenFaces find_open_faces(const HybridMesh& mesh, const RunContext& context) {
+  OpenFaces open;
+  const check_parts::CellNumbers cells(mesh);
+  const FaceSlots slots(mesh, cells, check_parts::find_open_sides(mesh.layers, context));
+  if (is_paired(slots, context)) return open;
+  const check_parts::FaceMatch match =
+      check_parts::match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(CheckOptions().faces_at_a_time), {}, false, GateTable(), context);
+  std::vector<std::uint32_t> found;
+  for (const check_parts::FaceIssue& issue : match.issues)
+    if (issue.violation == Violation::unmatched_face) found.push_back(issue.slot);
+  std::sort(found.begin(), found.end());
+  for (const std::uint32_t slot : found) {
+    const Face face = slots.face(slot);
+    if (face.size == 3) open.triangles.push_back({{face.nodes[0], face.nodes[1], face.nodes[2]}, PatchId{}});
+    else open.quads.push_back({face.nodes, PatchId{}});
+  }
+  return open;
+}
+
+PatchId add_boundary(HybridMesh& mesh, const OpenFaces& faces, std::string_view name) {
+  std::string free(name);
+  const auto is_taken = [&] { return std::any_of(mesh.patches.begin(), mesh.patches.end(), [&](const Patch& patch) { return patch.name == free; }); };
+  for (int i = 2; is_taken(); ++i) free = std::string(name) + "_" + std::to_string(i);
+  const PatchId patch = mesh.patches.push_back({.name = free, .kind = PatchKind::wall});
+  for (const BoundaryTriangle& face : faces.triangles) mesh.boundary_triangles.push_back({face.nodes, patch});
+  for (const BoundaryQuad& face : faces.quads) mesh.boundary_quads.push_back({face.nodes, patch});
+  return patch;
+}
+
+std::uint64_t count_unused_points(const HybridMesh& mesh) {
+  std::vector<bool> is_used(mesh.points.size(), false);
+  for_each_cell(mesh, [&](const Cell& cell) {
+    for (const NodeId node : cell.span()) is_used[node.index()] = true;
+  });
+  const auto visit = [&](const auto& faces) {
+    for (const auto& face : faces)
+      for (const NodeId node : face.nodes) is_used[node.index()] = true;
+  };
+  visit(mesh.boundary_triangles);
+  visit(mesh.boundary_quads);
+  return static_cast<std::uint64_t>(std::count(is_used.begin(), is_used.end(), false));
+}
+
+void drop_unused_points(HybridMesh& mesh) {
+  std::vector<NodeId> old2new(mesh.points.size());
+  for_each_node(mesh, [&](NodeId node) { old2new[node.index()] = node; });
+  Column<NodeId, Point> points;
+  for (const NodeId node : mesh.points.ids())
+    if (old2new[node.index()].is_valid()) old2new[node.index()] = points.push_back(mesh.points[node]);
+  for_each_node(mesh, [&](NodeId& node) { node = old2new[node.index()]; });
+  mesh.points = std::move(points);
+}
+
+}  // namespace sterna

@@ -25,8 +25,8 @@ struct CutPlace {
 ///   "sharp edge"      across the longest chain of convex edges (more than 30 degrees), when there is no wing
 ///   "nose"            through the foremost point
 ///   "section 25%", "section 50%", "section 75%"  across x; where a plane meets no wall, through the nearest wall
-/// x is the direction of the flow, the span is y, or z where walls are wider in z. Walls are the boundary of kind wall that carries layers; without layers
-/// all of kind wall; without walls all but farfield, inflow and outflow; else the whole boundary.
+/// x is the direction of the flow, the span is y, or z where walls are wider in z. Walls are the boundary of kind wall that carries layers, without the
+/// outer walls of a tunnel; without layers all of kind wall; without walls all but farfield, inflow and outflow; else the whole boundary.
 /// \pre indices in range, finite points
 /// \post every plane crosses walls; at least three places, if the mesh has a boundary of some extent
 std::vector<CutPlace> automatic_cuts(const HybridMesh& mesh, const RunContext& context);

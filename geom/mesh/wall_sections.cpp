@@ -8,14 +8,21 @@
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/body_patches.h"
 
 namespace sterna {
 namespace {
 
-/// What is looked at, the best first: walls under layers, walls, boundaries near the body, any.
-int rank_of(PatchKind kind, bool is_layer_base) {
-  if (kind == PatchKind::wall) return is_layer_base ? 0 : 1;
-  return kind == PatchKind::farfield || kind == PatchKind::inflow || kind == PatchKind::outflow ? 3 : 2;
+/// What is looked at, the best first: walls under layers, walls, walls about bodies, boundaries near the body, any.
+int rank_of(PatchKind kind, bool is_layer_base, bool is_outer) {
+  if (kind == PatchKind::wall) return is_outer ? 2 : is_layer_base ? 0 : 1;
+  return kind == PatchKind::farfield || kind == PatchKind::inflow || kind == PatchKind::outflow ? 4 : 3;
+}
+
+/// Whether the patches of all boundary faces are known.
+bool has_patches(const HybridMesh& mesh) {
+  const auto is_known = [&](const auto& face) { return face.patch.index() < mesh.patches.size(); };
+  return std::ranges::all_of(mesh.boundary_triangles, is_known) && std::ranges::all_of(mesh.boundary_quads, is_known);
 }
 
 }  // namespace
@@ -37,9 +44,11 @@ void WallSections::choose_triangles(const HybridMesh& mesh) {
   std::vector<std::uint8_t> is_foot(mesh.points.size(), 0);
   for (std::size_t line = 0; line < mesh.layers.n_lines(); ++line)
     if (!mesh.layers.is_collapsed[line]) is_foot[mesh.layers.first_node[line]] = 1;
+  const std::vector<std::uint8_t> is_outer = has_patches(mesh) ? outer_walls(mesh) : std::vector<std::uint8_t>(mesh.patches.size(), 0);
   const auto rank = [&](const auto& face) {
     const bool is_base = std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeId node) { return is_foot[node.index()] != 0; });
-    return rank_of(face.patch.index() < mesh.patches.size() ? mesh.patches[face.patch].kind : PatchKind::farfield, is_base);
+    if (face.patch.index() >= mesh.patches.size()) return rank_of(PatchKind::farfield, is_base, false);
+    return rank_of(mesh.patches[face.patch].kind, is_base, is_outer[face.patch.index()] != 0);
   };
   int best = std::numeric_limits<int>::max();
   for (const BoundaryTriangle& face : mesh.boundary_triangles) best = std::min(best, rank(face));

@@ -7,6 +7,9 @@
 
 #include "geom/base/error.h"
 #include "io/file/format_table.h"
+#include "io/file/volume_file.h"
+#include "io/input/file_buffer.h"
+#include "io/mesh/surface_boundary.h"
 #include "io/names/patch_names.h"
 
 namespace sterna::io {
@@ -42,7 +45,14 @@ SurfaceSoup read_surface_file(const std::filesystem::path& path, const RunContex
                  .attempted = "reading " + path.string(),
                  .problem = std::string(format.name) + " is not read as a surface",
                  .hint = "surfaces are read from " + list_formats_with(FormatUse::read_surface)});
-  return format.read_surface(path, context);
+  SurfaceSoup soup = format.read_surface(path, context);
+  if (soup.triangles.empty() && soup.n_cells > 0) {  // the reader found cells and no face
+    if (!format.read_volume)
+      throw_malformed(soup.source, "end of the file", "found a volume mesh of " + std::to_string(soup.n_cells) + " cells without boundary faces",
+                      "write the boundary as triangles or quadrilaterals, or convert the mesh to a format whose volume meshes are read");
+    soup = boundary_soup(read_volume_file(path, context), soup.source, context);
+  }
+  return soup;
 }
 
 void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name) {

@@ -11,7 +11,8 @@
 namespace sterna::io {
 
 /// Reads one surface file; the format follows from the extension (".gz" peeled off) and the contents. Polygons are split into
-/// triangles. A volume mesh gives its boundary faces; SurfaceSoup::n_cells tells. Coordinates are as in the file (no unit applied).
+/// triangles. Polygons with coordinates that are not finite are left out with a warning. A volume mesh gives its boundary faces; SurfaceSoup::n_cells tells.
+/// Coordinates are as in the file (no unit applied).
 /// \throws Error file_not_found, file_malformed (line or byte offset and what was expected), unsupported_format.
 SurfaceSoup read_surface_file(const std::filesystem::path& path, const RunContext& context);
 

@@ -213,6 +213,7 @@ class FluentParser {
   /// Only the number of cells is needed; their kinds follow from the faces.
   void read_cells(std::int64_t index, bool is_binary) {
     const Header header = read_header("cells");
+    if (header.zone > 0) ++content_.n_cell_zones;
     n_cells_ = std::max(n_cells_, static_cast<std::uint64_t>(header.last));
     if (!is_binary || !next_is('(')) return skip_to_close();
     begin_body(true, header.count(), 1, 4);

@@ -18,6 +18,7 @@ struct FluentContent {
   std::vector<Vec3> points;
   FaceBasedMesh faces;             ///< patches by number of their zone's appearance
   Column<PatchId, Patch> patches;  ///< zones of boundary faces
+  std::int64_t n_cell_zones = 0;
   std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, taken as inner faces
 };
 

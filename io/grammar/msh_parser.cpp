@@ -2,17 +2,21 @@
 // the sections hold bytes, but their names, and in 2.2 their counts, stay text; so the text scanner leads, and a byte reader takes over inside a section.
 #include "io/grammar/msh_parser.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "geom/base/error.h"
 #include "io/input/byte_reader.h"
+#include "io/input/left_out.h"
 #include "io/input/text_limits.h"
 #include "io/input/text_scanner.h"
 #include "io/mesh/surface_builder.h"
@@ -21,6 +25,8 @@ namespace sterna::io {
 namespace {
 
 constexpr std::int64_t k_surface_dimension = 2;
+/// Versions of one layout of nodes and elements. Physical names have no dimension in files of version 2.0.
+constexpr std::array<std::string_view, 4> k_versions_2 = {"2", "2.0", "2.1", "2.2"};
 constexpr std::int64_t k_max_physical_tag = 2147483647;
 /// Shortest line of a node block (tag and newline) and of an element; bounds for the memory that a count may ask for.
 constexpr std::size_t k_min_node_bytes = 2;
@@ -57,6 +63,8 @@ std::size_t nodes_of_type(std::int64_t type) {
   }
 }
 
+constexpr std::int64_t k_msh_triangle6 = 9, k_msh_quad9 = 10, k_msh_quad8 = 16;
+
 /// Faces of second order give their corners.
 bool is_triangle(std::int64_t type) { return type == 2 || type == 9; }
 bool is_quadrangle(std::int64_t type) { return type == 3 || type == 10 || type == 16; }
@@ -70,11 +78,11 @@ class MshParser {
       throw_unsupported(scanner_.source(), "this is a Fluent mesh, not one of Gmsh", "save as MSH 4.1 ASCII of Gmsh, or as STL");
     scanner_.keyword("$MeshFormat");
     const std::string version(scanner_.token("the format's version"));
-    if (version != "4.1" && version != "2.2")
-      throw_unsupported(scanner_.source(), "MSH version " + version + " (4.1 and 2.2 are read)", "save as MSH 4.1 ASCII");
+    is_v4_ = version == "4.1";
+    if (!is_v4_ && std::find(k_versions_2.begin(), k_versions_2.end(), version) == k_versions_2.end())
+      throw_unsupported(scanner_.source(), "MSH version " + version + " (4.1 and 2 to 2.2 are read)", "save as MSH 4.1 or 2.2 in Gmsh");
     const std::int64_t file_type = scanner_.integer("0 for text or 1 for binary");
     if (file_type != 0 && file_type != 1) scanner_.fail_expected("0 for text or 1 for binary");
-    is_v4_ = version == "4.1";
     is_binary_ = file_type == 1;
     const std::int64_t real_size = scanner_.integer("the size of a real number");
     if (is_binary_) {
@@ -100,6 +108,10 @@ class MshParser {
     if (!has_nodes || !has_elements)
       scanner_.fail("found the end of the file, expected the section " + std::string(has_nodes ? "$Elements" : "$Nodes"),
                     "the file may have been cut short: copy or write it again");
+    if (volume_groups_.size() > 1) regions_.add("regions of cells (physical volumes), which become one", volume_groups_.size());
+    curved_.warn(scanner_.source(), context_);
+    regions_.warn(scanner_.source(), context_);
+    lines_.tell(scanner_.source(), context_);
     return has_names_;
   }
 
@@ -143,6 +155,7 @@ class MshParser {
     if (!std::isfinite(value)) bytes_->fail("found a number that is not finite before this place, expected " + std::string(expected));
     return value;
   }
+  double coordinate(std::string_view expected) { return bytes_ ? bytes_->read<double>(expected) : scanner_.coordinate(expected); }
   /// A number of things of at least so many bytes each.
   std::size_t count(std::string_view expected, std::size_t min_text, std::size_t min_binary) {
     if (!bytes_) return scanner_.count(expected, min_text);
@@ -180,8 +193,10 @@ class MshParser {
   void read_physical_names() {
     const std::size_t n = scanner_.count("the number of physical names", 4);
     for (std::size_t i = 0; i < n; ++i) {
-      const std::int64_t dimension = scanner_.integer("the dimension of a physical group");
-      const std::int64_t tag = scanner_.integer("the tag of a physical group");
+      std::int64_t dimension = scanner_.integer("the dimension of a physical group");
+      const bool has_dimension = !scanner_.peek().starts_with('"');
+      const std::int64_t tag = has_dimension ? scanner_.integer("the tag of a physical group") : dimension;
+      if (!has_dimension) dimension = k_surface_dimension;
       std::string name(scanner_.rest_of_line());
       if (name.size() < 2 || name.front() != '"' || name.back() != '"') scanner_.fail("found " + quoted_excerpt(name) + ", expected a name in double quotes");
       if (dimension == k_surface_dimension) names_[tag] = name.substr(1, name.size() - 2);
@@ -195,11 +210,13 @@ class MshParser {
     for (std::size_t dimension = 0; dimension < 4; ++dimension) {
       for (std::size_t i = 0; i < n[dimension]; ++i) {
         const std::int64_t entity = integer("the tag of an entity");
-        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) real("a coordinate of an entity's box");
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) coordinate("a coordinate of an entity's box");
         const std::size_t n_physical = count("the number of physical groups of an entity", 2, 4);
         for (std::size_t k = 0; k < n_physical; ++k) {
           const std::int64_t physical = read_physical_tag();
           if (dimension == 2 && k == 0) physical_of_surface_[entity] = physical;
+          if (dimension == 2 && k > 0) regions_.add("further physical groups of surfaces, of which the first names the patch");
+          if (dimension == 3 && k == 0) physical_of_volume_[entity] = physical;
         }
         if (dimension == 0) continue;
         const std::size_t n_bounding = count("the number of bounding entities", 2, 4);
@@ -211,7 +228,8 @@ class MshParser {
 
   Vec3 read_point() {
     Vec3 p;
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = real("a coordinate of a node");
+    const bool takes_any = sink_.takes_any_point();
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = takes_any ? coordinate("a coordinate of a node") : real("a coordinate of a node");
     return p;
   }
 
@@ -249,7 +267,7 @@ class MshParser {
       for (std::int64_t& node : tags) node = tag("the tag of a node");
       for (const std::int64_t node : tags) {
         add_node(node, read_point());
-        for (std::int64_t k = 0; is_parametric && k < dimension; ++k) real("a parametric coordinate of a node");
+        for (std::int64_t k = 0; is_parametric && k < dimension; ++k) coordinate("a parametric coordinate of a node");
       }
     }
     require_total(n_found, n_nodes, "nodes");
@@ -283,6 +301,9 @@ class MshParser {
       if (found == point_of_tag_.end()) fail("found node " + std::to_string(node) + ", which $Nodes does not list");
       nodes[k] = found->second;
     }
+    if (type == k_msh_triangle6 || type == k_msh_quad9 || type == k_msh_quad8)
+      curved_.add("mid-side nodes of second-order faces, which become flat", n_nodes - (type == k_msh_triangle6 ? 3 : 4));
+    if (n_nodes <= k_most_nodes_of_lines && !is_triangle(type)) lines_.add(n_nodes == 1 ? "points" : "lines");
     if (is_triangle(type)) sink_.add_face(std::span(nodes).first(3));
     else if (is_quadrangle(type)) sink_.add_face(std::span(nodes).first(4));
     else if (type >= k_msh_tetrahedron && type <= k_msh_pyramid) sink_.add_cell(type, std::span(nodes).first(n_nodes));
@@ -312,6 +333,9 @@ class MshParser {
       if (is_triangle(type) || is_quadrangle(type)) {
         const auto physical = physical_of_surface_.find(entity);
         set_patch(physical == physical_of_surface_.end() ? 0 : physical->second, entity);
+      } else if (n_nodes > k_most_nodes_of_lines && n > 0) {
+        const auto physical = physical_of_volume_.find(entity);
+        volume_groups_.insert(physical == physical_of_volume_.end() ? 0 : physical->second);
       }
       for (std::size_t i = 0; i < n; ++i) {
         if (i % k_stop_interval == 0) context_.check_stop();
@@ -333,6 +357,7 @@ class MshParser {
     }
     const std::size_t n_nodes = require_type(type);
     if (is_triangle(type) || is_quadrangle(type)) set_patch(physical, entity);
+    else if (n_nodes > k_most_nodes_of_lines) volume_groups_.insert(physical);
     read_element(type, n_nodes);
   }
 
@@ -370,8 +395,10 @@ class MshParser {
   std::endian order_ = std::endian::little;
   std::unordered_map<std::int64_t, std::uint32_t> point_of_tag_;
   std::map<std::int64_t, std::string> names_;
-  std::map<std::int64_t, std::int64_t> physical_of_surface_;
+  std::map<std::int64_t, std::int64_t> physical_of_surface_, physical_of_volume_;
   bool has_names_ = false;
+  LeftOut curved_, regions_, lines_;
+  std::set<std::int64_t> volume_groups_;  ///< physical groups of volume elements
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Gmsh MSH 2.2 and 4.1, text and binary (formats.md section 8.1): what the surface and the volume reader share.
+// Gmsh MSH 2.0 to 2.2 and 4.1, text and binary (formats.md section 8.1): what the surface and the volume reader share.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +27,8 @@ class MshSink {
   virtual void reserve_points(std::size_t n) = 0;
   /// Points are numbered from 0 in the order of the calls.
   virtual void add_point(const Vec3& p) = 0;
+  /// Whether add_point() takes coordinates that are nan or infinite; else such a file is malformed.
+  virtual bool takes_any_point() const { return false; }
   /// The patch of the faces that follow: the name of their physical group, else "patch_<number>" of the group, else of the entity.
   virtual void set_patch(std::string_view name) = 0;
   /// Triangles and quads of any order, by their corners.

@@ -68,13 +68,18 @@ std::uint64_t UgridSource::count(std::string_view expected) {
 
 double UgridSource::real() {
   constexpr std::string_view k_expected = "a coordinate of a point";
-  if (text_) return text_->real(k_expected);
+  if (text_) return text_->coordinate(k_expected);
   return variant_.is_single ? static_cast<double>(bytes_->read<float>(k_expected)) : bytes_->read<double>(k_expected);
 }
 
-Vec3 UgridSource::point(std::uint64_t i) {
+Vec3 UgridSource::any_point() {
   Vec3 p;
   for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = real();
+  return p;
+}
+
+Vec3 UgridSource::point(std::uint64_t i) {
+  const Vec3 p = any_point();
   if (!is_finite(p)) fail("point " + std::to_string(i + 1) + " is not finite");
   return p;
 }

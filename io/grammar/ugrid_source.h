@@ -43,6 +43,8 @@ class UgridSource {
   std::uint64_t count(std::string_view expected);
   /// The coordinates of point `i` (from 0), which must be finite.
   Vec3 point(std::uint64_t i);
+  /// The coordinates of the next point, which may be nan or infinite.
+  Vec3 any_point();
   /// A node number, less 1. \param n_nodes of the file
   std::uint32_t node(std::uint64_t n_nodes);
   /// Passes over n integers.

@@ -6,6 +6,7 @@
 #include "geom/base/error.h"
 #include "io/grammar/vtk_cells.h"
 #include "io/input/file_buffer.h"
+#include "io/input/left_out.h"
 #include "io/input/text_limits.h"
 #include "io/mesh/orientation.h"
 #include "io/mesh/surface_builder.h"
@@ -109,10 +110,9 @@ class FaceCollector {
         }
       });
     }
-    if (n_volumes_ > 0 && builder_.n_polygons() == 0)
-      throw_malformed(grid_.source, grid_.pieces.front().where, "found a volume mesh without boundary faces, expected triangles or quads among its cells");
     if (n_dropped_ > 0) context_.info(grid_.source + ": vertices and lines left out: " + std::to_string(n_dropped_));
-    SurfaceSoup soup = builder_.finish(n_volumes_ > 0);
+    curved_.warn(grid_.source, context_);
+    SurfaceSoup soup = builder_.finish(context_, n_volumes_ > 0);
     soup.has_names = has_markers;
     soup.single_precision = grid_.single_precision;
     soup.n_cells = n_volumes_;
@@ -128,6 +128,7 @@ class FaceCollector {
     const std::size_t n_curved = corners_of_curved_face(type);
     const std::size_t n_expected = type == k_vtk_triangle ? 3 : type == k_vtk_quad || type == k_vtk_pixel ? 4 : 0;
     if (n_curved > 0) n = std::min(n, n_curved);
+    if (n_curved > 0) curved_.add("second-order faces by their mid-side nodes, which become flat");
     if ((n_expected > 0 && n != n_expected) || (n_curved > 0 && nodes.size() <= n_curved) || n < 3 || n > k_max_polygon_corners)
       fail(grid_, *piece_, "cell " + std::to_string(cell) + " of VTK type " + std::to_string(type) + " has " + std::to_string(nodes.size()) + " nodes");
     corners_.clear();
@@ -151,6 +152,7 @@ class FaceCollector {
   std::uint32_t first_point_ = 0;
   std::optional<std::uint64_t> last_marker_;
   std::size_t n_dropped_ = 0, n_volumes_ = 0;
+  LeftOut curved_;
   std::vector<std::uint32_t> corners_;
 };
 
@@ -167,6 +169,8 @@ class CellCollector {
       piece_ = &piece;
       first_node_ = mesh_.points.size();
       if (first_node_ + piece.points.size() >= NodeId::k_invalid) throw_id_overflow(first_node_ + piece.points.size());
+      for (std::size_t i = 0; i < piece.points.size(); ++i)
+        if (!is_finite(piece.points[i])) fail(grid_, piece, "the coordinates of point " + std::to_string(i) + " are not finite");
       mesh_.points.raw().insert(mesh_.points.raw().end(), piece.points.begin(), piece.points.end());
       for_each_vtk_cell(grid_, piece, context_, [&](std::size_t cell, std::int64_t type, std::span<const std::uint64_t> nodes, std::uint64_t marker) {
         nodes_ = nodes;

@@ -32,8 +32,8 @@ struct VtkCells {
 };
 
 struct VtkPiece {
-  std::string where;  ///< for messages: "piece at byte 400"
-  std::vector<Point> points;
+  std::string where;          ///< for messages: "piece at byte 400"
+  std::vector<Point> points;  ///< perhaps with coordinates that are not finite
   std::vector<VtkCells> cells;
   std::optional<VtuValues> markers;  ///< per cell, over all of `cells`
   std::string marker_name;           ///< of that array
@@ -51,8 +51,8 @@ struct VtkGrid {
 };
 
 /// Triangles, quads, polygons, pixels, strips, corners of faces of second order; of a volume mesh its boundary faces. Points that no face uses are left out of
-/// a volume mesh.
-/// \throws Error file_malformed (indices out of range, sizes that disagree, a volume mesh without faces), overflow, cancelled.
+/// a volume mesh; one without faces gives no triangles.
+/// \throws Error file_malformed (indices out of range, sizes that disagree), overflow, cancelled.
 SurfaceSoup surface_of(const VtkGrid& grid, const RunContext& context);
 
 /// Cells in the explicit arrays, windings repaired.

@@ -178,10 +178,7 @@ class LegacyParser {
     const VtuValues values = read_values(type, n, 3, "coordinates", true);
     grid_.single_precision = type == Type::float32 && is_binary_;
     points_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      points_[i] = {values.real(3 * i), values.real(3 * i + 1), values.real(3 * i + 2)};
-      if (!is_finite(points_[i])) fail("the coordinates of point " + std::to_string(i) + " are not finite");
-    }
+    for (std::size_t i = 0; i < n; ++i) points_[i] = {values.real(3 * i), values.real(3 * i + 1), values.real(3 * i + 2)};
   }
 
   void take_cells(std::size_t section) {
@@ -329,7 +326,7 @@ class LegacyParser {
       bytes.reserve(n_items * per_item * sizeof(std::int64_t));
       for (std::size_t i = 0; i < n_items * per_item; ++i) {
         if (i % k_stop_interval == 0) context_.check_stop();
-        is_real ? append_value(bytes, scanner_.real(what)) : append_value(bytes, scanner_.integer(what));
+        is_real ? append_value(bytes, scanner_.coordinate(what)) : append_value(bytes, scanner_.integer(what));
       }
       return {is_real ? Type::float64 : Type::int64, std::move(bytes)};
     }

@@ -121,10 +121,7 @@ class PieceDecoder {
       fail("found " + std::to_string(values.size() / 3) + " points, expected " + std::string(announced) + " (NumberOfPoints)");
     is_single = is_single || tags_.points->attribute("type") == "Float32";
     std::vector<Point> points(values.size() / 3);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      points[i] = {values.real(3 * i), values.real(3 * i + 1), values.real(3 * i + 2)};
-      if (!is_finite(points[i])) fail("the coordinates of point " + std::to_string(i) + " are not finite");
-    }
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {values.real(3 * i), values.real(3 * i + 1), values.real(3 * i + 2)};
     return points;
   }
 

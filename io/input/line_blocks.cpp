@@ -64,6 +64,20 @@ double LineCursor::real(const char* expected, std::uint64_t number) {
   return value;
 }
 
+double LineCursor::coordinate(const char* expected, std::uint64_t number) {
+  skip_blanks();
+  const char* const first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+  const char* const field_end = std::find_if(first, end_, ends_field);
+  double value = 0.0;
+  const std::from_chars_result result = std::from_chars(first, field_end, value);
+  const bool is_whole = result.ec != std::errc::invalid_argument && result.ptr == field_end;
+  if (result.ec == std::errc::result_out_of_range && is_whole)
+    value = std::strtod(std::string(first, std::min(static_cast<std::size_t>(field_end - first), k_longest_number)).c_str(), nullptr);
+  if (!is_whole || std::isfinite(value)) return real(expected, number);
+  at_ = field_end;
+  return value;
+}
+
 std::uint64_t LineCursor::integer(const char* expected, std::uint64_t number) {
   skip_blanks();
   std::uint64_t value = 0;

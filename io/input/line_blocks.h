@@ -44,6 +44,8 @@ class LineCursor {
   /// Fields of the current line; blanks or commas before them are skipped. \p expected: "coordinate of node 7"; the number is added to the text when it is
   /// given.
   double real(const char* expected, std::uint64_t number);
+  /// real(), but numbers that are not finite are accepted: nan, inf, 1e999.
+  double coordinate(const char* expected, std::uint64_t number);
   std::uint64_t integer(const char* expected, std::uint64_t number);
   /// An integer below `limit`.
   std::uint32_t index(std::uint64_t limit, const char* expected, std::uint64_t number);

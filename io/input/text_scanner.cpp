@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <system_error>
 
 #include "io/input/text_limits.h"
@@ -117,6 +118,23 @@ std::string_view TextScanner::token(std::string_view expected) {
 }
 
 double TextScanner::real(std::string_view expected) {
+  const std::size_t before = position_;
+  const double value = any_real(expected);
+  if (std::isfinite(value)) return value;
+  position_ = before;
+  fail("found " + quoted_excerpt(peek()) + ", expected " + std::string(expected) + " (a finite number)");
+}
+
+double TextScanner::coordinate(std::string_view expected) {
+  begin_token(expected);
+  const std::size_t begin = position_ + (text_[position_] == '-' || text_[position_] == '+' ? 1 : 0);
+  if (text_.substr(begin, 3) != "1.#") return any_real(expected);  // how Microsoft's library writes nan and inf; '#' begins no comment there
+  while (position_ < text_.size() && class_of(text_[position_]) == k_other) ++position_;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A number of any value.
+double TextScanner::any_real(std::string_view expected) {
   begin_token(expected);
   const char* const first = text_.data() + position_ + (text_[position_] == '+' ? 1 : 0);
   double value = 0.0;
@@ -131,7 +149,6 @@ double TextScanner::real(std::string_view expected) {
     const std::string spelling(first, std::min(static_cast<std::size_t>(result.ptr - first), k_longest_number));
     value = std::strtod(spelling.c_str(), nullptr);  // from_chars does not tell 1e-999 (zero) from 1e+999 (an error)
   }
-  if (!std::isfinite(value)) fail("found " + quoted_excerpt(peek()) + ", expected " + std::string(expected) + " (a finite number)");
   position_ = end;
   return value;
 }

@@ -42,6 +42,8 @@ class TextScanner {
   void skip_token(std::string_view expected) { token(expected); }
   /// A finite number. Values too small for a double become zero.
   double real(std::string_view expected);
+  /// real(), but numbers that are not finite are accepted: nan, inf, 1e999, 1.#QNAN, -1.#IND.
+  double coordinate(std::string_view expected);
   std::int64_t integer(std::string_view expected);
   /// An integer in [0, remaining bytes / min_bytes]: a count of things of which each takes at least `min_bytes` of the text that is left,
   /// so that memory reserved for it stays in proportion to the file.
@@ -70,6 +72,7 @@ class TextScanner {
   void skip_space(bool over_lines);
   bool is_token_end(std::size_t position) const;
   void begin_token(std::string_view expected);
+  double any_real(std::string_view expected);
   std::size_t end_of_line(std::size_t position) const;
 
   std::string_view text_;

@@ -19,7 +19,7 @@ HybridMesh as_boundary(const TriMesh& mesh, Winding winding) {
   return boundary;
 }
 
-SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source) {
+SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source, const RunContext& context) {
   SurfaceBuilder builder(source);
   builder.reserve_points(mesh.points.size());
   builder.reserve_polygons(mesh.boundary_triangles.size() + 2 * mesh.boundary_quads.size());
@@ -34,14 +34,14 @@ SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source) {
   };
   add(mesh.boundary_triangles);
   add(mesh.boundary_quads);
-  SurfaceSoup soup = builder.finish(true);
+  SurfaceSoup soup = builder.finish(context, true);
   soup.has_names = !mesh.patches.empty();
   soup.n_cells = static_cast<std::uint64_t>(count_cells(mesh).total());
   return soup;
 }
 
-SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source) {
-  SurfaceSoup soup = boundary_soup(boundary.mesh, source);
+SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source, const RunContext& context) {
+  SurfaceSoup soup = boundary_soup(boundary.mesh, source, context);
   soup.n_cells = boundary.n_cells;
   return soup;
 }

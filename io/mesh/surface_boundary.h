@@ -23,7 +23,7 @@ struct FileBoundary {
 /// The boundary faces of a volume mesh: triangles, then quads split in two; points that no face uses are left out. Winding as in the mesh, out of the fluid.
 /// Patches without faces are dropped.
 /// \pre faces have patches
-SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source);
-SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source);
+SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source, const RunContext& context);
+SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source, const RunContext& context);
 
 }  // namespace sterna::io

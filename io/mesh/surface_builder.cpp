@@ -24,6 +24,7 @@ std::uint32_t SurfaceBuilder::add_point(const Vec3& p) {
   if (soup_.points.size() >= k_unused)
     throw Error({.code = ErrorCode::overflow, .attempted = "reading " + soup_.source, .problem = "more than 4294967294 points"});
   soup_.points.push_back(p);
+  has_not_finite_ = has_not_finite_ || !is_finite(p);
   return static_cast<std::uint32_t>(soup_.points.size() - 1);
 }
 
@@ -45,11 +46,64 @@ void SurfaceBuilder::add_polygon(std::span<const std::uint32_t> corners) {
   corners_.insert(corners_.end(), corners.begin(), corners.end());
 }
 
-SurfaceSoup SurfaceBuilder::finish(bool drop_unused_points) {
+SurfaceSoup SurfaceBuilder::finish(const RunContext& context, bool drop_unused_points) {
+  if (has_not_finite_) drop_not_finite();
   if (!polygons_.empty()) split_polygons();
-  if (drop_unused_points) compact_points();
+  if (drop_unused_points || has_not_finite_) compact_points();
   compact_patches();
+  if (n_not_finite_ > 0)
+    context.warn(soup_.source + ": " + std::to_string(n_not_finite_) +
+                 " polygons have a corner whose coordinates are nan or infinite and are left out, the first is " + not_finite_place_ +
+                 ". The surface has holes there; repair or --auto closes them");
   return std::move(soup_);
+}
+
+bool SurfaceBuilder::is_finite_polygon(std::span<const std::uint32_t> corners) const {
+  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) { return is_finite(soup_.points[corner]); });
+}
+
+void SurfaceBuilder::note_not_finite(std::size_t number, std::span<const std::uint32_t> corners) {
+  if (n_not_finite_++ > 0) return;
+  not_finite_place_ = "polygon " + std::to_string(number + 1) + " of " + std::to_string(n_polygons());
+  for (const std::uint32_t corner : corners) {
+    if (!is_finite(soup_.points[corner])) continue;
+    not_finite_place_ += ", beside " + format_point(soup_.points[corner]);
+    return;
+  }
+}
+
+/// Leaves the polygons and triangles out that have a corner which is not finite.
+void SurfaceBuilder::drop_not_finite() {
+  std::vector<Polygon> kept_polygons;
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  std::vector<std::uint32_t> kept_patch;
+  const std::size_t n_triangles = soup_.triangles.size();
+  std::size_t t = 0, n_before = 0;  // n_before: polygons of the file before this one
+  const auto take_triangles = [&](std::size_t end) {
+    for (; t < end; ++t, ++n_before) {
+      if (!is_finite_polygon(soup_.triangles[t])) {
+        note_not_finite(n_before, soup_.triangles[t]);
+        continue;
+      }
+      kept.push_back(soup_.triangles[t]);
+      kept_patch.push_back(soup_.patch[t]);
+    }
+  };
+  for (const Polygon& polygon : polygons_) {
+    take_triangles(polygon.before);
+    const std::span<const std::uint32_t> corners(corners_.data() + polygon.first_corner, polygon.n_corners);
+    if (is_finite_polygon(corners)) {
+      kept_polygons.push_back(polygon);
+      kept_polygons.back().before = kept.size();
+    } else {
+      note_not_finite(n_before, corners);
+    }
+    ++n_before;
+  }
+  take_triangles(n_triangles);
+  soup_.triangles = std::move(kept);
+  soup_.patch = std::move(kept_patch);
+  polygons_ = std::move(kept_polygons);
 }
 
 void SurfaceBuilder::split_polygons() {

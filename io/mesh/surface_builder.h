@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/run_context.h"
 #include "geom/mesh/surface_soup.h"
 
 namespace sterna::io {
@@ -23,6 +24,7 @@ class SurfaceBuilder {
   void reserve_points(std::size_t n) { soup_.points.reserve(n); }
   void reserve_polygons(std::size_t n);
 
+  /// Coordinates may be nan or infinite: finish() leaves out what uses such points.
   /// \throws Error(overflow) when there are more points than 32-bit indices.
   std::uint32_t add_point(const Vec3& p);
 
@@ -39,9 +41,9 @@ class SurfaceBuilder {
   }
 
   /// Splits the polygons, drops patches without triangles. With `drop_unused_points` (the boundary of a volume mesh) only the points in use stay, in their
-  /// order.
+  /// order. Polygons with corners that are not finite are left out with a warning; then only the points in use stay, too.
   /// \pre every index is below n_points()
-  SurfaceSoup finish(bool drop_unused_points = false);
+  SurfaceSoup finish(const RunContext& context, bool drop_unused_points = false);
 
  private:
   struct Polygon {  // of more than three corners; its triangles come before triangle `before`
@@ -50,6 +52,9 @@ class SurfaceBuilder {
     std::size_t n_corners = 0;
     std::uint32_t patch = 0;
   };
+  bool is_finite_polygon(std::span<const std::uint32_t> corners) const;
+  void note_not_finite(std::size_t number, std::span<const std::uint32_t> corners);
+  void drop_not_finite();
   void split_polygons();
   void compact_points();
   void compact_patches();
@@ -57,6 +62,9 @@ class SurfaceBuilder {
   SurfaceSoup soup_;
   std::map<std::string, std::uint32_t, std::less<>> patch_names_;
   std::uint32_t current_patch_ = 0;
+  bool has_not_finite_ = false;
+  std::size_t n_not_finite_ = 0;  ///< polygons
+  std::string not_finite_place_;  ///< of the first of them: "polygon 7 of 12, beside (1, 0, 2)"
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;
 };

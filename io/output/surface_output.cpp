@@ -1,6 +1,9 @@
 #include "io/output/surface_output.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -64,7 +67,7 @@ OutputSection patch_number_lines(const TriMesh& mesh) {
   });
 }
 
-void require_single_precision(const TriMesh& mesh, std::string_view format, const std::string& path) {
+void require_single_precision(const TriMesh& mesh, std::string_view format, const std::string& path, const RunContext& context) {
   constexpr double k_limit = static_cast<double>(std::numeric_limits<float>::max());
   for (const Point& p : mesh.points)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -72,6 +75,15 @@ void require_single_precision(const TriMesh& mesh, std::string_view format, cons
         throw Error({.code = ErrorCode::overflow,
                      .attempted = "writing " + path,
                      .problem = "a coordinate of " + std::to_string(p[axis]) + ", but the 32-bit floats of " + std::string(format) + " end at 3.4e38"});
+  double moved = 0.0;
+  for (const Point& p : mesh.points)
+    moved = std::max(moved, distance(p, Point{static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
+                                              static_cast<double>(static_cast<float>(p.z))}));
+  if (moved > 0.0) {
+    std::array<char, 32> number;
+    std::snprintf(number.data(), number.size(), "%.2g", moved);
+    context.info(path + ": " + std::string(format) + " is single precision: vertices move by up to " + number.data() + " m");
+  }
 }
 
 void write_file(const std::filesystem::path& path, const std::vector<OutputSection>& sections, const RunContext& context) {

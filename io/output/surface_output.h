@@ -54,8 +54,8 @@ OutputSection patch_number_lines(const TriMesh& mesh);
 
 inline std::int64_t patch_number(const TriMesh& mesh, TriangleId t) { return static_cast<std::int64_t>(mesh.triangle_patch[t].value()) + 1; }
 
-/// Throws Error(overflow) for coordinates that a 32-bit float cannot hold.
-void require_single_precision(const TriMesh& mesh, std::string_view format, const std::string& path);
+/// Throws Error(overflow) for coordinates that a 32-bit float cannot hold; tells how far rounding moves the vertices.
+void require_single_precision(const TriMesh& mesh, std::string_view format, const std::string& path, const RunContext& context);
 
 /// Writes the whole file: temporary name, sections, sync, rename. The same bytes for any number of threads.
 void write_file(const std::filesystem::path& path, const std::vector<OutputSection>& sections, const RunContext& context);

@@ -47,7 +47,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
   for (std::size_t i = 0; i < n_points; ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
     Vec3 p;
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a vertex");
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate("a coordinate of a vertex");
     builder.add_point(p);
   }
   Corners triangles(n_triangles);
@@ -61,7 +61,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
   if (!scanner.at_end() && !has_scalars)
     context.warn(buffer.source + ": what follows the components of the last of " + std::to_string(n_triangles) + " triangles is ignored");
   add_triangles(builder, triangles, components);
-  SurfaceSoup soup = builder.finish();
+  SurfaceSoup soup = builder.finish(context);
   soup.has_names = !components.empty();
   return soup;
 }
@@ -114,7 +114,6 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
     if (static_cast<std::size_t>(i) % k_stop_interval == 0) context.check_stop();
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(coordinates.take<float>());
-    if (!is_finite(p)) coordinates.fail("vertex " + std::to_string(i + 1) + " ends here and is not finite");
     builder.add_point(p);
   }
   records.end();
@@ -136,7 +135,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
     records.end();
   }
   add_triangles(builder, triangles, components);
-  SurfaceSoup soup = builder.finish();
+  SurfaceSoup soup = builder.finish(context);
   soup.has_names = !components.empty();
   soup.single_precision = true;
   return soup;
@@ -171,7 +170,7 @@ void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const 
 void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   constexpr std::uint64_t k_most = std::numeric_limits<std::int32_t>::max() / 12;  // of 12 bytes in a record
   require_count(std::max(mesh.n_vertices(), mesh.n_triangles()), k_most, "vertices or triangles", "binary Cart3D", path.string());
-  require_single_precision(mesh, "binary Cart3D", path.string());
+  require_single_precision(mesh, "binary Cart3D", path.string(), context);
   tell_numbered_patches(mesh, "Cart3D", context);
   constexpr std::endian k_order = std::endian::little;
   std::vector<OutputSection> sections;

@@ -5,7 +5,9 @@
 
 namespace sterna::io {
 
-SurfaceSoup read_cgns(const std::filesystem::path& path, const RunContext& context) { return boundary_soup(read_boundary_cgns(path, context), path.string()); }
+SurfaceSoup read_cgns(const std::filesystem::path& path, const RunContext& context) {
+  return boundary_soup(read_boundary_cgns(path, context), path.string(), context);
+}
 
 void write_cgns(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   write_volume_cgns(as_boundary(mesh, Winding::kept), path, context);

@@ -41,7 +41,7 @@ class DwfsReader {
     }
     if (parts.empty()) throw_malformed(buffer_.source, "byte 0", "found no <Triangulation>, expected a mesh of sumo (dwfs)");
     for (const Triangulation& part : parts) take(part);
-    SurfaceSoup soup = builder_.finish();
+    SurfaceSoup soup = builder_.finish(context_);
     soup.has_names = has_tags_;
     return soup;
   }
@@ -87,8 +87,7 @@ class DwfsReader {
       if (at == end) break;
       T value{};
       const auto [next, failure] = std::from_chars(at, end, value);
-      bool is_good = failure == std::errc{} && (next == end || is_blank(*next));
-      if constexpr (std::is_floating_point_v<T>) is_good = is_good && std::isfinite(value);
+      const bool is_good = failure == std::errc{} && (next == end || is_blank(*next));
       if (!is_good)
         throw_malformed(
             buffer_.source, "byte " + std::to_string(at - buffer_.bytes.data()),

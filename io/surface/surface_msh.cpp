@@ -21,12 +21,13 @@ class FaceSink final : public MshSink {
   explicit FaceSink(const std::string& source) : builder_(source) {}
   void reserve_points(std::size_t n) override { builder_.reserve_points(n); }
   void add_point(const Vec3& p) override { builder_.add_point(p); }
+  bool takes_any_point() const override { return true; }
   void set_patch(std::string_view name) override { builder_.set_patch(name); }
   void add_face(std::span<const std::uint32_t> corners) override { builder_.add_polygon(corners); }
   void add_cell(std::int64_t, std::span<const std::uint32_t>) override { ++n_cells_; }
   void add_curved_cell() override { ++n_cells_; }
-  SurfaceSoup finish() {
-    SurfaceSoup soup = builder_.finish(true);
+  SurfaceSoup finish(const RunContext& context) {
+    SurfaceSoup soup = builder_.finish(context, true);
     soup.n_cells = n_cells_;
     return soup;
   }
@@ -87,7 +88,7 @@ SurfaceSoup read_msh(const std::filesystem::path& path, const RunContext& contex
   const FileBuffer buffer = load_file(path, context);
   FaceSink sink(buffer.source);
   const bool has_names = parse_msh(buffer, context, sink);
-  SurfaceSoup soup = sink.finish();
+  SurfaceSoup soup = sink.finish(context);
   soup.has_names = has_names || soup.patch_names.size() > 1;
   return soup;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/input/file_buffer.h"
+#include "io/input/left_out.h"
 #include "io/input/text_limits.h"
 #include "io/input/text_scanner.h"
 #include "io/mesh/surface_builder.h"
@@ -52,6 +53,13 @@ bool parse_real(std::string_view field, double& value) {
   return !text.empty() && failure == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
 }
 
+/// "NaN", "-Inf", "Infinity", "1.#QNAN".
+bool is_not_finite_text(std::string_view field, double& value) {
+  const std::string_view bare = field.starts_with('+') || field.starts_with('-') ? field.substr(1) : field;
+  value = std::numeric_limits<double>::quiet_NaN();
+  return equal_ignoring_case(bare.substr(0, 3), "nan") || equal_ignoring_case(bare.substr(0, 3), "inf") || bare.starts_with("1.#");
+}
+
 /// What an element card is to a surface.
 struct ElementCard {
   std::string_view name;
@@ -69,6 +77,13 @@ constexpr std::array<ElementCard, 12> k_elements = {{{"CTRIA3", 3},
                                                      {"CPYRAM", 0},
                                                      {"CPYRA", 0},
                                                      {"CHEXA", 0}}};
+
+/// Cards of elements that are no faces or volumes of a mesh, and of faces that are not read.
+bool is_other_element(std::string_view name) {
+  constexpr std::array<std::string_view, 20> k_names = {"CBAR",   "CBEAM",  "CROD",    "CONROD", "CTUBE",   "CBEND",   "CBUSH",   "CELAS1", "CELAS2", "CELAS3",
+                                                        "CSHEAR", "CTRIAX", "CTRIAX6", "CQUADX", "CQUADX4", "CQUADX8", "CTRIAX3", "PLOTEL", "CAERO1", "CAERO2"};
+  return std::any_of(k_names.begin(), k_names.end(), [&](std::string_view known) { return equal_ignoring_case(name, known); });
+}
 
 struct NastranFace {
   std::array<std::int64_t, 4> nodes{};
@@ -100,10 +115,10 @@ class BulkParser {
       throw_malformed(buffer_.source, "line " + std::to_string(line_number_), "found the end of the file, expected ENDDATA after BEGIN BULK",
                       "the file may have been cut short: copy or write it again");
     if (!has_end) context_.warn(buffer_.source + ": there is no ENDDATA; whether the file is whole cannot be told");
+    curved_.warn(buffer_.source, context_);
+    elements_.warn(buffer_.source, context_);
     add_faces();
-    if (n_volumes_ > 0 && faces_.empty())
-      throw_malformed(buffer_.source, "line 1", "found a volume mesh without faces, expected CTRIA3 or CQUAD4 for its boundary");
-    SurfaceSoup soup = builder_.finish(n_volumes_ > 0);
+    SurfaceSoup soup = builder_.finish(context_, n_volumes_ > 0);
     soup.n_cells = n_volumes_;
     soup.has_names = soup.patch_names.size() > 1 || !names_.empty();
     return soup;
@@ -211,8 +226,12 @@ class BulkParser {
     } else if (begins_with_word(name, "INCLUDE")) {
       throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": INCLUDE", "join the files to one");
     } else {
-      for (const ElementCard& element : k_elements)
-        if (equal_ignoring_case(name, element.name)) take_element(element.n_corners);
+      const auto is_name = [&](const ElementCard& element) { return equal_ignoring_case(name, element.name); };
+      const auto element = std::find_if(k_elements.begin(), k_elements.end(), is_name);
+      if (element != k_elements.end()) take_element(element->n_corners);
+      else if (is_other_element(name)) elements_.add("elements " + std::string(name));
+      if (equal_ignoring_case(name, "CTRIA6") || equal_ignoring_case(name, "CQUAD8") || equal_ignoring_case(name, "CQUAD"))
+        curved_.add("second-order faces by their mid-side nodes, which become flat");
     }
     fields_.clear();
   }
@@ -239,7 +258,7 @@ class BulkParser {
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view text = field(3 + axis);
-      if (!text.empty() && !parse_real(text, p[axis]))
+      if (!text.empty() && !parse_real(text, p[axis]) && !is_not_finite_text(text, p[axis]))
         fail(card_line_, "found " + quoted_excerpt(text) + " in field " + std::to_string(4 + axis) + " of GRID, expected a coordinate");
     }
     const auto [entry, is_new] = point_of_id_.try_emplace(id, static_cast<std::uint32_t>(builder_.n_points()));
@@ -292,6 +311,7 @@ class BulkParser {
   std::vector<NastranFace> faces_;
   std::map<std::int64_t, std::string> names_;  ///< by PID
   std::size_t n_volumes_ = 0;
+  LeftOut curved_, elements_;
 };
 
 // ---- writing

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/input/left_out.h"
 #include "io/input/text_limits.h"
 #include "io/input/text_scanner.h"
 #include "io/mesh/surface_builder.h"
@@ -23,6 +24,16 @@ constexpr std::array<std::string_view, 41> k_ignored = {
     "vt",         "vn",        "vp",    "s",     "l",    "p",   "mtllib", "maplib", "usemap", "mg",     "lod",  "bevel", "c_interp", "d_interp",
     "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh", "deg",    "bmat",   "step",   "cstype", "curv", "curv2", "surf",     "parm",
     "trim",       "hole",      "scrv",  "sp",    "end",  "con", "res",    "cdp",    "cdc",    "bzp",    "bsp",  "vc",    "cbp"};
+
+/// What a line of k_ignored holds that is geometry; empty for the rest.
+std::string_view geometry_of(std::string_view word) {
+  if (word == "l") return "lines (l)";
+  if (word == "p") return "points (p)";
+  if (word == "surf") return "free-form surfaces (surf)";
+  if (word == "curv" || word == "curv2") return "free-form curves (curv)";
+  if (word == "bzp" || word == "bsp") return "patches of curves (bzp, bsp)";
+  return {};
+}
 
 /// The three ways in which a file can name parts of itself.
 enum Naming : std::size_t { k_group, k_object, k_material, k_n_namings };
@@ -87,6 +98,20 @@ const std::vector<NameChange>* choose_naming(const Faces& faces) {
   return first_with_name;
 }
 
+/// A file may name its parts in several ways, of which one becomes the patches.
+void tell_other_namings(const Faces& faces, const std::vector<NameChange>* chosen, const std::string& source, const RunContext& context) {
+  constexpr std::array<std::string_view, k_n_namings> k_words = {"groups", "objects", "materials"};
+  const auto names_of = [](const std::vector<NameChange>& changes) {
+    std::set<std::string_view> names;
+    for (const NameChange& change : changes) names.insert(change.name);
+    return names;
+  };
+  for (std::size_t k = 0; k < k_n_namings; ++k)
+    if (chosen && &faces.changes[k] != chosen && names_of(faces.changes[k]).size() > 1 && names_of(faces.changes[k]) != names_of(*chosen))
+      context.info(source + ": patches are named by " + std::string(k_words[static_cast<std::size_t>(chosen - faces.changes.data())]) + "; the " +
+                   std::to_string(names_of(faces.changes[k]).size()) + " " + std::string(k_words[k]) + " are left out");
+}
+
 }  // namespace
 
 SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& context) {
@@ -95,12 +120,13 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
   SurfaceBuilder builder(buffer.source);
   Faces faces;
   HighestIndex highest;
+  LeftOut surfaces, others;
   for (std::size_t i = 0; !scanner.at_end(); ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
     const std::string_view word = scanner.token("a keyword");
     if (word == "v") {
       Vec3 p;
-      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a vertex");
+      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate("a coordinate of a vertex");
       builder.add_point(p);
     } else if (word == "f" || word == "fo") {
       parse_face(scanner, builder.n_points(), highest, faces);
@@ -110,6 +136,8 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
       continue;  // rest_of_line has moved on; at a line end the next round skips it
     } else if (std::find(k_ignored.begin(), k_ignored.end(), word) == k_ignored.end()) {
       scanner.fail_expected("an OBJ keyword such as \"v\", \"f\" or \"g\"");
+    } else if (const std::string_view geometry = geometry_of(word); !geometry.empty()) {
+      (word == "surf" || word == "bzp" || word == "bsp" ? surfaces : others).add(geometry);
     }
     scanner.next_line();
   }
@@ -117,7 +145,10 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
     throw_malformed(buffer.source, "line " + std::to_string(scanner.line_at(highest.offset)),
                     "found vertex number " + std::to_string(highest.value + 1) + ", but the file has " + std::to_string(builder.n_points()) + " vertices");
 
+  surfaces.warn(buffer.source, context);
+  others.tell(buffer.source, context);
   const std::vector<NameChange>* const naming = choose_naming(faces);
+  tell_other_namings(faces, naming, buffer.source, context);
   constexpr std::string_view k_default_group = "default";  // the name that the format gives to what comes before any group
   if (naming) builder.set_patch(k_default_group);
   builder.reserve_polygons(faces.size());
@@ -129,7 +160,7 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
     }
     builder.add_polygon(std::span(faces.corners).subspan(first, faces.ends[i] - first));
   }
-  SurfaceSoup soup = builder.finish();
+  SurfaceSoup soup = builder.finish(context);
   soup.has_names = naming != nullptr;
   return soup;
 }

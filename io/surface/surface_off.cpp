@@ -57,11 +57,8 @@ bool is_count_of_extras(std::size_t n) { return n == 0 || n == 3 || n == 4 || n 
 
 Vec3 parse_vertex(TextScanner& scanner, const OffHeader& header) {
   Vec3 p;
-  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a vertex");
-  if (header.has_weight) {
-    p = p / scanner.real("the fourth coordinate of a vertex");
-    if (!is_finite(p)) scanner.fail("the fourth coordinate of this vertex makes its position infinite");
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate("a coordinate of a vertex");
+  if (header.has_weight) p = p / scanner.coordinate("the fourth coordinate of a vertex");
   std::size_t n_extras = 0;
   for (; !scanner.at_line_end(); ++n_extras) scanner.real("a colour or a component of a normal");
   if (!header.has_extras && !is_count_of_extras(n_extras))
@@ -95,7 +92,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const OffH
   }
   if (!scanner.at_end()) scanner.fail("found more lines after the last of " + std::to_string(n_faces) + " faces, expected the end of the file");
   if (n_not_faces > 0) context.warn(buffer.source + ": " + std::to_string(n_not_faces) + " faces of fewer than three corners (points and lines) are left out");
-  return builder.finish();
+  return builder.finish(context);
 }
 
 /// Geomview's files are big-endian and have a count of colour components after each face; pmp's are little-endian and have none.
@@ -122,7 +119,6 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
   for (std::size_t i = 0; i < n_points; ++i) {
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(reader.take<float>());
-    if (!is_finite(p)) reader.fail("vertex " + std::to_string(i) + " ends here and is not finite");
     builder.add_point(p);
   }
   reader.require(n_faces, sizeof(std::int32_t), "the faces");
@@ -150,7 +146,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
     }
   }
   if (reader.remaining() > 0) reader.fail("found " + std::to_string(reader.remaining()) + " bytes after the last face, expected the end of the file");
-  SurfaceSoup soup = builder.finish();
+  SurfaceSoup soup = builder.finish(context);
   soup.single_precision = true;
   return soup;
 }

@@ -61,8 +61,8 @@ void add_block(SurfaceBuilder& builder, std::size_t number, const GridBlock& blo
   add_network(builder, first, block.n_points, block.n_lines);
 }
 
-SurfaceSoup finished(SurfaceBuilder& builder, std::size_t n_blocks) {
-  SurfaceSoup soup = builder.finish();
+SurfaceSoup finished(SurfaceBuilder& builder, std::size_t n_blocks, const RunContext& context) {
+  SurfaceSoup soup = builder.finish(context);
   soup.has_names = n_blocks > 1;
   return soup;
 }
@@ -90,10 +90,10 @@ SurfaceSoup read_text_blocks(const FileBuffer& buffer, const RunContext& context
     constexpr std::size_t k_min_point_bytes = 6;
     if (blocks[i].n_points > (scanner.remaining() + 1) / k_min_point_bytes / blocks[i].n_lines)
       scanner.fail("the file ends before the " + std::to_string(blocks[i].size()) + " points of block " + std::to_string(i + 1), k_cut_hint);
-    add_block(builder, i, blocks[i], context, [&] { return scanner.real("a coordinate"); });
+    add_block(builder, i, blocks[i], context, [&] { return scanner.coordinate("a coordinate"); });
   }
   if (!scanner.at_end()) scanner.fail("found more after the last of " + std::to_string(n_blocks) + " blocks, expected the end of the file");
-  return finished(builder, n_blocks);
+  return finished(builder, n_blocks, context);
 }
 
 // ---- bytes
@@ -112,13 +112,16 @@ class BinaryReader {
       if (has_records_) precision_ = precision_of(begin_record(), n);
       reader_.require(n, bytes_per_point(), "points of block " + std::to_string(i + 1));
       add_block(builder, i, blocks_[i], context_, [this] { return coordinate(); });
-      if (precision_.has_blanks) reader_.skip(n * sizeof(std::int32_t));
+      for (std::uint64_t k = 0; precision_.has_blanks && k < n; ++k) n_blank_ += reader_.take<std::int32_t>() == 0 ? 1 : 0;
       if (has_records_) end_record();
     }
     if (reader_.remaining() > 0)
       reader_.fail("found " + std::to_string(reader_.remaining()) + " bytes after the last of " + std::to_string(blocks_.size()) +
                    " blocks, expected the end of the file");
-    SurfaceSoup soup = finished(builder, blocks_.size());
+    if (n_blank_ > 0)
+      context_.warn(buffer_.source + ": " + std::to_string(n_blank_) +
+                    " points are blanked (iblank = 0); their faces are read as all others, so that blanked holes are closed");
+    SurfaceSoup soup = finished(builder, blocks_.size(), context_);
     soup.single_precision = precision_.real_bytes == sizeof(float);
     return soup;
   }
@@ -163,11 +166,7 @@ class BinaryReader {
   }
   std::size_t bytes_per_point() const { return 3 * precision_.real_bytes + (precision_.has_blanks ? sizeof(std::int32_t) : 0); }
 
-  double coordinate() {
-    const double value = precision_.real_bytes == sizeof(double) ? reader_.take<double>() : static_cast<double>(reader_.take<float>());
-    if (!std::isfinite(value)) reader_.fail("a coordinate that ends here is not finite");
-    return value;
-  }
+  double coordinate() { return precision_.real_bytes == sizeof(double) ? reader_.take<double>() : static_cast<double>(reader_.take<float>()); }
 
   std::uint32_t begin_record() {
     record_bytes_ = reader_.read<std::uint32_t>("the size of a record");
@@ -185,7 +184,7 @@ class BinaryReader {
   bool has_records_;
   const RunContext& context_;
   std::vector<GridBlock> blocks_;
-  std::uint64_t total_points_ = 0;
+  std::uint64_t total_points_ = 0, n_blank_ = 0;
   Precision precision_;
   std::uint32_t record_bytes_ = 0;
   std::size_t record_end_ = 0;

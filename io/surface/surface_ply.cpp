@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/input/byte_reader.h"
+#include "io/input/left_out.h"
 #include "io/input/text_limits.h"
 #include "io/input/text_scanner.h"
 #include "io/mesh/surface_builder.h"
@@ -214,12 +215,12 @@ PlyHeader parse_ply_header(TextScanner& scanner) {
   return header;
 }
 
-// ---- the two sources of values; both offer real, integer, skip, fail
+// ---- the two sources of values; both offer coordinate, integer, skip, fail
 
 class TextValues {
  public:
   explicit TextValues(TextScanner& scanner) : scanner_(scanner) { scanner_.set_line_bound(false); }
-  double real(PlyType, std::string_view expected) { return scanner_.real(expected); }
+  double coordinate(PlyType, std::string_view expected) { return scanner_.coordinate(expected); }
   std::int64_t integer(PlyType, std::string_view expected) { return scanner_.integer(expected); }
   void skip(PlyType, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) scanner_.skip_token("the value of a property");
@@ -236,12 +237,10 @@ class TextValues {
 class ByteValues {
  public:
   explicit ByteValues(ByteReader reader) : reader_(std::move(reader)) {}
-  double real(PlyType type, std::string_view expected) {
-    const double value = type == PlyType::float32   ? static_cast<double>(reader_.read<float>(expected))
-                         : type == PlyType::float64 ? reader_.read<double>(expected)
-                                                    : static_cast<double>(integer(type, expected));
-    if (!std::isfinite(value)) reader_.fail("a value that ends here is not finite, expected " + std::string(expected));
-    return value;
+  double coordinate(PlyType type, std::string_view expected) {
+    return type == PlyType::float32   ? static_cast<double>(reader_.read<float>(expected))
+           : type == PlyType::float64 ? reader_.read<double>(expected)
+                                      : static_cast<double>(integer(type, expected));
   }
   std::int64_t integer(PlyType type, std::string_view expected) {
     switch (type) {
@@ -297,7 +296,7 @@ void read_corners(Values& values, const Property& property, std::size_t n_points
 }
 
 template <class Values>
-void read_elements(const PlyHeader& header, Values values, SurfaceBuilder& builder, const RunContext& context) {
+void read_elements(const PlyHeader& header, Values values, const std::string& source, SurfaceBuilder& builder, const RunContext& context) {
   std::size_t n_points = 0;
   for (const Element& element : header.elements)
     if (element.is_vertex()) n_points = element.count;
@@ -313,9 +312,9 @@ void read_elements(const PlyHeader& header, Values values, SurfaceBuilder& build
       std::optional<std::int64_t> patch;
       for (const Property& property : element.properties) {
         switch (property.role) {
-          case Role::x: p.x = values.real(property.type, "the x coordinate of a vertex"); break;
-          case Role::y: p.y = values.real(property.type, "the y coordinate of a vertex"); break;
-          case Role::z: p.z = values.real(property.type, "the z coordinate of a vertex"); break;
+          case Role::x: p.x = values.coordinate(property.type, "the x coordinate of a vertex"); break;
+          case Role::y: p.y = values.coordinate(property.type, "the y coordinate of a vertex"); break;
+          case Role::z: p.z = values.coordinate(property.type, "the z coordinate of a vertex"); break;
           case Role::corners: read_corners(values, property, n_points, corners); break;
           case Role::patch: patch = values.integer(property.type, "the patch of a face"); break;
           case Role::skipped: values.skip(property.type, property.is_list ? read_length(values, property) : 1); break;
@@ -332,7 +331,7 @@ void read_elements(const PlyHeader& header, Values values, SurfaceBuilder& build
     }
   }
   values.expect_end(header.elements.empty() ? 0 : header.elements.back().count);
-  if (n_not_faces > 0) context.warn(std::to_string(n_not_faces) + " faces of fewer than three corners are left out");
+  if (n_not_faces > 0) context.warn(source + ": " + std::to_string(n_not_faces) + " faces of fewer than three corners are left out");
 }
 
 }  // namespace
@@ -343,10 +342,10 @@ SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& contex
   const PlyHeader header = parse_ply_header(scanner);
   SurfaceBuilder builder(buffer.source);
   if (header.encoding == PlyEncoding::text) {
-    read_elements(header, TextValues(scanner), builder, context);
+    read_elements(header, TextValues(scanner), buffer.source, builder, context);
   } else {
     const std::endian order = header.encoding == PlyEncoding::little_endian ? std::endian::little : std::endian::big;
-    read_elements(header, ByteValues(ByteReader(buffer, order, scanner.offset())), builder, context);
+    read_elements(header, ByteValues(ByteReader(buffer, order, scanner.offset())), buffer.source, builder, context);
   }
 
   bool has_faces = false, has_patches = false, has_strips = false, is_single = false;
@@ -359,7 +358,11 @@ SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& contex
     }
   }
   if (has_strips && !has_faces) throw_unsupported(buffer.source, "triangle strips are not read", "write the PLY file with plain faces");
-  SurfaceSoup soup = builder.finish();
+  LeftOut left_out;
+  for (const Element& element : header.elements)
+    if (!element.is_face() && !element.is_vertex()) left_out.add("elements \"" + element.name + "\"", element.count);
+  has_strips ? left_out.warn(buffer.source, context) : left_out.tell(buffer.source, context);
+  SurfaceSoup soup = builder.finish(context);
   soup.has_names = has_patches;
   soup.single_precision = is_single;
   return soup;

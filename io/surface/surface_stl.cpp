@@ -43,13 +43,12 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t n_facets, const Ru
     for (std::uint32_t& corner : corners) {
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(reader.take<float>());
-      if (!is_finite(p)) reader.fail("a corner of facet " + std::to_string(i + 1) + " of " + std::to_string(n_facets) + " ends here and is not finite");
       corner = builder.add_point(p);
     }
     builder.add_triangle(corners[0], corners[1], corners[2]);
     reader.skip(sizeof(std::uint16_t));  // attribute: colours, mostly
   }
-  SurfaceSoup soup = builder.finish();
+  SurfaceSoup soup = builder.finish(context);
   soup.single_precision = true;
   return soup;
 }
@@ -68,7 +67,7 @@ void read_facet(TextScanner& scanner, SurfaceBuilder& builder) {
   for (std::uint32_t& corner : corners) {
     scanner.keyword("vertex");
     Vec3 p;
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a vertex");
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate("a coordinate of a vertex");
     corner = builder.add_point(p);
   }
   scanner.keyword("endloop");
@@ -109,7 +108,7 @@ SurfaceSoup read_text_solids(const FileBuffer& buffer, const RunContext& context
     }
   }
   if (is_open) context.warn(buffer.source + ": the last solid has no \"endsolid\"; the file may have been cut short");
-  SurfaceSoup soup = builder.finish();
+  SurfaceSoup soup = builder.finish(context);
   soup.has_names = n_named > 0 || n_solids > 1;
   if (!soup.has_names)
     for (std::string& name : soup.patch_names) name.clear();
@@ -179,7 +178,7 @@ void write_stl(const TriMesh& mesh, const std::filesystem::path& path, const Run
 
 void write_stl_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   require_count(mesh.n_triangles(), std::numeric_limits<std::uint32_t>::max(), "triangles", "binary STL", path.string());
-  require_single_precision(mesh, "binary STL", path.string());
+  require_single_precision(mesh, "binary STL", path.string(), context);
   if (mesh.patches.size() > 1) context.warn("binary STL has no patches: the " + std::to_string(mesh.patches.size()) + " of the surface become one");
   std::string header = "binary STL, single precision";  // must not begin with "solid"
   header.resize(k_first_facet, ' ');

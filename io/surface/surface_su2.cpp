@@ -40,7 +40,7 @@ class Su2SurfaceReader {
       has_names = has_names || !zone.markers.empty();
     }
     tell_what_was_left_out();
-    SurfaceSoup soup = builder_.finish(true);
+    SurfaceSoup soup = builder_.finish(context_, true);
     soup.has_names = has_names;
     soup.n_cells = n_cells_;
     return soup;
@@ -163,7 +163,7 @@ class Su2SurfaceReader {
     builder_.reserve_points(first_point_ + n_points_);
     for_each_line(*zone.points, [&](LineCursor& cursor, std::uint64_t i) {
       Vec3 p;
-      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = cursor.real("a coordinate of node ", i);
+      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = cursor.coordinate("a coordinate of node ", i);
       builder_.add_point(p);
     });
   }
@@ -190,7 +190,7 @@ class Su2SurfaceReader {
     });
   }
 
-  /// Where markers have no faces, the faces among the elements are the surface; else those are left out.
+  /// Where markers have no faces, the faces among the elements are the surface; else those are left out. Cells without any face are left to the caller.
   void read_elements(const SurfaceZone& zone) {
     const bool are_elements_the_surface = !std::exchange(has_marked_faces_, false);
     if (!zone.elements) return;
@@ -205,7 +205,7 @@ class Su2SurfaceReader {
       ++(is_face ? n_faces : n_cells);
       if (is_face && are_elements_the_surface) read_face(cursor, type, i);
     });
-    if (are_elements_the_surface && n_cells > 0)
+    if (are_elements_the_surface && n_cells > 0 && (n_faces > 0 || zones_.size() > 1))
       throw_malformed(source_, "line " + std::to_string(zone.elements->line),
                       "found a volume mesh without faces in markers, expected its boundary faces behind NMARK=");
     n_cells_ += n_cells;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/input/file_buffer.h"
+#include "io/input/left_out.h"
 #include "io/input/text_limits.h"
 #include "io/input/text_scanner.h"
 #include "io/mesh/surface_builder.h"
@@ -43,7 +44,8 @@ class PlcParser {
     }
     take_facets(equal_ignoring_case(unpacked.extension().string(), ".poly"));
     if (n_constraints_ > 0) context_.info(buffer_.source + ": points and segments within facets left out: " + std::to_string(n_constraints_));
-    SurfaceSoup soup = builder_.finish();
+    tell_holes_and_regions();
+    SurfaceSoup soup = builder_.finish(context_);
     soup.has_names = has_markers_;
     return soup;
   }
@@ -72,7 +74,7 @@ class PlcParser {
       if (number != base_ + static_cast<std::int64_t>(i))
         scanner.fail_expected(std::to_string(base_ + static_cast<std::int64_t>(i)) + ", the number of the next node");
       Vec3 p;
-      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a node");
+      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate("a coordinate of a node");
       builder_.add_point(p);
       scanner.next_line();  // attributes, marker
     }
@@ -90,6 +92,18 @@ class PlcParser {
       find_record(scanner_, "a facet");
       is_poly ? take_poly_facet() : take_smesh_facet();
     }
+  }
+
+  /// Two lists may follow the facets: points in holes, points in regions.
+  void tell_holes_and_regions() {
+    LeftOut left_out;
+    for (const char* what : {"points in holes", "points in regions"}) {
+      if (scanner_.at_end()) break;
+      const std::size_t n = scanner_.count("the number of holes or regions", 1);
+      left_out.add(what, n);
+      for (std::size_t i = 0; i < n + 1 && !scanner_.at_end(); ++i) scanner_.next_line();
+    }
+    left_out.warn(buffer_.source, context_);
   }
 
   void take_marker() {

@@ -40,7 +40,7 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
   builder.reserve_points(n_points);
   for (std::uint64_t i = 0; i < n_points; ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
-    builder.add_point(source.point(i));
+    builder.add_point(source.any_point());
   }
   const std::vector<std::uint32_t> triangles = read_corners(source, n_triangles, 3, n_points, context);
   const std::vector<std::uint32_t> quads = read_corners(source, n_quads, 4, n_points, context);
@@ -67,7 +67,7 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
     source.require_integers(counts[3 + kind], k_cell_corners[kind], what);
     source.skip_integers(counts[3 + kind] * k_cell_corners[kind], what);
   }
-  SurfaceSoup soup = builder.finish(true);
+  SurfaceSoup soup = builder.finish(context, true);
   soup.has_names = true;
   soup.n_cells = counts[3] + counts[4] + counts[5] + counts[6];
   return soup;

@@ -6,7 +6,7 @@
 namespace sterna::io {
 
 SurfaceSoup read_surface_vtkhdf(const std::filesystem::path& path, const RunContext& context) {
-  return boundary_soup(read_volume_vtkhdf(path, context), path.string());
+  return boundary_soup(read_boundary_vtkhdf(path, context), path.string(), context);
 }
 
 void write_surface_vtkhdf(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {

@@ -52,7 +52,7 @@ class WgsReader {
     for (std::size_t i = 1; i < k_mirrors.size(); ++i)
       if (!mirrored_[i].empty())
         context_.warn(scanner_.source() + ": mirror images at " + std::string(k_mirrors[i]) + ", which the file implies, are not made: of " + mirrored_[i]);
-    SurfaceSoup soup = builder_.finish();
+    SurfaceSoup soup = builder_.finish(context_);
     soup.has_names = true;
     return soup;
   }
@@ -80,7 +80,6 @@ class WgsReader {
     for (std::size_t i = 0; i < n_lines * n_points; ++i) {
       if (i % k_stop_interval == 0) context_.check_stop();
       const Vec3 p = placement.placed(triple("a coordinate"));
-      if (!is_finite(p)) scanner_.fail("the placement of object " + quoted_excerpt(name) + " makes this point infinite");
       builder_.add_point(p);
     }
     builder_.set_patch(name.empty() ? numbered_patch(static_cast<std::int64_t>(n_objects_)) : std::string(name));
@@ -96,7 +95,7 @@ class WgsReader {
 
   Vec3 triple(std::string_view expected) {
     Vec3 p;
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner_.real(expected);
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner_.coordinate(expected);
     return p;
   }
 

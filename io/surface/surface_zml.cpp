@@ -140,7 +140,7 @@ class MeshReader {
   SurfaceSoup read(const Node& root) {
     visit(root);
     if (!has_mesh_) throw_malformed(buffer_.source, "byte 0", "found no node \"MxMesh\" with vertices");
-    SurfaceSoup soup = builder_.finish(true);
+    SurfaceSoup soup = builder_.finish(context_, true);
     soup.has_names = has_names_;
     return soup;
   }
@@ -188,7 +188,6 @@ class MeshReader {
       if (i % k_stop_interval == 0) context_.check_stop();
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = reader.take<double>();
-      if (!is_finite(p)) reader.fail("vertex " + std::to_string(i) + " ends here and is not finite");
       builder_.add_point(p);
     }
   }

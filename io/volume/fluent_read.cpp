@@ -11,6 +11,8 @@ HybridMesh read_volume_fluent(const std::filesystem::path& path, const RunContex
   FluentContent content = parse_fluent(buffer, context);
   context.progress(0.5);
   HybridMesh mesh;
+  if (content.n_cell_zones > 1)
+    context.warn(buffer.source + ": the " + std::to_string(content.n_cell_zones) + " zones of cells become one; faces between them are inner faces");
   mesh.points.raw() = std::move(content.points);
   mesh.patches = std::move(content.patches);
   add_cells_and_boundary(content.faces, mesh, buffer.source, context);
@@ -26,6 +28,10 @@ SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunCont
   const auto is_wall = [&](PatchId patch) { return content.patches[patch].kind == PatchKind::wall || content.patches[patch].kind == PatchKind::slip; };
   bool has_walls = false;
   for (const PatchId patch : content.patches.ids()) has_walls = has_walls || is_wall(patch);
+  std::string left_out;
+  for (const PatchId patch : content.patches.ids())
+    if (has_walls && !is_wall(patch)) left_out += (left_out.empty() ? "\"" : ", \"") + content.patches[patch].name + "\"";
+  if (!left_out.empty()) context.info(buffer.source + ": zones that are no walls are left out: " + left_out);
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(content.points.size());
   for (const Vec3& p : content.points) builder.add_point(p);
@@ -38,7 +44,7 @@ SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunCont
     builder.set_patch(content.patches[patch].name);
     builder.add_polygon(corners);
   }
-  SurfaceSoup soup = builder.finish(true);
+  SurfaceSoup soup = builder.finish(context, true);
   soup.has_names = true;
   soup.n_cells = content.faces.n_cells;
   return soup;

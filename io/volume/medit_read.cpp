@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "geom/base/error.h"
 #include "io/input/byte_reader.h"
+#include "io/input/left_out.h"
 #include "io/input/text_scanner.h"
 #include "io/mesh/orientation.h"
 #include "io/mesh/surface_boundary.h"
@@ -51,6 +53,10 @@ class MeditReader {
     is_binary ? read_binary() : read_text();
     if (!has_vertices_)
       throw_malformed(buffer_.source, is_binary ? "byte " + std::to_string(text.size()) : "line " + std::to_string(scanner_.line()), "found no Vertices");
+    left_out_.tell(buffer_.source, context_);
+    if (regions_.size() > 1)
+      context_.warn(buffer_.source + ": the cells have " + std::to_string(regions_.size()) +
+                    " references (regions), which are left out: the cells become one region");
     check_nodes(triangles_, "triangle");
     check_nodes(quads_, "quadrilateral");
     check_nodes(tetrahedra_, "tetrahedron");
@@ -101,7 +107,7 @@ class MeditReader {
       if (keyword == "End") has_ended = true;
       else if (keyword == "Dimension") require_three(scanner_.integer("3 dimensions"));
       else if (keyword.ends_with("P2") || keyword.ends_with("Q2") || keyword.ends_with("P3") || keyword.ends_with("Q3")) throw_curved(keyword);
-      else if (!read_section([&](const MeditSection& section) { return section.keyword == keyword; })) skip_text();
+      else if (!read_section([&](const MeditSection& section) { return section.keyword == keyword; })) skip_text(keyword);
     }
     if (!has_ended) scanner_.fail("found the end of the file, expected End or a section", "the file may have been cut short: copy or write it again");
   }
@@ -125,7 +131,7 @@ class MeditReader {
                      "the file may have been cut short: copy or write it again");
       if (code == k_medit_dimension) require_three(bytes_->read<std::int32_t>("3 dimensions"));
       else if (std::find(k_curved_codes.begin(), k_curved_codes.end(), code) != k_curved_codes.end()) throw_curved("code " + std::to_string(code));
-      else read_section([&](const MeditSection& section) { return section.code == code; });
+      else if (!read_section([&](const MeditSection& section) { return section.code == code; })) left_out_.add("sections of code " + std::to_string(code));
       if (next == 0) return;
       if (bytes_->offset() > next) bytes_->fail("a section ends here, expected at byte " + std::to_string(next));
       bytes_->skip(next - bytes_->offset());
@@ -135,7 +141,8 @@ class MeditReader {
   static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
   /// Numbers to the next keyword.
-  void skip_text() {
+  void skip_text(const std::string& keyword) {
+    left_out_.add("sections \"" + keyword + "\"");
     for (std::string_view word = scanner_.peek(); !word.empty() && !is_letter(word[0]); word = scanner_.peek()) scanner_.skip_token("a number");
   }
 
@@ -145,7 +152,7 @@ class MeditReader {
     if (is(k_medit_vertices)) read_vertices();
     else if (is(k_medit_triangles)) read_rows(triangles_, true);
     else if (is(k_medit_quads)) read_rows(quads_, true);
-    else if (is(k_medit_tetrahedra)) n_cells_ += read_rows(tetrahedra_, with_cells_);
+    else if (is(k_medit_tetrahedra)) n_cells_ += read_rows(tetrahedra_, with_cells_, true);
     else if (is(k_medit_prisms)) n_cells_ += read_rows(prisms_, with_cells_);
     else if (is(k_medit_pyramids)) n_cells_ += read_rows(pyramids_, with_cells_);
     else if (is(k_medit_hexahedra)) n_cells_ += read_rows(hexahedra_, with_cells_);
@@ -166,6 +173,12 @@ class MeditReader {
     const double value = version_ == 1 ? static_cast<double>(bytes_->read<float>(expected)) : bytes_->read<double>(expected);
     if (!std::isfinite(value)) fail("found a number that is not finite, expected " + std::string(expected));
     return value;
+  }
+  /// Of a surface it may be nan or infinite: its triangles are left out later.
+  double coordinate(std::string_view expected) {
+    if (with_cells_) return real(expected);
+    if (!bytes_) return scanner_.coordinate(expected);
+    return version_ == 1 ? static_cast<double>(bytes_->read<float>(expected)) : bytes_->read<double>(expected);
   }
   /// A number of rows of so many reals and integers.
   std::size_t count(std::size_t n_reals, std::size_t n_integers) {
@@ -192,7 +205,7 @@ class MeditReader {
     points_.reserve(points_.size() + n);
     for (std::size_t i = 0; i < n; ++i) {
       Point p;
-      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = real("a coordinate");
+      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = coordinate("a coordinate");
       integer("the reference of a vertex");
       points_.push_back(p);
     }
@@ -201,7 +214,7 @@ class MeditReader {
 
   /// \returns their number
   template <std::size_t N>
-  std::size_t read_rows(Table<N>& table, bool is_wanted) {
+  std::size_t read_rows(Table<N>& table, bool is_wanted, bool is_cells = false) {
     const std::size_t n = count(0, N + 1);
     if (is_wanted) {
       table.rows.reserve(table.rows.size() + n);
@@ -216,6 +229,8 @@ class MeditReader {
         node = NodeId(static_cast<std::uint32_t>(number - 1));
       }
       row.reference = integer("the reference of an element");
+      if constexpr (N > 4) regions_.insert(row.reference);
+      else if (is_cells) regions_.insert(row.reference);
       if (is_wanted) table.rows.push_back(row);
     }
     return n;
@@ -253,6 +268,8 @@ class MeditReader {
   std::uint64_t n_cells_ = 0;  ///< in the file
   const RunContext& context_;
   bool has_vertices_ = false;
+  LeftOut left_out_;
+  std::set<std::int64_t> regions_;  ///< references of cells
   std::vector<Point> points_;
   Table<3> triangles_;
   Table<4> quads_, tetrahedra_;
@@ -278,7 +295,7 @@ SurfaceSoup read_surface_medit(const std::filesystem::path& path, const RunConte
   MeditReader reader(buffer, false, context);
   reader.read();
   const std::map<std::int64_t, Patch> names = read_names(path, context);
-  SurfaceSoup soup = boundary_soup(FileBoundary{reader.mesh(names), reader.n_cells()}, buffer.source);
+  SurfaceSoup soup = boundary_soup(FileBoundary{reader.mesh(names), reader.n_cells()}, buffer.source, context);
   soup.has_names = !names.empty() || soup.patch_names.size() > 1;
   return soup;
 }

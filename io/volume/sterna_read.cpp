@@ -306,7 +306,7 @@ HybridMesh read_volume_sterna(const std::filesystem::path& path, const RunContex
 SurfaceSoup read_surface_sterna(const std::filesystem::path& path, const RunContext& context) {
   const SternaContent content = read_sterna(path, context);
   if (!content.surface && !content.mesh) throw_malformed(path.string(), "byte 0", "found " + content.names() + ", expected a surface or a mesh");
-  SurfaceSoup soup = boundary_soup(content.surface ? as_boundary(*content.surface, Winding::kept) : *content.mesh, path.string());
+  SurfaceSoup soup = boundary_soup(content.surface ? as_boundary(*content.surface, Winding::kept) : *content.mesh, path.string(), context);
   soup.has_names = true;
   return soup;
 }

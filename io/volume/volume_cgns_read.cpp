@@ -50,6 +50,7 @@ class CgnsReader {
 
   HybridMesh read() {
     const CgnsNode& base = find_base();
+    tell_other_bases(base);
     read_families(base);
     int n_zones = 0;
     for (const CgnsNode& node : base.children) {
@@ -91,6 +92,13 @@ class CgnsReader {
     }
     if (!found) throw_unsupported(tree_.source(), "found no base of two or three dimensions in space (" + std::to_string(n_bases) + " bases)");
     return *found;
+  }
+
+  void tell_other_bases(const CgnsNode& chosen) const {
+    std::string names;
+    for (const CgnsNode& node : tree_.root().children)
+      if (node.label == "CGNSBase_t" && &node != &chosen) names += (names.empty() ? "" : ", ") + node.path;
+    if (!names.empty()) context_.warn(tree_.source() + ": " + chosen.path + " is read; other bases are left out: " + names);
   }
 
   void read_families(const CgnsNode& base) {
@@ -161,7 +169,7 @@ class CgnsReader {
     mesh_.points.resize(first_node_ + n);
     parallel_for(context_, n, [&](std::size_t i) {
       const Point p = {values[0].real(i), values[1].real(i), values[2].real(i)};
-      if (!is_finite(p)) tree_.fail(*grid, "the coordinates of node " + std::to_string(i + 1) + " are not finite");
+      if (!is_finite(p) && contents_ == Contents::volume) tree_.fail(*grid, "the coordinates of node " + std::to_string(i + 1) + " are not finite");
       mesh_.points.raw()[first_node_ + i] = p;
     });
   }

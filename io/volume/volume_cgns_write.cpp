@@ -17,9 +17,12 @@ namespace {
 constexpr std::string_view k_quad_suffix = "_quad";
 constexpr float k_hdf5_version = 3.4f;  ///< its fixed-type sections are those of every version since
 constexpr float k_adf_version = 2.54f;
+/// What meshio calls the zone, and the section of a mesh of tetrahedra alone, which is all that it reads of CGNS; others take any name.
+constexpr const char *k_zone_name = "Zone1", *k_only_section = "GridElements";
 /// Names of nodes beside sections, conditions and families.
-constexpr std::array<const char*, 12> k_taken_names = {"ZoneGridConnectivity", "Zone",    "ZoneType", "ZoneBC", "GridCoordinates", "DataClass",
-                                                       "DimensionalUnits",     "PENTA_6", "PYRA_5",   "HEXA_8", "TETRA_4",         "."};
+constexpr std::array<const char*, 14> k_taken_names = {
+    "ZoneGridConnectivity", "Zone",    k_zone_name, k_only_section, "ZoneType", "ZoneBC", "GridCoordinates", "DataClass",
+    "DimensionalUnits",     "PENTA_6", "PYRA_5",    "HEXA_8",       "TETRA_4",  "."};
 
 /// At most n bytes of UTF-8 text, cut before a character.
 std::string cut_text(std::string text, std::size_t n) {
@@ -116,7 +119,7 @@ class CgnsWriter {
   CgnsOutputNode base() const {
     CgnsOutputNode base = cgns_node("Base", "CGNSBase_t", output_numbers<std::int32_t>(NumberKind::i4, {2}, {is_surface() ? 2 : 3, 3}));
     CgnsOutputNode zone =
-        cgns_node("Zone", "Zone_t",
+        cgns_node(k_zone_name, "Zone_t",
                   sizes({1, 3}, {mesh_.points.size(), is_surface() ? mesh_.boundary_triangles.size() + mesh_.boundary_quads.size() : cells_.total(), 0}));
     zone.children.push_back(text_node("ZoneType", "ZoneType_t", "Unstructured"));
     zone.children.push_back(coordinates());
@@ -193,7 +196,8 @@ class CgnsWriter {
 
   CgnsOutputNode cell_section(CellKind kind, std::uint64_t& n_elements) const {
     const std::uint64_t size = static_cast<std::uint64_t>(n_nodes(kind));
-    return section(std::string(cgns_name(kind)), cgns_type(kind), cells_.count(kind), size, n_elements,
+    const bool is_only_kind = kind == CellKind::tetrahedron && cells_.count(kind) == cells_.total();
+    return section(is_only_kind ? k_only_section : std::string(cgns_name(kind)), cgns_type(kind), cells_.count(kind), size, n_elements,
                    [&cells = cells_, kind, size, is_wide = is_wide_](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                      char* at = out.reserve((end - begin) * size * 8);
                      cells.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int) { at = put_nodes(at, nodes, is_wide); });
@@ -257,7 +261,7 @@ class CgnsWriter {
         periodic.children.push_back(vector_node("Translation", from == 0 ? sides.translation : -sides.translation));
         CgnsOutputNode property = cgns_node("GridConnectivityProperty", "GridConnectivityProperty_t");
         property.children.push_back(std::move(periodic));
-        CgnsOutputNode node = text_node(names_[(from == 0 ? sides.first : sides.second).index()], "GridConnectivity_t", "Zone");
+        CgnsOutputNode node = text_node(names_[(from == 0 ? sides.first : sides.second).index()], "GridConnectivity_t", k_zone_name);
         node.children.push_back(text_node("GridConnectivityType", "GridConnectivityType_t", "Abutting1to1"));
         node.children.push_back(cgns_node("PointList", "IndexArray_t", sizes({1, own.size()}, own)));
         node.children.push_back(cgns_node("PointListDonor", "IndexArray_t", sizes({1, others.size()}, others)));

@@ -58,7 +58,7 @@ class TauReader {
     parallel_for(context_, n, [&](std::size_t i) {
       const Point p = {values[0].real(i), values[1].real(i), values[2].real(i)};
       for (std::size_t axis = 0; axis < 3; ++axis)
-        if (!std::isfinite(p[axis])) values[axis].fail("the coordinate of point " + std::to_string(i) + " is not finite");
+        if (!std::isfinite(p[axis]) && contents_ == TauContents::volume) values[axis].fail("the coordinate of point " + std::to_string(i) + " is not finite");
       mesh_.points.raw()[i] = p;
     });
   }

@@ -1,9 +1,12 @@
 // UGRID writer: seven counts, nodes, faces (inwards, as NASA's tools have them), their patch numbers, cells. Text and binary differ in how a number is put.
 #include <algorithm>
-#include <cctype>
+#include <array>
+#include <cstdio>
 #include <limits>
+#include <vector>
 
 #include "io/grammar/ugrid_source.h"
+#include "io/names/name_rules.h"
 #include "io/output/cell_sections.h"
 #include "io/output/section_output.h"
 #include "io/volume/volume_ugrid.h"
@@ -127,24 +130,36 @@ int condition_of(const HybridMesh& mesh, const FacesByPatch& faces, PatchId patc
   return 3000;
 }
 
-/// A name on one line; a patch without name has its number.
-std::string mapbc_name(const Patch& patch, PatchId id) {
-  std::string name = patch.name;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
-  return name.empty() ? "patch_" + std::to_string(id.value() + 1) : name;
-}
-
 std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const RunContext& context) {
+  const std::vector<std::string> names = names_by_rules(mesh.patches, {.format = ".mapbc"}, context);
   std::string lines;
   int n = 0;
   for (const PatchId patch : mesh.patches.ids()) {
     if (faces.count(patch) == 0) continue;
-    lines += std::to_string(patch.value() + 1) + " " + std::to_string(condition_of(mesh, faces, patch, context)) + " " +
-             mapbc_name(mesh.patches[patch], patch) + "\n";
+    lines += std::to_string(patch.value() + 1) + " " + std::to_string(condition_of(mesh, faces, patch, context)) + " " + names[patch.index()] + "\n";
     ++n;
   }
   return std::to_string(n) + "\n" + lines;
+}
+
+/// Warns of how far single precision moves the nodes, and of how many then lie on the same place.
+void tell_rounding(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  std::vector<std::array<float, 3>> places;
+  places.reserve(mesh.points.size());
+  double moved = 0.0;
+  for (const Point& p : mesh.points) {
+    const std::array<float, 3> place = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    moved = std::max(moved, distance(p, Point{static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2])}));
+    places.push_back(place);
+  }
+  if (moved == 0.0) return;
+  std::sort(places.begin(), places.end());
+  std::size_t n_merged = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) n_merged += places[i] == places[i - 1] ? 1 : 0;
+  std::array<char, 32> number;
+  std::snprintf(number.data(), number.size(), "%.2g", moved);
+  context.warn(path.string() + ": the file is single precision: nodes move by up to " + number.data() + " m" +
+               (n_merged > 0 ? ", " + std::to_string(n_merged) + " nodes coincide with others" : "") + "; .b8.ugrid and .lb8.ugrid are double precision");
 }
 
 }  // namespace
@@ -160,6 +175,7 @@ void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& pat
     require_count(std::max(mesh.boundary_triangles.size(), mesh.boundary_quads.size()), k_limit, "boundary faces", format, path.string());
     for (const CellKind kind : k_ugrid_kinds) require_count(cells.count(kind), k_limit, "cells of kind " + std::string(to_string(kind)), format, path.string());
   }
+  if (variant.is_single) tell_rounding(mesh, path, context);
   AtomicFile conditions(mapbc_path(path));
   conditions.append(mapbc_text(mesh, faces, context));
   AtomicFile file(path);

@@ -20,5 +20,7 @@ void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& pa
 /// are flipped, faces turned outwards, points and lines left out; all is counted in the log.
 /// \throws Error file_malformed, unsupported_format (other types, other cells), file_not_found.
 HybridMesh read_volume_vtkhdf(const std::filesystem::path& path, const RunContext& context);
+/// The same for the boundary faces: coordinates may be nan or infinite.
+HybridMesh read_boundary_vtkhdf(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

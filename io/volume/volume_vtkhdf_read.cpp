@@ -28,7 +28,8 @@ std::optional<PatchKind> boundary_kind_named(std::string_view name) {
 
 class VtkHdfReader {
  public:
-  VtkHdfReader(const ContainerImage& file, const RunContext& context) : file_(file), context_(context), group_(file_.child(file_.root(), "VTKHDF")) {}
+  VtkHdfReader(const ContainerImage& file, bool takes_any_point, const RunContext& context)
+      : file_(file), takes_any_point_(takes_any_point), context_(context), group_(file_.child(file_.root(), "VTKHDF")) {}
 
   HybridMesh read() {
     const NumberArray* const type = group_.attribute("Type");
@@ -83,7 +84,7 @@ class VtkHdfReader {
     mesh_.points.resize(n);
     parallel_for(context_, n, [&](std::size_t i) {
       const Point p = {values.real(3 * i), values.real(3 * i + 1), values.real(3 * i + 2)};
-      if (!is_finite(p)) values.fail("the coordinates of point " + std::to_string(i) + " are not finite");
+      if (!is_finite(p) && !takes_any_point_) values.fail("the coordinates of point " + std::to_string(i) + " are not finite");
       mesh_.points.raw()[i] = p;
     });
   }
@@ -179,6 +180,7 @@ class VtkHdfReader {
   static constexpr std::string_view k_hint = "tetrahedra, pyramids, wedges, hexahedra, triangles and quads are read";
 
   const ContainerImage& file_;
+  bool takes_any_point_;
   const RunContext& context_;
   const ContainerNode& group_;
   NumberArray connectivity_, offsets_, types_;
@@ -190,14 +192,17 @@ class VtkHdfReader {
   HybridMesh mesh_;
 };
 
-}  // namespace
-
-HybridMesh read_volume_vtkhdf(const std::filesystem::path& path, const RunContext& context) {
+HybridMesh read_vtkhdf(const std::filesystem::path& path, bool takes_any_point, const RunContext& context) {
   const ContainerImage file = read_container(path, ContainerFormat::hdf5, {"PointData"}, context);
-  HybridMesh mesh = VtkHdfReader(file, context).read();
+  HybridMesh mesh = VtkHdfReader(file, takes_any_point, context).read();
   context.progress(0.7);
   orient_mesh(mesh, context);
   return mesh;
 }
+
+}  // namespace
+
+HybridMesh read_volume_vtkhdf(const std::filesystem::path& path, const RunContext& context) { return read_vtkhdf(path, false, context); }
+HybridMesh read_boundary_vtkhdf(const std::filesystem::path& path, const RunContext& context) { return read_vtkhdf(path, true, context); }
 
 }  // namespace sterna::io

@@ -65,7 +65,7 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
-  const MeshValue value = read_mesh(input, context.part("read", 0.0, k_convert_read_end));
+  const MeshValue value = read_mesh(input, context.part("read", 0.0, k_convert_read_end), io::Incomplete::completed);
   const HybridMesh& mesh = value.mesh;
   if (count_cells(mesh).total() == 0) {
     require_no_numbering("the file holds a surface, which has no cells");

@@ -48,6 +48,7 @@ PageTriangles page_triangles(const HybridMesh& mesh) {
     add(q.nodes[0], q.nodes[1], q.nodes[2], face, k_first_two, q.patch);
     add(q.nodes[0], q.nodes[2], q.nodes[3], face, k_last_two, q.patch);
   }
+  page.is_of_body = patches_of_bodies(mesh);
   return page;
 }
 
@@ -60,6 +61,7 @@ PageTriangles page_triangles(const TriMesh& mesh) {
     page.edges.push_back(k_all_edges);
     page.patch.push_back(static_cast<std::uint16_t>(mesh.triangle_patch[t].value()));
   }
+  page.is_of_body = patches_of_bodies(boundary_of(mesh));
   return page;
 }
 
@@ -91,11 +93,12 @@ PageMaker::PageMaker(std::span<const Point> points, const PageTriangles& triangl
                  .attempted = "making a report page",
                  .problem = std::to_string(patches.size()) + " patches; a page tells " + std::to_string(k_most_patches) + " apart",
                  .hint = "merge patches by their names"});
+  const auto is_of_body = [&](std::size_t patch) { return triangles.is_of_body.empty() || triangles.is_of_body[patch] != 0; };
   Box bodies, all;
   for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
     for (const std::uint32_t corner : triangles.triangles[t]) {
       all.add(points[corner]);
-      if (is_body(patches[PatchId(triangles.patch[t])].kind)) bodies.add(points[corner]);
+      if (is_body(patches[PatchId(triangles.patch[t])].kind) && is_of_body(triangles.patch[t])) bodies.add(points[corner]);
     }
   const Box& box = bodies.empty() ? all : bodies;
   if (box.empty()) return;
@@ -111,21 +114,18 @@ std::string PageMaker::frame_json() const {
 std::string PageMaker::patches_json() const {
   std::vector<double> areas(patches_.size(), 0.0);
   std::vector<std::int64_t> counts(patches_.size(), 0);
-  std::vector<Box> boxes(patches_.size());
   for (std::size_t t = 0; t < triangles_.triangles.size(); ++t) {
     const auto& c = triangles_.triangles[t];
     areas[triangles_.patch[t]] += 0.5 * norm(cross(points_[c[1]] - points_[c[0]], points_[c[2]] - points_[c[0]]));
     ++counts[triangles_.patch[t]];
-    for (const std::uint32_t corner : c) boxes[triangles_.patch[t]].add(points_[corner]);
   }
-  const std::vector<std::uint8_t> is_of_body = patches_of_bodies(patches_, boxes);
   Json list = Json::array();
   for (const PatchId p : patches_.ids())
     list.push_back({{"name", patches_[p].name},
                     {"kind", to_string(patches_[p].kind)},
                     {"area", areas[p.index()]},
                     {"triangles", counts[p.index()]},
-                    {"is_of_body", is_of_body[p.index()] != 0}});
+                    {"is_of_body", triangles_.is_of_body.empty() || triangles_.is_of_body[p.index()] != 0}});
   return list.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

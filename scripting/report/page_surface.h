@@ -24,6 +24,7 @@ struct PageTriangles {
   std::vector<std::uint32_t> face;  ///< triangles, then quads
   std::vector<std::uint8_t> edges;  ///< bit k: corner k to k + 1
   std::vector<std::uint16_t> patch;
+  std::vector<std::uint8_t> is_of_body = {};  ///< by patch: what pages show by themselves (geom/mesh/body_patches.h); empty: all of it
 };
 PageTriangles page_triangles(const HybridMesh& mesh);
 PageTriangles page_triangles(const TriMesh& mesh);

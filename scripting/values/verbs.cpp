@@ -143,10 +143,10 @@ SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const
   return result;
 }
 
-MeshValue read_mesh(const InputPath& file, const RunContext& context) {
+MeshValue read_mesh(const InputPath& file, const RunContext& context, io::Incomplete incomplete) {
   const StageTimer timer(context, "read");
   MeshValue value;
-  value.mesh = io::read_volume_file(file.path, context.part("read", 0.0, 1.0));
+  value.mesh = io::read_volume_file(file.path, context.part("read", 0.0, 1.0), incomplete);
   value.inputs.push_back({file.name, io::hash_input(file.path)});
   complete_from_manifest(value, file, value.inputs.back().hash, context);
   if (!value.unknown_kinds.empty() && count_cells(value.mesh).total() > 0)

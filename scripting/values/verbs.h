@@ -13,6 +13,7 @@
 #include "geom/base/run_context.h"
 #include "geom/boolean/union_meshes.h"
 #include "geom/mesh/check.h"
+#include "io/file/volume_file.h"
 #include "scripting/cache/provenance.h"
 #include "scripting/lua/handles.h"
 #include "scripting/lua/input_path.h"
@@ -110,9 +111,9 @@ using UnionItem = std::variant<SurfaceHandle, InputPath>;
 SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context);
 
 /// Reads a volume mesh, with what the manifest beside it knows (mesh_manifest.h); patches whose kind nothing says are a warning. Every command and verb that
-/// takes a volume mesh reads it here.
+/// takes a volume mesh reads it here. `incomplete`: what happens to boundary faces that the file lacks.
 /// \throws Error of io, file_malformed of a manifest.
-MeshValue read_mesh(const InputPath& file, const RunContext& context);
+MeshValue read_mesh(const InputPath& file, const RunContext& context, io::Incomplete incomplete = io::Incomplete::kept);
 
 /// \throws Error unsupported_format or write_failed when a mesh of this name cannot be written: unknown extension, no such folder. Before the work.
 void require_mesh_output(const std::filesystem::path& path);

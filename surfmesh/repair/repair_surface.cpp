@@ -305,6 +305,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   }
   measure_changes(state, input.points, input.facets, context);
   state.report.messages = tell(state.report);
+  clean_patch_names(soups, &state.report.messages);
   state.report.messages.push_back("what is left moved by at most " + short_number(state.report.moved) + " m, the new surface is at most " +
                                   short_number(state.report.from_result) + " m from the given one, the given one at most " +
                                   short_number(state.report.from_input) + " m from the new one (what was removed)");

@@ -11,6 +11,46 @@ namespace {
 
 bool is_allowed(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-'; }
 
+/// Bytes of the UTF-8 character at a place; 0 where there is none.
+std::size_t bytes_of_character(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(at);
+  const std::size_t n = first < 0x80 ? 1 : first >= 0xc2 && first < 0xe0 ? 2 : first >= 0xe0 && first < 0xf0 ? 3 : first >= 0xf0 && first < 0xf5 ? 4 : 0;
+  if (n == 0 || at + n > text.size()) return 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if ((byte(at + k) & 0xc0) != 0x80) return 0;
+  const bool is_overlong = n > 2 && ((first == 0xe0 && byte(at + 1) < 0xa0) || (first == 0xf0 && byte(at + 1) < 0x90));
+  const bool is_surrogate = first == 0xed && byte(at + 1) >= 0xa0;
+  const bool is_beyond = first == 0xf4 && byte(at + 1) >= 0x90;
+  return is_overlong || is_surrogate || is_beyond ? 0 : n;
+}
+
+/// The text as it is if it is UTF-8; other bytes are taken for Latin-1.
+std::string as_utf8(std::string_view text) {
+  bool is_utf8 = true;
+  for (std::size_t at = 0, n = 0; is_utf8 && at < text.size(); at += n) {
+    n = bytes_of_character(text, at);
+    is_utf8 = n > 0;
+  }
+  if (is_utf8) return std::string(text);
+  std::string converted;
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u < 0x80) converted += c;
+    else converted += {static_cast<char>(0xc0 | (u >> 6)), static_cast<char>(0x80 | (u & 0x3f))};
+  }
+  return converted;
+}
+
+/// Control characters, blanks of other widths and marks without a width, of more than one byte.
+bool is_blank_character(std::string_view character) {
+  if (character.size() == 2) return character[0] == '\xc2' && static_cast<unsigned char>(character[1]) <= 0xa0;  // U+0080 to U+00A0
+  if (character == "\xe3\x80\x80" || character == "\xef\xbb\xbf") return true;                                   // U+3000, U+FEFF
+  if (character.substr(0, 2) != "\xe2\x80") return false;
+  const auto last = static_cast<unsigned char>(character[2]);
+  return last <= 0x8f || (last >= 0xa8 && last <= 0xaf);  // U+2000 to U+200F, U+2028 to U+202F
+}
+
 /// `name`, or name_2, name_3 ... when that is taken; remembers it.
 std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   std::string candidate = name;
@@ -27,18 +67,20 @@ std::string stem_of(const std::string& source) {
 
 }  // namespace
 
-std::string clean_name(std::string_view name) {
+std::string clean_name(std::string_view given) {
+  const std::string name = as_utf8(given);
   std::string clean;
-  for (const char c : name) {
-    if (is_allowed(c)) clean += c;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t n = std::max<std::size_t>(bytes_of_character(name, at), 1);
+    if (n > 1 ? !is_blank_character(name.substr(at, n)) : is_allowed(name[at])) clean.append(name, at, n);
     else if (!clean.empty() && clean.back() != '_') clean += '_';
+    at += n;
   }
   while (!clean.empty() && clean.back() == '_') clean.pop_back();
-  if (!clean.empty() && clean.front() >= '0' && clean.front() <= '9') clean.insert(0, "patch_");
   return clean;
 }
 
-std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups) {
+std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups, std::vector<std::string>* messages) {
   std::vector<std::string> names;
   std::set<std::string> taken;
   for (const SurfaceSoup& soup : soups) {
@@ -47,6 +89,8 @@ std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups
       if (name.empty() && soups.size() > 1) name = stem_of(soup.source);
       if (name.empty()) name = "wall";
       names.push_back(unique_name(name, taken));
+      if (messages && soup.has_names && !given.empty() && names.back() != given)
+        messages->push_back("the patch \"" + as_utf8(given) + "\" of " + soup.source + " is called \"" + names.back() + "\"");
     }
   }
   return names;

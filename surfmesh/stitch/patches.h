@@ -8,11 +8,11 @@
 
 namespace sterna::surfmesh {
 
-/// Names for all patches of all soups, in order: [A-Za-z0-9_.-] only (runs of others become one '_'), unique (a number is added). A name that the file does not
-/// give, or that has no allowed character, becomes "wall", with several files the file's stem.
-std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups);
+/// Names for all patches of all soups, in order: [A-Za-z0-9_.-] and characters beyond ASCII (runs of others become one '_'), unique (a number is added). A name
+/// that the file does not give, or that has no allowed character, becomes "wall", with several files the file's stem. Each changed name is a message.
+std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups, std::vector<std::string>* messages = nullptr);
 
-/// "My wing (left)" -> "My_wing_left", "3" -> "patch_3"; may be empty.
+/// "My wing (left)" -> "My_wing_left"; may be empty. The result is UTF-8; bytes that are not are taken for Latin-1.
 std::string clean_name(std::string_view name);
 
 /// The mesh: vertices numbered by first use, patches in the order of the files, unused ones dropped.

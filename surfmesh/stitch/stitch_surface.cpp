@@ -92,7 +92,7 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   context.progress(0.9);
 
   StitchResult result;
-  result.mesh = make_mesh(surface, clean_patch_names(soups));
+  result.mesh = make_mesh(surface, clean_patch_names(soups, &report.messages));
   if (!is_automatic(options.split_angle)) split_patches(result.mesh, options.split_angle, context);
   if (!report.is_closed) report.messages.push_back("the surface has a boundary, as allowed");
   log_messages(report, n_logged, context);

@@ -177,7 +177,7 @@ WrapInput read_wrap_input(const std::vector<SurfaceSoup>& soups, const WrapOptio
   if (!(input.length > 0.0) || !(input.area > 0.0))
     throw Error({.code = ErrorCode::empty_surface, .attempted = "wrapping", .problem = "no facet of the input has an area"});
   make_one_sense(surface, input);
-  input.mesh = make_mesh(surface, clean_patch_names(soups));
+  input.mesh = make_mesh(surface, clean_patch_names(soups, &report.messages));
   find_lines(input, options.features);
   context.check_stop();
   return input;

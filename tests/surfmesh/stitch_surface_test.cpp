@@ -334,7 +334,7 @@ TEST(Stitch, PatchNamesAreCleanAndUnique) {
     for (const Patch& patch : mesh.patches) result.push_back(patch.name);
     return result;
   };
-  EXPECT_THAT(names(stitch({a}).mesh), testing::ElementsAre("My_wing_left", "wall", "wall_2", "My_wing_left_2", "patch_7_flap-1.a"));
+  EXPECT_THAT(names(stitch({a}).mesh), testing::ElementsAre("My_wing_left", "wall", "wall_2", "My_wing_left_2", "7_flap-1.a"));
   const auto two = names(stitch({a, b}).mesh);
   EXPECT_EQ(two.size(), 10u);
   EXPECT_THAT(two, Contains("My_wing_left_3"));
@@ -372,6 +372,28 @@ TEST(Stitch, StopIsObeyed) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::cancelled);
   }
+}
+
+TEST(StitchSurface, NamesKeepDigitsAndLettersOfAnyLanguage) {
+  SurfaceSoup soup = soup_of(cube(1));
+  soup.has_names = true;
+  soup.source = "wall.stl";
+  soup.patch_names = {"1",
+                      "Fl\xc3\xbcgel",
+                      "\xe7\xbf\xbc left",
+                      "Fl\xfcgel \xe9",
+                      "left wing",
+                      "left_wing",
+                      "a\xc2\xa0"
+                      "b"};  // UTF-8, then Latin-1
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) soup.patch[t] = static_cast<std::uint32_t>(t % soup.patch_names.size());
+  const StitchResult result = stitch({soup});
+  std::vector<std::string> names;
+  for (const Patch& patch : result.mesh.patches) names.push_back(patch.name);
+  EXPECT_THAT(names, testing::ElementsAre("1", "Fl\xc3\xbcgel", "\xe7\xbf\xbc_left", "Fl\xc3\xbcgel_\xc3\xa9", "left_wing", "left_wing_2", "a_b"));
+  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left wing\" of wall.stl is called \"left_wing\""));
+  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left_wing\" of wall.stl is called \"left_wing_2\""));
+  EXPECT_THAT(result.report.messages, testing::Not(testing::Contains(testing::HasSubstr("\"1\""))));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "geom/draw/colours.h"
 #include "geom/draw/legend.h"
 #include "geom/draw/scene.h"
+#include "geom/mesh/body_patches.h"
 #include "geom/mesh/surface_fields.h"
 #include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
@@ -285,6 +286,59 @@ TEST(Draw, LegendTitleAndMarks) {
   EXPECT_GT(count(decoded(draw_png(mesh, options, "", marks, k_context)), draw::k_mark_color), 3u);
   options.places = false;
   EXPECT_EQ(count(decoded(draw_png(mesh, options, "", marks, k_context)), draw::k_mark_color), 0u);
+}
+
+TEST(Draw, TheLegendDoesNotCoverWhatIsDrawn) {
+  const TriMesh mesh = cube_of_patches();
+  DrawOptions options = bare();
+  options.patches = "*";
+  options.view = "front";  // one side fills the picture to its corners: the legend stands beside it
+  const auto n_shaded = [&](const Image& image) {
+    std::size_t n = 0;
+    const Rgb base = draw::patch_color(0);
+    for (const Rgb c : image.pixels)
+      n += std::abs(static_cast<double>(c.r) / base.r - static_cast<double>(c.g) / base.g) < 0.02 &&
+           std::abs(static_cast<double>(c.b) / base.b - static_cast<double>(c.g) / base.g) < 0.02 && c != Rgb{255, 255, 255};
+    return n;
+  };
+  EXPECT_GT(n_shaded(decoded(draw_png(mesh, options, "", {}, k_context))), 30000u);
+  options.legend = true;
+  const draw::Scene scene = draw::build_scene(boundary_of(mesh), true, options, k_context);
+  draw::Layout layout = draw::layout_of(options, scene, false, {});
+  ASSERT_GT(layout.inset, 0.0);
+  const Rgb paper{255, 255, 255}, ink{0, 0, 0};
+  Image picture{200, 200, std::vector<Rgb>(40000, paper)};
+  EXPECT_TRUE(draw::place_inset(layout, scene, picture, paper));
+  EXPECT_GT(layout.inset_x, 100.0);  // at the right while there is room
+  picture.pixels[20 * 200 + 190] = ink;
+  EXPECT_TRUE(draw::place_inset(layout, scene, picture, paper));
+  EXPECT_LT(layout.inset_x, 100.0);
+  picture.pixels[20 * 200 + 10] = picture.pixels[185 * 200 + 190] = ink;
+  EXPECT_FALSE(draw::place_inset(layout, scene, picture, paper));
+  const Image beside = decoded(draw_png(mesh, options, "", {}, k_context));
+  const int edge = static_cast<int>(200.0 - layout.inset);
+  for (int y = 110; y < 150; ++y) EXPECT_EQ(beside.at(edge + 8, y), paper);  // nothing of the cube below the legend's panel
+}
+
+TEST(Draw, ACutShowsTheLineOfADiscAndItsName) {
+  HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = 0.5, .ratio = 1.0, .outer_height = 1.0});
+  const PatchId disc = mesh.patches.push_back({"prop", PatchKind::interface}), back = mesh.patches.push_back({"prop.back", PatchKind::interface});
+  std::array<NodeId, 4> n;
+  for (std::size_t k = 0; k < 4; ++k) n[k] = mesh.points.push_back({0.5, k == 1 || k == 2 ? 0.8 : 0.2, k >= 2 ? 0.9 : 0.6});
+  for (const PatchId patch : {disc, back}) {
+    mesh.boundary_triangles.push_back({{n[0], n[1], n[2]}, patch});
+    mesh.boundary_triangles.push_back({{n[0], n[2], n[3]}, patch});
+  }
+  DrawOptions options = bare();
+  options.cut = "y=0.55";
+  options.focus = "0.5,0.55,0.5 radius=0.5";
+  options.patches = "none";
+  const draw::Scene scene = draw::build_scene(mesh, false, options, k_context);
+  ASSERT_EQ(scene.lines.size(), 1u);
+  EXPECT_EQ(scene.lines[0].name, "prop");
+  EXPECT_EQ(scene.lines[0].segments.size(), 2u);
+  EXPECT_EQ(scene.swatches.back().text, "prop");
+  EXPECT_GT(count(decoded(draw_png(mesh, options, "", {}, k_context)), scene.lines[0].color), 10u);
 }
 
 TEST(Draw, MarksAreWhatTheCheckFound) {

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "geom/mesh/cut_places.h"
+#include "tests/support/constants.h"
+#include "tests/support/hybrid_shapes.h"
+#include "tests/support/shapes.h"
+
 namespace sterna {
 namespace {
 
@@ -32,6 +37,53 @@ TEST(BodyPatches, are_walls_and_the_openings_in_them) {
   Column<PatchId, Patch> no_walls;
   no_walls.push_back(patches[PatchId(2)]);
   EXPECT_EQ(patches_of_bodies(no_walls, std::vector<Box>{boxes[2]}), (std::vector<std::uint8_t>{1}));
+}
+
+/// A tunnel from -5 to 5 in every direction, flow along x, with a cube [at, at + 1]^3 in it.
+HybridMesh tunnel_with_cube(const Point& at) {
+  HybridMesh mesh = test::box_of_patches({{"inlet", PatchKind::inflow},
+                                          {"outlet", PatchKind::outflow},
+                                          {"left", PatchKind::wall},
+                                          {"right", PatchKind::wall},
+                                          {"floor", PatchKind::wall},
+                                          {"ceiling", PatchKind::wall}});
+  for (Point& p : mesh.points) p = 10.0 * (p - Point{0.5, 0.5, 0.5});
+  const HybridMesh cube = boundary_of(test::cube(2));
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  const PatchId body = mesh.patches.push_back({"body", PatchKind::wall});
+  for (const Point& p : cube.points) mesh.points.push_back(p + at);
+  for (const BoundaryTriangle& t : cube.boundary_triangles)
+    mesh.boundary_triangles.push_back({{NodeId(first + t.nodes[0].value()), NodeId(first + t.nodes[1].value()), NodeId(first + t.nodes[2].value())}, body});
+  return mesh;
+}
+
+TEST(BodyPatches, walls_of_a_tunnel_are_not_of_the_body) {
+  for (const Point& at : {Point{0, 0, 0}, Point{0, 0, -5}}) {  // in the middle, on the floor
+    const HybridMesh mesh = tunnel_with_cube(at);
+    EXPECT_EQ(outer_walls(mesh), (std::vector<std::uint8_t>{0, 0, 1, 1, 1, 1, 0}));
+    EXPECT_EQ(patches_of_bodies(mesh), (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1}));
+  }
+}
+
+TEST(BodyPatches, walls_of_a_duct_without_a_body_are_what_there_is) {
+  HybridMesh mesh = tunnel_with_cube({0, 0, 0});
+  std::erase_if(mesh.boundary_triangles, [&](const BoundaryTriangle& t) { return mesh.patches[t.patch].name == "body"; });
+  EXPECT_EQ(outer_walls(mesh), std::vector<std::uint8_t>(7, 0));
+  EXPECT_EQ(patches_of_bodies(mesh)[PatchId(4).index()], 1);
+}
+
+TEST(BodyPatches, a_surface_is_no_wall_about_itself) {
+  EXPECT_EQ(outer_walls(boundary_of(test::cube(2))), (std::vector<std::uint8_t>{0}));
+  EXPECT_EQ(outer_walls(boundary_of(test::sphere(3))), (std::vector<std::uint8_t>{0}));
+}
+
+TEST(BodyPatches, places_to_look_at_are_on_the_body_not_on_the_tunnel) {
+  const std::vector<CutPlace> places = automatic_cuts(tunnel_with_cube({0.5, 0.25, 0}), test::k_context);
+  ASSERT_FALSE(places.empty());
+  for (const CutPlace& place : places) {
+    EXPECT_LT(place.radius, 2.0) << place.name;
+    EXPECT_LT(distance(place.focus, Point{1, 0.75, 0.5}), 1.0) << place.name;
+  }
 }
 
 }  // namespace

@@ -28,6 +28,12 @@ TEST(SurfaceMsh, BothVersionsGiveTheSame) {
   expect_same_soup(read_msh(k_v2), soup);
 }
 
+TEST(SurfaceMsh, VersionsOfTheSameLayoutAreRead) {
+  for (const char* version : {"2", "2.0", "2.1"}) expect_same_soup(read_msh(replaced(k_v2, "2.2 0 8", std::string(version) + " 0 8")), read_msh(k_v2));
+  // Version 2.0 knows no dimension of physical names.
+  expect_same_soup(read_msh(replaced(replaced(k_v2, "2.2 0 8", "2.0 0 8"), "2 7 \"upper wing\"", "7 \"upper wing\"")), read_msh(k_v2));
+}
+
 TEST(SurfaceMsh, NamesNeedNoPhysicalNames) {
   const std::string names = "$PhysicalNames\n2\n1 1 \"edge\"\n2 7 \"upper wing\"\n$EndPhysicalNames\n";
   EXPECT_EQ(triangles_by_patch(read_msh(replaced(k_v4, names, ""))), (std::map<std::string, int>{{"patch_7", 1}, {"patch_4", 2}}));
@@ -62,7 +68,7 @@ TEST(SurfaceMsh, BinarySamplesAreTheTextOnes) {
 TEST(SurfaceMsh, WhatIsNotReadIsNamed) {
   const auto unsupported = ErrorCode::unsupported_format;
   refused_msh(replaced(k_v4, "4.1 0 8", "4.1 1 4"), {"reals of 4 bytes"}, unsupported);
-  refused_msh(replaced(k_v4, "4.1 0 8", "4 0 8"), {"version 4", "4.1 and 2.2"}, unsupported);
+  refused_msh(replaced(k_v4, "4.1 0 8", "4 0 8"), {"version 4", "4.1 and 2 to 2.2"}, unsupported);
   refused_msh(replaced(k_v2, "3 3 2 0 4", "3 93 2 0 4"), {"type 93"}, unsupported);
   refused_msh(replaced(k_v4, "$Entities", "$PartitionedEntities"), {"partition"}, unsupported);
   refused_msh("(0 \"a Fluent file\")\n(2 2)\n", {"2 dimensions"}, unsupported);

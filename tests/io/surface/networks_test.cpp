@@ -29,7 +29,6 @@ TEST(Wgs, MistakesAreTold) {
   expect_refused("a.wgs", replaced(good, "1 2 3 0  0", "1 1 3 0  0"), ErrorCode::file_malformed, {"1 lines of 3"});
   expect_refused("a.wgs", replaced(good, "1 2 3 0  0", "1 200 300 0  0"), ErrorCode::file_malformed, {"line 3"});
   expect_refused("a.wgs", replaced(good, "1 1 1  1\n", "1 1 1  4\n"), ErrorCode::file_malformed, {"global symmetry"});
-  expect_refused("a.wgs", replaced(good, "0.5 1 0.1", "0.5 nan 0.1"), ErrorCode::file_malformed, {"line 5"});
   expect_refused("a.wgs", "title\n", ErrorCode::file_malformed, {"name of an object"});
 }
 

@@ -52,7 +52,6 @@ TEST(LegacyVtk, MistakesAreTold) {
   expect_refused("a.vtk", replaced(good, "POLYDATA", "STRUCTURED_GRID"), ErrorCode::unsupported_format, {"structured_grid"});
   expect_refused("a.vtk", replaced(good, "4 2 3 5 4", "4 2 3 5 6"), ErrorCode::file_malformed, {"node 6, there are 6"});
   expect_refused("a.vtk", replaced(good, "4 2 3 5 4", "5 2 3 5 4"), ErrorCode::file_malformed, {"block at line 16", "beyond the announced 5"});
-  expect_refused("a.vtk", replaced(good, "1 1 0 0 2 0 1 2 0", "1 1 0 0 2 0 1 2 nan"), ErrorCode::file_malformed, {"line 13"});
   expect_refused("a.vtk", replaced(good, "marker 1 3 vtkIdType\n0 2 3", "marker 1 2 vtkIdType\n0 2"), ErrorCode::file_malformed,
                  {"found 2 values of \"marker\" for 3 cells"});
   expect_refused("a.vtk", replaced(good, "float", "floa"), ErrorCode::file_malformed, {"expected a type"});

@@ -211,7 +211,7 @@ TEST(CgnsRead, MistakesAreToldWithTheirPath) {
   const auto file = test::scratch() / "mesh.cgns";
   mesh.pyramids[0][4] = NodeId(99);
   write(mesh, file);
-  test::expect_error(ErrorCode::file_malformed, "/Base/Zone/PYRA_5/ElementConnectivity: element 1 has node 100, expected 1 to 9", [&] { read(file); });
+  test::expect_error(ErrorCode::file_malformed, "/Base/Zone1/PYRA_5/ElementConnectivity: element 1 has node 100, expected 1 to 9", [&] { read(file); });
 }
 
 TEST(CgnsRead, NeverCrashesOnDamagedFiles) {

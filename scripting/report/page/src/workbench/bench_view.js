@@ -31,8 +31,8 @@ class Shown {
       this.keep(this.last);
       this.last = null;
     }
-    // A farfield would hide the body within: it is there to be ticked in the tree.
-    if (!this.scene && scene.kind === "volume" && scene.patches.some((patch) => patch.is_of_body))
+    // A farfield or a tunnel would hide the body within: it is there to be ticked in the tree.
+    if (!this.scene && (scene.kind === "volume" || scene.kind === "surface") && scene.patches.some((patch) => patch.is_of_body))
       for (const patch of scene.patches) if (!patch.is_of_body) this.hidden.add(patch.name);
     this.scene = scene;
     this.set = surface_set(scene.surface, scene.patches);

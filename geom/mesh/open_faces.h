@@ -1,0 +1,33 @@
+// Faces at the boundary of a mesh that no patch lists: of files without boundary, or with a part of it only.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna {
+
+/// Faces of exactly one cell that no boundary face covers, outward; their `patch` is invalid.
+struct OpenFaces {
+  std::vector<BoundaryTriangle> triangles;
+  std::vector<BoundaryQuad> quads;
+  std::size_t size() const { return triangles.size() + quads.size(); }
+  /// Centre of the first face. \pre size() > 0
+  Point first_place(const HybridMesh& mesh) const;
+};
+
+/// Finds the open faces, in the order of their cells. Where the boundary is complete, the time is that of one pass over the faces.
+/// \pre node ids in range \throws Error(overflow) for meshes of some 500 million cells
+OpenFaces find_open_faces(const HybridMesh& mesh, const RunContext& context);
+
+/// Adds the faces as a wall called `name` (with a number behind it if the mesh has a patch of that name). \returns that patch
+PatchId add_boundary(HybridMesh& mesh, const OpenFaces& faces, std::string_view name);
+
+/// Number of points that no cell and no boundary face uses.
+std::uint64_t count_unused_points(const HybridMesh& mesh);
+/// Removes them; the order of the others stays. \pre a mesh without columns (HybridMesh::layers)
+void drop_unused_points(HybridMesh& mesh);
+
+}  // namespace sterna
