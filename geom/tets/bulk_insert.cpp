@@ -12,7 +12,7 @@
 namespace sterna::tets {
 namespace {
 
-constexpr int k_most_halvings = 6;
+constexpr int k_most_order_halvings = 6;
 /// Lower parts of halves, pass after pass: planes are elsewhere, and most of what they barred is inside of a block next time.
 constexpr std::array<double, 3> k_shares = {0.5, 0.4, 0.6};
 constexpr std::size_t k_block_seeds = 4096;  ///< at least, in the mean
@@ -223,7 +223,7 @@ std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, std::ve
   std::vector<Insertion> results(seeds.size(), Insertion::foreign);
   for (const double share : k_shares) {
     int n_halvings = 0;
-    while (n_halvings < k_most_halvings && order.size() >> (n_halvings + 1) >= k_block_seeds) ++n_halvings;
+    while (n_halvings < k_most_order_halvings && order.size() >> (n_halvings + 1) >= k_block_seeds) ++n_halvings;
     if (n_halvings == 0) break;
     std::vector<Vec3> places(mesh_.points.begin() + static_cast<std::ptrdiff_t>(first_point), mesh_.points.end());
     order = run_pass(seeds, order, Blocks(std::move(places), n_halvings, share, context), static_cast<std::uint32_t>(first_point), results, context);
