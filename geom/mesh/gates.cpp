@@ -171,7 +171,8 @@ std::string_view remedy_of(Measure measure) {
     case M::skewness: return "several normals at the sharp edge (open_ridges = \"always\"), finer triangles along it, or round it";
     case M::stack_growth:
     case M::interface_height:
-    case M::interface_volume: return "more layers or a larger max_growth; in corners and narrow places shorter edges there alone (narrow, intersection_factor = 1, a smaller min_edge)";
+    case M::interface_volume:
+      return "more layers or a larger max_growth; in corners and narrow places shorter edges there alone (narrow, intersection_factor = 1, a smaller min_edge)";
     case M::first_height:
     case M::coverage:
     case M::collapsed:

@@ -25,6 +25,7 @@
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/flow_verbs.h"
 #include "scripting/values/layer_options.h"
+#include "scripting/values/manifest.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"

@@ -200,8 +200,9 @@ std::string summary_text(const MeshValue& mesh) {
                         count_text(needles.n_left), count_text(needles.n_flips), count_text(needles.n_given), count_text(needles.n_triangles));
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
-  if (has_layers) text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
-                      100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
+  if (has_layers)
+    text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
+                        100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
   for (const volmesh::PatchLayerReport& patch : layer.patches)
     if (patch.truncated > 0.0)
       text += fmt::format("  truncated   {:.2f} % of patch \"{}\", down to {}\n", 100.0 * patch.truncated, patch.name,

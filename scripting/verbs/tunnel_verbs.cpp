@@ -79,7 +79,8 @@ std::set<std::string> names_of_role(const Model& model, FaceRole role) {
 
 bool is_any(const volmesh::PatchRule& rule) {
   return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) ||
-         !is_automatic(rule.blend) || !is_automatic(rule.total_height) || rule.open_ridges != volmesh::PatchRule{}.open_ridges || rule.truncate != volmesh::PatchRule{}.truncate;
+         !is_automatic(rule.blend) || !is_automatic(rule.total_height) || rule.open_ridges != volmesh::PatchRule{}.open_ridges ||
+         rule.truncate != volmesh::PatchRule{}.truncate;
 }
 
 /// The size of all patches, as a rule that those of single patches overrule.
@@ -118,7 +119,8 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
   // A table with layers for a side of a tunnel makes it a wall, whatever a less specific entry says of its kind; a kind beside the layers stands.
   const bool has_layers = layer.layers > 0;
   if (kind && *kind != PatchKind::wall && is_any(layer) && layer.layers != 0)
-    reader.add_problem(key + ": only walls carry layers, and its kind is " + std::string(to_string(*kind)) + ": leave the layer options out, or kind = \"wall\"");
+    reader.add_problem(key + ": only walls carry layers, and its kind is " + std::string(to_string(*kind)) +
+                       ": leave the layer options out, or kind = \"wall\"");
   for (const std::string& name : names) {
     if (kind && *kind != PatchKind::wall) std::erase_if(tunnel.layers, [&](const volmesh::PatchRule& rule) { return rule.names == name; });
     sizes.names = layer.names = name;

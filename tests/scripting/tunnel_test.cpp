@@ -46,7 +46,8 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
 }
 
 TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
-  const std::string side = "local function kinds(o) o.length, o.width, o.height = 4, 2, 2 surface_mesh{ test_section(o), max_edge = 0.5 }:write(" + out("t.su2") + ") end ";
+  const std::string side =
+      "local function kinds(o) o.length, o.width, o.height = 4, 2, 2 surface_mesh{ test_section(o), max_edge = 0.5 }:write(" + out("t.su2") + ") end ";
   const auto kind_of_floor = [&](const std::string& options) {
     run(side + "kinds{ " + options + " }");
     const std::string text = text_of("t.su2.json");
@@ -61,14 +62,17 @@ TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
   EXPECT_THAT((kind_of_floor("walls = { total_height = 0.1 }"), text_of("t.su2.json")), HasSubstr("\"total_height\": 0.1"));  // it was dropped
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = { kind = 'slip', layers = 4 } }"),
               HasSubstr("floor: only walls carry layers, and its kind is slip"));
-  EXPECT_THAT(error("volume_mesh{ surface_mesh{ test_section{ length = 4, width = 2, height = 2, patches = { inflow = { layers = 4 } } }, max_edge = 0.5 }, layers = 4, "
-                    "first_height = 1e-3 }"),
-              HasSubstr("patches[\"inflow\"] requests layers = 4, but its patches carry no layers: \"inflow\" (of kind inflow)"));
+  EXPECT_THAT(
+      error(
+          "volume_mesh{ surface_mesh{ test_section{ length = 4, width = 2, height = 2, patches = { inflow = { layers = 4 } } }, max_edge = 0.5 }, layers = 4, "
+          "first_height = 1e-3 }"),
+      HasSubstr("patches[\"inflow\"] requests layers = 4, but its patches carry no layers: \"inflow\" (of kind inflow)"));
 }
 
 TEST_F(TunnelScripts, AWakeBehindTheModelEndsAtTheOutlet) {
-  const std::string parts = "local t = test_section{ length = 6, width = 2, height = 2, max_edge = 0.5 } local function show(w) print(string.format('%.3f %.3f %.3f %.3f', w[1][1], "
-                            "w[2][2], w.length, w.height)) end ";
+  const std::string parts =
+      "local t = test_section{ length = 6, width = 2, height = 2, max_edge = 0.5 } local function show(w) print(string.format('%.3f %.3f %.3f %.3f', w[1][1], "
+      "w[2][2], w.length, w.height)) end ";
   EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {-1, -0.2, -0.1}, {0, 0.2, 0.1} }, t, max_edge = 0.2 }, length = 2 })"), "-0.500 0.200 2.500 0.200\n");
   EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {1, -0.2, -0.1}, {2, 0.2, 0.1} }, t, max_edge = 0.2 }, length = 4 })"), "1.500 0.200 1.500 0.200\n");
   // One that stands on the floor.

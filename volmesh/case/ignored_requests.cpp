@@ -76,7 +76,7 @@ RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Colum
 void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, const MeshCase& options,
                             const RunContext& context) {
   const EnvelopeOptions& all = options.envelope;
-  const auto is_used = [&](double PatchRule::* member) {
+  const auto is_used = [&](double PatchRule::*member) {
     for (const PatchId p : patches.ids()) {
       const auto replaces = [&](const PatchRule& rule) { return !is_automatic(rule.*member) && matches_glob(patches[p].name, rule.names); };
       if (has_layer[p] != 0 && std::ranges::none_of(options.patches, replaces)) return true;
@@ -85,7 +85,7 @@ void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<
   };
   const bool has_layers = std::ranges::find(has_layer.raw(), 1) != has_layer.raw().end();
   const std::string why = has_layers ? "the rules of patches give it for each patch with layers; leave one of them out" : "no patch carries layers";
-  const auto warn_unless_used = [&](const char* name, double value, double PatchRule::* member) {
+  const auto warn_unless_used = [&](const char* name, double value, double PatchRule::*member) {
     if (!is_automatic(value) && !is_used(member)) context.warn(std::string(name) + " = " + number_text(value) + " of all walls has no effect: " + why);
   };
   if (!options.first_heights) warn_unless_used("first_height", all.first_height, &PatchRule::first_height);
@@ -105,8 +105,8 @@ void require_used_requests(const Column<PatchId, Patch>& patches, const Column<P
     const RuleUse use = use_of(i, patches, has_layer, options.patches);
     if (use.is_used || use.without.empty() || use.is_replaced) continue;
     is_no_wall = is_no_wall || use.is_no_wall;
-    problems.push_back("patches[\"" + options.patches[i].names + "\"] requests " + joined(requests, ", ") + ", but its patches carry no layers: " +
-                       joined(use.without, ", "));
+    problems.push_back("patches[\"" + options.patches[i].names + "\"] requests " + joined(requests, ", ") +
+                       ", but its patches carry no layers: " + joined(use.without, ", "));
   }
   if (!problems.empty())
     throw_bad_argument("setting the layers of patches", joined(problems, "; "), {},

@@ -269,7 +269,8 @@ void choose_box(const TriMesh& surface, std::span<const EndPlane> ends, Farfield
   }
   farfield.farfield_radius = k_automatic;
   farfield.farfield_shape = "box";
-  context.info("the farfield is a box, " + in_metres(reach) + " around the middle of the walls: the planes are periodic sides, and of a sphere they would be no images of "
+  context.info("the farfield is a box, " + in_metres(reach) +
+               " around the middle of the walls: the planes are periodic sides, and of a sphere they would be no images of "
                "each other");
 }
 

@@ -21,8 +21,8 @@ namespace sterna::volmesh {
 
 /// A patch without layers on which layers end. It is triangulated anew around the layer's footprint (ends/close_ends.h).
 struct EndPatch {
-  PatchId patch;              ///< of Domain::outer
-  std::int32_t surface = -1;  ///< of Domain::constraints.surfaces
+  PatchId patch;                  ///< of Domain::outer
+  std::int32_t surface = -1;      ///< of Domain::constraints.surfaces
   double max_edge = k_automatic;  ///< m, of its triangles
 };
 
@@ -83,7 +83,7 @@ struct Domain {
     std::vector<std::string> patches;  ///< of the part
   };
   std::vector<Cavity> cavities;
-  TriMesh bodies;                        ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
+  TriMesh bodies;  ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
   /// Whether vertices of the wall have several lines, so that its layer is not the given wall's yet.
   bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
   /// Whether the outer boundary is made anew around the layer.

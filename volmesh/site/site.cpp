@@ -156,8 +156,7 @@ void warn_of_cavities(const Domain& domain, const RunContext& context) {
                  number_text(cavity.volume, 3) + " m^3 about " + format_point(cavity.box.center()) + ", " + in_metres(cavity.box.longest_side(), 3) +
                  " long: it is meshed, but no flow reaches it. Leave its faces out of the surface, or open it where the flow should enter");
   }
-  if (!domain.cavities.empty())
-    context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
+  if (!domain.cavities.empty()) context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
 }
 
 }  // namespace
@@ -177,8 +176,9 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
-    context.warn("wake sheets are experimental: at their sides, beside the tips of wings, cells fail gates that pass without sheets; compare the verdict with that of a "
-                 "mesh without wakes");
+    context.warn(
+        "wake sheets are experimental: at their sides, beside the tips of wings, cells fail gates that pass without sheets; compare the verdict with that of a "
+        "mesh without wakes");
     const std::vector<PeriodicPatches> sides = move_onto_images(boundary, options.periodic, context);
     const auto complete_again = [&](const TriMesh& with_sheets) {
       WholeBoundary again = completed(with_sheets, options, context);

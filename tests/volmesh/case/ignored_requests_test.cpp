@@ -69,11 +69,11 @@ TEST(IgnoredRequests, AllAreNamedTogether) {
 
 TEST(IgnoredRequests, WhatHasAnEffectOrIsReplacedPasses) {
   const std::vector<std::vector<PatchRule>> cases = {
-      {{.names = "*", .layers = 10}},                                                     // on the wing
-      {{.names = "floor", .layers = 0}},                                                  // as it is
-      {{.names = "floor", .kind = "slip"}},                                               // likewise
-      {{.names = "floor", .layers = 10}, {.names = "floor", .kind = "slip"}},             // replaced on purpose
-      {{.names = "body", .first_height = 1e-3}, {.names = "body", .layers = 0}},          // likewise
+      {{.names = "*", .layers = 10}},                                             // on the wing
+      {{.names = "floor", .layers = 0}},                                          // as it is
+      {{.names = "floor", .kind = "slip"}},                                       // likewise
+      {{.names = "floor", .layers = 10}, {.names = "floor", .kind = "slip"}},     // replaced on purpose
+      {{.names = "body", .first_height = 1e-3}, {.names = "body", .layers = 0}},  // likewise
       {{.names = "floor", .open_ridges = "never"}, {.names = "body", .truncate = "never"}},
   };
   for (const std::vector<PatchRule>& rules : cases) {
