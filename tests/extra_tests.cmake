@@ -51,7 +51,7 @@ set_tests_properties(python PROPERTIES TIMEOUT 300)
 add_test(NAME documents COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/documents_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
 
 # What documents tell their readers to do, done: their files written, their commands run, their output found.
-foreach(document python tutorials/tunnel_series tutorials/aircraft_from_numbers tutorials/one_off_cad gallery)
+foreach(document python half_models tutorials/tunnel_series tutorials/aircraft_from_numbers tutorials/one_off_cad gallery)
   get_filename_component(name ${document} NAME)
   add_test(NAME document_${name}
            COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/run_document.py ${CMAKE_SOURCE_DIR}/docs/${document}.md ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna> ${CMAKE_BINARY_DIR}/scratch/document_${name})

@@ -114,7 +114,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
   // Where layers end on other patches, sides are periodic, ridges are opened and wakes have sheets, the boundary stays as it is.
-  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
+  const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
@@ -201,6 +201,24 @@ std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<V
     feet.swap(more);
   }
   return feet;
+}
+
+/// Patches of the same name and kind become one: parts of a patch that was split at its corners (split_at_corners).
+void merge_equal_patches(HybridMesh& mesh) {
+  Column<PatchId, Patch> patches;
+  Column<PatchId, PatchId> merged;
+  for (const Patch& patch : mesh.patches) {
+    const auto same = std::find(patches.begin(), patches.end(), patch);
+    merged.push_back(same == patches.end() ? patches.push_back(patch) : PatchId(static_cast<std::uint64_t>(same - patches.begin())));
+  }
+  if (patches.size() == mesh.patches.size()) return;
+  mesh.patches = std::move(patches);
+  for (sterna::BoundaryTriangle& face : mesh.boundary_triangles) face.patch = merged[face.patch];
+  for (sterna::BoundaryQuad& face : mesh.boundary_quads) face.patch = merged[face.patch];
+  for (PeriodicSides& sides : mesh.periodic) {
+    sides.first = merged[sides.first];
+    sides.second = merged[sides.second];
+  }
 }
 
 void require_valid(const CheckReport& report) {
@@ -355,6 +373,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
     result.check = check(result.mesh, {}, context.part("check", ends.improve, 1.0), &*knowledge.check);
   }
   require_valid(result.check);
+  merge_equal_patches(result.mesh);
   for (const PeriodicMatchReport& sides : result.check.periodic)
     context.info("periodic sides " + sides.first + " and " + sides.second + ": " + std::to_string(sides.n_nodes) + " nodes and " +
                  std::to_string(sides.n_faces) + " faces match within " + number_text(sides.worst, 3) + " m");

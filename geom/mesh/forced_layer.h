@@ -23,7 +23,7 @@ namespace sterna::check_parts {
 /// Lines are supposed to lead at most this far off the direction that sees the facets at their feet best, rad: what G10 takes for the best.
 inline constexpr double k_lean_room = std::numbers::pi / 18.0;
 inline constexpr const char* k_more_normals =
-    "several normals there (not built yet), a blunt edge in the given surface, or triangles of like size on both of its sides";
+    "several normals along that edge (open_ridges = \"always\"), a blunt edge in the given surface, or triangles of like size on both of its sides";
 
 /// How far the area vector of a triangle may be off when each of its corners moves by at most `moved`, m^2.
 inline double area_error(double longest_side, double moved) { return 2.0 * moved * (longest_side + moved); }

@@ -168,10 +168,11 @@ std::string_view remedy_of(Measure measure) {
     case M::orthogonality:
     case M::stack_angle:
     case M::non_orthogonality:
-    case M::skewness: return "finer triangles at the sharp edge, or round it";
+    case M::skewness: return "several normals at the sharp edge (open_ridges = \"always\"), finer triangles along it, or round it";
     case M::stack_growth:
     case M::interface_height:
-    case M::interface_volume: return "more layers, a larger max_growth, or finer triangles on the wall there";
+    case M::interface_volume:
+      return "more layers or a larger max_growth; in corners and narrow places shorter edges there alone (narrow, intersection_factor = 1, a smaller min_edge)";
     case M::first_height:
     case M::coverage:
     case M::collapsed:

@@ -320,13 +320,13 @@ void tell_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const Run
 
 }  // namespace
 
-TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context) {
+TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context, bool is_image_expected) {
   const HalvingPlane plane = plane_of(surface, options);
   if (surface.n_triangles() == 0) throw Error(error_at(plane, ErrorCode::empty_surface, "the surface has no triangles", ""));
   Cutting cutting = place_vertices(surface, plane);
   const SnapReport snapped = options.snap > 0.0 ? snap_near_vertices(cutting, Topology(surface, context), plane, options.snap) : SnapReport{};
   const Cutter cutter(cutting, plane);
-  if (std::ranges::any_of(cutting.distance, [](double d) { return d < 0.0; })) tell_asymmetry(surface, plane, context);
+  if (is_image_expected && std::ranges::any_of(cutting.distance, [](double d) { return d < 0.0; })) tell_asymmetry(surface, plane, context);
   TriMesh half = cutter.take();
   require_reach(surface, half, plane);
   require_rim(half, plane, context);

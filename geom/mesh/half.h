@@ -28,7 +28,8 @@ struct HalfOptions {
 /// plane
 /// \throws Error(bad_argument) when the surface does not reach the plane; (open_surface) with places when it has rims elsewhere; (non_manifold_surface) where
 /// the rim touches itself or the surface touches the plane beside it; (mesh_invalid) when moving vertices within the tolerance would turn a triangle over
-TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context);
+/// \param is_image_expected whether what is left out should be the image of what is kept: a warning says where it is not
+TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context, bool is_image_expected = true);
 
 /// The part of all triangles on the side of the plane that half_of keeps, cut exactly and without any repair: what half_of's result is compared with. Triangles
 /// within the tolerance of the plane are left out; cut triangles have vertices of their own.

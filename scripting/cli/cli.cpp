@@ -157,9 +157,10 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       ->allow_extra_args(false)
       ->take_all();
   command
-      ->add_option("--wake-sheet", mesh.sheets,
-                   "layers go on behind trailing edges, e.g. --wake-sheet \"wing=main* length=2\" (chords), or --wake-sheet auto; growth, direction; may "
-                   "be given several times")
+      ->add_option(
+          "--wake-sheet", mesh.sheets,
+          "experimental: layers go on behind trailing edges, e.g. --wake-sheet \"wing=main* length=2\" (chords), or --wake-sheet auto; growth, direction; may "
+          "be given several times")
       ->type_name("SHEET")
       ->allow_extra_args(false)
       ->take_all();

@@ -25,6 +25,7 @@
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/flow_verbs.h"
 #include "scripting/values/layer_options.h"
+#include "scripting/values/manifest.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
 #include "scripting/values/open_domains.h"
@@ -698,7 +699,7 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   }
   context.console.end_progress();
   if (!command.cells.empty()) io::write_quality_vtu(mesh.mesh, command.cells, context.run);
-  context.console.print(command.is_json ? to_json(report) : to_text(report));
+  context.console.print(command.is_json ? check_json(report, mesh.mesh) : check_text(report, mesh.mesh));
   return command.options.accepts(report) ? k_exit_success : k_exit_invalid;
 }
 

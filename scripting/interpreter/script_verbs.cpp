@@ -20,6 +20,7 @@
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/flow_verbs.h"
 #include "scripting/values/layer_options.h"
+#include "scripting/values/manifest.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
@@ -247,7 +248,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
   if (wall && report.quality_measured) measure_on_model(mesh->mesh, *wall, limits, report, context.part("model", 0.5, 1.0));
   if (!cells.empty()) io::write_quality_vtu(mesh->mesh, cells, call.session.context);
   if (is_detailed) {
-    call.session.print(to_text(report));
+    call.session.print(check_text(report, mesh->mesh));
   } else {
     call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has told the worst of what is known
     call.session.context.debug(to_text(report));

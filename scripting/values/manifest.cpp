@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "geom/mesh/volume_regions.h"
 #include "io/file/input_hash.h"
 #include "io/output/atomic_file.h"
 #include "scripting/values/disc_verbs.h"
@@ -92,6 +93,23 @@ Json improvement_json(const volmesh::ImproveReport& report) {
 
 }  // namespace
 
+std::string regions_json(const HybridMesh& mesh) {
+  Json regions = Json::array();
+  for (const VolumeRegion& region : volume_regions(mesh)) regions.push_back({{"volume", region.volume}, {"patches", region.patches}});
+  return regions.dump();
+}
+
+std::string check_json(const CheckReport& report, const HybridMesh& mesh) {
+  Json json = Json::parse(to_json(report));
+  if (report.is_complete) json["fluid_regions"] = Json::parse(regions_json(mesh));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string check_text(const CheckReport& report, const HybridMesh& mesh) {
+  const std::string regions = report.is_complete ? describe_regions(volume_regions(mesh)) : "";
+  return to_text(report) + (regions.empty() ? "" : "regions of fluid: " + regions + "\n");
+}
+
 std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash) {
   Json json;
   json["schema"] = "sterna-manifest-1";
@@ -138,6 +156,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
   if (!mesh.mesh.periodic.empty()) json["periodic_sides"] = periodic_sides_json(mesh);
   json["mesh"] = cells_json(mesh.mesh);
+  json["fluid_regions"] = Json::parse(regions_json(mesh.mesh));
   if (mesh.origin) {
     json["layer"] = Json::parse(layer_json(mesh.origin->layer));
     json["certificate"] = Json::parse(certificate_json(mesh.origin->certificate));

@@ -12,6 +12,12 @@ namespace sterna::scripting {
 /// it
 std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash = {});
 
+/// Regions of fluid that are not connected with each other, as a JSON array of their volumes (m^3) and patches, the largest first.
+std::string regions_json(const HybridMesh& mesh);
+/// A report of its check as JSON or text, with these regions; the text names them where there are several.
+std::string check_json(const CheckReport& report, const HybridMesh& mesh);
+std::string check_text(const CheckReport& report, const HybridMesh& mesh);
+
 /// Where the manifest of a mesh goes: NAME.json beside it, also of a folder with a slash at its end.
 std::filesystem::path manifest_path(const std::filesystem::path& output);
 

@@ -82,6 +82,43 @@ namespace {
 
 /// Open edges and absorbed parts in the log; the report has all.
 constexpr std::size_t k_listed = 10;
+
+/// Open edges that lie in one plane x, y or z = constant: the rim of a half model.
+struct OpenPlane {
+  std::size_t axis = 0;
+  double at = 0.0;      ///< m
+  double length = 0.0;  ///< m
+  std::size_t n_edges = 0;
+};
+
+/// Planes with two open edges or more, the one with the longest rim first; takes their edges out of the list.
+std::vector<OpenPlane> open_planes(std::vector<OpenEdge>& open) {
+  constexpr double k_flat = 1e-6;  // of the longest side of all
+  Box box;
+  for (const OpenEdge& edge : open)
+    for (const Point* p : {&edge.from, &edge.middle, &edge.to}) box.add(*p);
+  const auto is_in = [&](const OpenEdge& edge, const OpenPlane& plane) {
+    const auto is_near = [&](const Point& p) { return std::abs(p[plane.axis] - plane.at) <= k_flat * box.longest_side(); };
+    return is_near(edge.from) && is_near(edge.middle) && is_near(edge.to);
+  };
+  std::vector<OpenPlane> planes;
+  for (;;) {
+    OpenPlane longest;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const OpenEdge& start : open) {
+        OpenPlane plane{.axis = axis, .at = start.middle[axis]};
+        for (const OpenEdge& edge : open) {
+          if (!is_in(edge, plane)) continue;
+          plane.length += edge.length;
+          ++plane.n_edges;
+        }
+        if (plane.n_edges > 1 && plane.length > longest.length) longest = plane;
+      }
+    if (longest.n_edges == 0) return planes;
+    std::erase_if(open, [&](const OpenEdge& edge) { return is_in(edge, longest); });
+    planes.push_back(longest);
+  }
+}
 // Shares of mesh_model_files's progress.
 constexpr double k_model_file_end = 0.3;
 constexpr double k_unite_end = 0.5;
@@ -285,7 +322,9 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
   std::string text = describe(surface) + fmt::format("; angles {:.3g} to {:.4g} deg", report.min_angle / k_degree, report.max_angle / k_degree);
   if (report.n_free_edges > 0) {
-    const std::vector<OpenEdge> open = open_edges(model);
+    std::vector<OpenEdge> open = open_edges(model);
+    for (const OpenPlane& plane : open_planes(open))
+      text += fmt::format("\n  open      along {:.4g} m in the plane {} = {:.6g} m, {} edges", plane.length, "xyz"[plane.axis], plane.at, plane.n_edges);
     for (std::size_t i = 0; i < std::min(k_listed, open.size()); ++i)
       text += fmt::format("\n  open      along {:.4g} m of face \"{}\" about {}", open[i].length, open[i].face, format_point(open[i].middle));
     if (open.size() > k_listed) text += fmt::format("\n  open      and {} more edges of the model", open.size() - k_listed);

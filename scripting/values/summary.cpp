@@ -10,6 +10,8 @@
 #include <numbers>
 
 #include "geom/math/constants.h"
+#include "geom/mesh/layer_room.h"
+#include "geom/mesh/volume_regions.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/manifest.h"
 
@@ -54,14 +56,39 @@ double excess_of(const GateResult& gate) {
   return value > 0.0 && limit > 0.0 ? ratio : std::numeric_limits<double>::infinity();
 }
 
+/// Why the layer is lower than its target where it is nearest to a place; empty where it has its full height, or nothing is known of it.
+std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
+  const LayerBlock& layers = mesh.layers;
+  if (layers.n_lines() == 0 || mesh.request.reason.size() != layers.n_lines() || mesh.request.target_height.size() != layers.n_lines()) return {};
+  const auto foot = [&](std::size_t line) { return mesh.points[layers.node(static_cast<std::uint32_t>(line), 0)]; };
+  const auto top = [&](std::size_t line) { return mesh.points[layers.node(static_cast<std::uint32_t>(line), layers.layers_of_line(line))]; };
+  const auto distance_from = [&](std::size_t line) { return std::min(norm2(foot(line) - place), norm2(top(line) - place)); };
+  std::size_t nearest = 0;
+  for (std::size_t line = 1; line < layers.n_lines(); ++line)
+    if (distance_from(line) < distance_from(nearest)) nearest = line;
+  if (distance(foot(nearest), top(nearest)) >= k_full_height_share * mesh.request.target_height[nearest]) return {};
+  const std::size_t reason = mesh.request.reason[nearest];
+  return reason > 0 && reason < mesh.request.reasons.size() ? std::string_view(mesh.request.reasons[reason]) : std::string_view();
+}
+
+/// What helps at the worst place of a measure. Where a layer is squeezed, more of it makes it worse.
+std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
+  const bool is_of_height = gate.measure == Measure::interface_height || gate.measure == Measure::interface_volume || gate.measure == Measure::stack_growth;
+  if (!mesh || !is_of_height || gate.places.empty()) return std::string(remedy_of(gate.measure));
+  const std::string_view reason = lowered_at(*mesh, gate.places.front().position);
+  if (reason.empty()) return "more layers, a larger max_growth, or shorter edges on the wall there";
+  return "the layer is squeezed there (" + std::string(reason) +
+         "): shorter edges at this place alone (surface_mesh: narrow, where parts meet intersection_factor = 1, a smaller min_edge), or truncate = \"auto\"";
+}
+
 /// A measure that misses a limit, in one line: what is wrong in plain words, its worst place that is ours, and what would mend it.
-std::string trouble_text(const GateResult& gate) {
+std::string trouble_text(const GateResult& gate, const HybridMesh* mesh) {
   const MeasureInfo& info = info_of(gate.measure);
   const double value = told_value(gate);
   std::string text = fmt::format("  worst       {}: {} {} {:.4g}{} ({})", trouble_of(gate.measure), info.gate, to_string(gate.state),
                                  in_report_unit(info, value), info.is_angle ? " deg" : "", missed_limit_text(gate, value));
   if (!gate.places.empty()) text += " at " + format_point(gate.places.front().position) + ", " + gate.places.front().what;
-  return text + "; " + std::string(remedy_of(gate.measure)) + "\n";
+  return text + "; " + remedy_at(gate, mesh) + "\n";
 }
 
 /// Measures that miss a limit, those that FAIL before those that warn, the worst of each first.
@@ -78,10 +105,10 @@ std::vector<const GateResult*> troubles_of(const CheckReport& report) {
 }
 
 /// The worst few of them. The rest: -v, `sterna check`, manifest, report page.
-std::string troubles_text(const CheckReport& report) {
+std::string troubles_text(const CheckReport& report, const HybridMesh* mesh) {
   const std::vector<const GateResult*> troubles = troubles_of(report);
   std::string text;
-  for (std::size_t i = 0; i < std::min(troubles.size(), k_listed_troubles); ++i) text += trouble_text(*troubles[i]);
+  for (std::size_t i = 0; i < std::min(troubles.size(), k_listed_troubles); ++i) text += trouble_text(*troubles[i], mesh);
   return text;
 }
 
@@ -159,19 +186,23 @@ std::string summary_text(const MeshValue& mesh) {
   const bool is_measured = mesh.check && mesh.check->quality_measured;
   std::string text = "  verdict     " + verdict_text(mesh) + (is_measured ? ", " + quality_text(*mesh.check) : "") + "\n";
   for (const std::string& change : mesh.origin->changes) text += "  changed     " + change + "\n";
-  text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, ", count_text(n_nodes(mesh)), count_text(cells.prisms),
-                      mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers);
+  text += fmt::format("  mesh        {} nodes: ", count_text(n_nodes(mesh)));
+  const bool has_layers = layer.n_vertices > 0;
+  if (has_layers)
+    text += fmt::format("{} prisms in {}{} layers, ", count_text(cells.prisms), mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers);
   if (cells.pyramids > 0) text += count_text(cells.pyramids) + " pyramids, ";
   if (cells.hexahedra > 0) text += count_text(cells.hexahedra) + " hexahedra, ";
   text += fmt::format("{} tetrahedra; wall of {} triangles, {:.6g} m long\n", count_text(cells.tetrahedra), count_text(mesh.origin->n_wall_triangles),
                       layer.body_length);
+  if (const std::string regions = describe_regions(volume_regions(mesh.mesh)); !regions.empty()) text += "  regions     of fluid: " + regions + "\n";
   if (const volmesh::NeedleReport& needles = mesh.origin->needles; needles.n_needles > 0)
     text += fmt::format("  needles     {} of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(needles.n_needles),
                         count_text(needles.n_left), count_text(needles.n_flips), count_text(needles.n_given), count_text(needles.n_triangles));
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
-  text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
-                      100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
+  if (has_layers)
+    text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
+                        100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
   for (const volmesh::PatchLayerReport& patch : layer.patches)
     if (patch.truncated > 0.0)
       text += fmt::format("  truncated   {:.2f} % of patch \"{}\", down to {}\n", 100.0 * patch.truncated, patch.name,
@@ -183,7 +214,7 @@ std::string summary_text(const MeshValue& mesh) {
     text += fmt::format("  collapsed   {:.2f} % of the area, {}; first at {}: {}\n", 100.0 * layer.collapsed_area,
                         counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"), format_point(layer.collapsed.front().position),
                         layer.collapsed.front().what);
-  if (is_measured) text += troubles_text(*mesh.check);
+  if (is_measured) text += troubles_text(*mesh.check, &mesh.mesh);
   text.pop_back();
   return text;
 }
@@ -201,7 +232,7 @@ std::string check_summary_text(const CheckReport& report, bool tells_troubles) {
   text += fmt::format("; every face matched, every cell valid{}; mesh:check{{ details = true }} prints all gates\n",
                       report.intersections_checked ? ", nothing intersects" : "");
   if (!report.quality_measured) return text;
-  if (tells_troubles) text += troubles_text(report);
+  if (tells_troubles) text += troubles_text(report, nullptr);
   for (const Measure measure : {Measure::cad_distance, Measure::cad_normal})
     if (report.gate(measure).state != GateState::not_checked) text += to_text(report.gate(measure));
   return text;
@@ -236,6 +267,7 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["prisms"] = cells.prisms;
   json["pyramids"] = cells.pyramids;
   json["tetrahedra"] = cells.tetrahedra;
+  json["fluid_regions"] = volume_regions(mesh.mesh).size();
   json["body_length"] = layer.body_length;
   json["coverage"] = layer.coverage;
   json["attainable"] = layer.attainable;

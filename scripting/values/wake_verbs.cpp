@@ -110,7 +110,10 @@ std::string wake_sheet_help() {
 }
 
 constexpr std::array<ScriptVerb, 1> k_wake_verbs = {{
-    {"wake_sheet", k_wake_sheet_usage, "A surface behind trailing edges on which the layers of both sides of a wing go on, for the wakes of volume_mesh.",
+    {"wake_sheet", k_wake_sheet_usage,
+     "Experimental: a surface behind trailing edges on which the layers of both sides of a wing go on, for the wakes of volume_mesh. At the sides of a sheet "
+     "gates "
+     "fail that pass without it (docs/wake_sheets.md): compare both meshes.",
      make_wake_sheet, wake_sheet_help, false, "wake sheet"},
 }};
 

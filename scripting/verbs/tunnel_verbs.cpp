@@ -79,7 +79,8 @@ std::set<std::string> names_of_role(const Model& model, FaceRole role) {
 
 bool is_any(const volmesh::PatchRule& rule) {
   return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) ||
-         !is_automatic(rule.blend) || rule.open_ridges != volmesh::PatchRule{}.open_ridges || rule.truncate != volmesh::PatchRule{}.truncate;
+         !is_automatic(rule.blend) || !is_automatic(rule.total_height) || rule.open_ridges != volmesh::PatchRule{}.open_ridges ||
+         rule.truncate != volmesh::PatchRule{}.truncate;
 }
 
 /// The size of all patches, as a rule that those of single patches overrule.
@@ -115,14 +116,22 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
   } else {
     kind = read_patch_kind(value, key, reader);
   }
+  // A table with layers for a side of a tunnel makes it a wall, whatever a less specific entry says of its kind; a kind beside the layers stands.
+  const bool has_layers = layer.layers > 0;
+  if (kind && *kind != PatchKind::wall && is_any(layer) && layer.layers != 0)
+    reader.add_problem(key + ": only walls carry layers, and its kind is " + std::string(to_string(*kind)) +
+                       ": leave the layer options out, or kind = \"wall\"");
   for (const std::string& name : names) {
+    if (kind && *kind != PatchKind::wall) std::erase_if(tunnel.layers, [&](const volmesh::PatchRule& rule) { return rule.names == name; });
     sizes.names = layer.names = name;
     if (surfmesh::PatchSurfaceOptions none{.names = name}; patch_rules_json({sizes}) != patch_rules_json({none})) tunnel.sizes.push_back(sizes);
     if (is_any(layer)) tunnel.layers.push_back(layer);
   }
-  if (kind)
-    for (ModelFace& face : tunnel.model.faces)
-      if (names.contains(face.name)) face.kind = kind;
+  for (ModelFace& face : tunnel.model.faces) {
+    if (!names.contains(face.name)) continue;
+    if (kind) face.kind = kind;
+    else if (has_layers && face.role == FaceRole::wall) face.kind = PatchKind::wall;
+  }
 }
 
 /// patches = { ["inlet*"] = { max_edge = 0.2 } }
@@ -241,7 +250,7 @@ std::string test_section_help() {
   std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
   return options_help(sterna::options_of(options)) + options_help(sterna::options_of(size)) +
          "position = {x, y, z}: where the model stands, in place of the origin. Walls: walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" "
-         "or a table; patches = { [\"outlet*\"] = { ... } } of any patch:\n"
+         "or a table (with layers it makes the side a wall); patches = { [\"outlet*\"] = { ... } } of any patch:\n"
          "  kind: wall, slip, symmetry, inflow, outflow, farfield, interface\n" +
          options_help(patch_rule_options(sizes)) + options_help(layer_options) +
          "through = \"strut*\" or { \"strut*\", \"wing\" }: components or faces, by name, that pass through the walls and are cut off there, as stings made "

@@ -45,6 +45,42 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
               HasSubstr("no face of the tunnel has a name like \"wing\""));
 }
 
+TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
+  const std::string side =
+      "local function kinds(o) o.length, o.width, o.height = 4, 2, 2 surface_mesh{ test_section(o), max_edge = 0.5 }:write(" + out("t.su2") + ") end ";
+  const auto kind_of_floor = [&](const std::string& options) {
+    run(side + "kinds{ " + options + " }");
+    const std::string text = text_of("t.su2.json");
+    const std::string mark = "\"name\": \"tunnel_floor\",\n      \"kind\": \"";
+    const std::size_t at = text.find(mark);
+    return at == std::string::npos ? text : text.substr(at + mark.size(), text.find('"', at + mark.size()) - at - mark.size());
+  };
+  EXPECT_EQ(kind_of_floor("walls = 'slip'"), "slip");
+  EXPECT_EQ(kind_of_floor("walls = 'slip', floor = { layers = 4, first_height = 1e-3 }"), "wall");
+  EXPECT_EQ(kind_of_floor("walls = { layers = 4 }, floor = 'slip'"), "slip");
+  EXPECT_THAT(text_of("t.su2.json"), AllOf(HasSubstr("\"names\": \"tunnel_left\""), testing::Not(HasSubstr("\"names\": \"tunnel_floor\""))));
+  EXPECT_THAT((kind_of_floor("walls = { total_height = 0.1 }"), text_of("t.su2.json")), HasSubstr("\"total_height\": 0.1"));  // it was dropped
+  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = { kind = 'slip', layers = 4 } }"),
+              HasSubstr("floor: only walls carry layers, and its kind is slip"));
+  EXPECT_THAT(
+      error(
+          "volume_mesh{ surface_mesh{ test_section{ length = 4, width = 2, height = 2, patches = { inflow = { layers = 4 } } }, max_edge = 0.5 }, layers = 4, "
+          "first_height = 1e-3 }"),
+      HasSubstr("patches[\"inflow\"] requests layers = 4, but its patches carry no layers: \"inflow\" (of kind inflow)"));
+}
+
+TEST_F(TunnelScripts, AWakeBehindTheModelEndsAtTheOutlet) {
+  const std::string parts =
+      "local t = test_section{ length = 6, width = 2, height = 2, max_edge = 0.5 } local function show(w) print(string.format('%.3f %.3f %.3f %.3f', w[1][1], "
+      "w[2][2], w.length, w.height)) end ";
+  EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {-1, -0.2, -0.1}, {0, 0.2, 0.1} }, t, max_edge = 0.2 }, length = 2 })"), "-0.500 0.200 2.500 0.200\n");
+  EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {1, -0.2, -0.1}, {2, 0.2, 0.1} }, t, max_edge = 0.2 }, length = 4 })"), "1.500 0.200 1.500 0.200\n");
+  // One that stands on the floor.
+  EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {-1, -0.2, -1}, {0, 0.2, -0.5}, name = 'house' }, t, max_edge = 0.2 }, length = 1 })"),
+            "-0.500 0.200 1.500 0.500\n");
+  EXPECT_THAT(error(parts + "wake{ surface_mesh{ t }, length = 2 }"), HasSubstr("encloses its fluid, and no wall stands within it"));
+}
+
 TEST_F(TunnelScripts, AModelOnAStingIsTakenOutOfTheTunnelAtAnyAttitude) {
   const std::string text = run(k_parts +
                                "for _, a in ipairs{ -4, 12 } do local m = assembly{ body, rod }:rotate{ pitch = a*deg, yaw = 5*deg } "
@@ -166,6 +202,12 @@ TEST_F(TunnelScripts, AssembliesAreUnitedWhereTheyTouch) {
   EXPECT_EQ(run(k_parts + "print(#assembly{ body, rod }.solids, #assembly{ body, rod, unite = false }.solids, #assembly{ body, rod, tunnel }.solids, "
                           "#assembly{ body, rod:move{ 0, 0, 1 } }.solids)"),
             "1\t2\t2\t2\n");
+}
+
+TEST_F(TunnelScripts, TheRimOfAHalfModelIsOneLine) {
+  run("print(surface_mesh{ half{ box{ {-1, -1, -1}, {1, 1, 1} } }, max_edge = 0.5 })");
+  EXPECT_THAT(log_, HasSubstr("open      along 8 m in the plane y = 0 m, 4 edges"));
+  EXPECT_THAT(log_, testing::Not(HasSubstr("of face")));
 }
 
 TEST_F(TunnelScripts, HalfOfAModelHasItsRimInThePlane) {

@@ -7,9 +7,12 @@
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
 #include "geom/base/print_text.h"
+#include "geom/math/measures.h"
 
 namespace sterna::volmesh {
 namespace {
+
+constexpr double k_side_share = 1e-6;  ///< of a domain's longest side: what is so near to a side of its box is in it
 
 /// As the rules of patches say, of which the last that matches counts.
 PatchKind kind_of_patch(const Patch& patch, const MeshCase& options) {
@@ -31,24 +34,64 @@ bool is_wake_unrefined(const TriMesh& surface, const MeshCase& options) {
   return has_walls;
 }
 
+/// Whether the surface is around its fluid, by the flux of x along x: normals point into the fluid. Planes y and z = constant where it is open count nothing.
+bool encloses_fluid(const TriMesh& surface) {
+  const double middle = bounding_box(surface).center().x;
+  double volume = 0.0;
+  for (const TriangleId t : surface.triangles.ids()) {
+    const auto [a, b, c] = corners(surface, t);
+    volume += area_vector(a, b, c).x * ((a.x + b.x + c.x) / 3.0 - middle);
+  }
+  return volume < 0.0;
+}
+
+/// Patches of a domain that are its outer walls: they lie in one side of its box, or reach from side to side along two axes.
+Column<PatchId, std::uint8_t> outer_patches(const TriMesh& surface, const Box& domain) {
+  std::vector<Box> boxes(surface.patches.size());
+  for (const TriangleId t : surface.triangles.ids())
+    for (const Point& p : corners(surface, t)) boxes[surface.triangle_patch[t].index()].add(p);
+  const double tolerance = k_side_share * domain.longest_side();
+  Column<PatchId, std::uint8_t> is_outer(surface.patches.size(), 0);
+  for (const PatchId p : surface.patches.ids()) {
+    const Box& box = boxes[p.index()];
+    if (box.empty()) continue;
+    int n_spanned = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_low = box.min[k] - domain.min[k] <= tolerance, is_high = domain.max[k] - box.max[k] <= tolerance;
+      n_spanned += is_low && is_high ? 1 : 0;
+      if ((is_low || is_high) && box.max[k] - box.min[k] <= tolerance) is_outer[p] = 1;
+    }
+    if (n_spanned >= 2) is_outer[p] = 1;
+  }
+  return is_outer;
+}
+
+/// From a point within the box along a direction to its side, m.
+double way_out(const Box& domain, const Point& from, const Vec3& along) {
+  double way = 1e300;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (along[k] != 0.0) way = std::min(way, ((along[k] > 0.0 ? domain.max[k] : domain.min[k]) - from[k]) / along[k]);
+  return way;
+}
+
 bool wants_family_wake(const FamilyOptions& family) { return family.family_wake == "on" || (family.family_wake == "automatic" && family.refinement != 1.0); }
 
 }  // namespace
 
 SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction) {
   const std::string attempted = "placing a wake";
+  const bool is_domain = encloses_fluid(wall);
+  const Box domain = bounding_box(wall);
+  const Column<PatchId, std::uint8_t> is_outer = is_domain ? outer_patches(wall, domain) : Column<PatchId, std::uint8_t>(wall.patches.size(), 0);
   Box box;
   for (const TriangleId t : wall.triangles.ids()) {
-    const PatchKind kind = wall.patches[wall.triangle_patch[t]].kind;
-    if (kind == PatchKind::inflow || kind == PatchKind::farfield)
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = attempted,
-                   .problem = "the surface has a patch of kind " + std::string(to_string(kind)) + ", so it is more than a body",
-                   .hint = "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }"});
-    if (kind != PatchKind::wall) continue;
+    const PatchId patch = wall.triangle_patch[t];
+    if (wall.patches[patch].kind != PatchKind::wall || is_outer[patch]) continue;
     for (const VertexId v : wall.triangles[t]) box.add(wall.points[v]);
   }
-  if (box.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the surface has no walls"});
+  if (box.empty())
+    throw_bad_argument(attempted, is_domain ? "the surface encloses its fluid, and no wall stands within it" : "the surface has no walls", {},
+                       "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }");
   if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "its direction has no length"});
   // Across the flow: sideways, which of a flow straight up is along y, and upwards.
   const Vec3 along = normalized(direction), sideways = cross(Vec3{0.0, 0.0, 1.0}, along);
@@ -64,6 +107,7 @@ SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& di
   source.to = box.center() + extent(across) * across;
   source.direction = along;
   source.length = extent(along) + wake.length * body;
+  if (is_domain) source.length = std::min(source.length, way_out(domain, box.center(), along));  // as far as the fluid goes
   source.height = height;
   source.spread = wake.spread;
   source.size = is_automatic(wake.size) ? std::max(height / k_cells_over_height, body / k_cells_over_length) : wake.size;

@@ -15,8 +15,9 @@ struct BodyWake {
   double size_end = k_automatic;
   double spread = 0.05;
 };
-/// Short edges in what the body leaves behind: as wide and as high as the body, from its middle on to `length` body lengths behind its end.
-/// \throws Error(bad_argument) for a surface without walls, and for one that the fluid is inside of
+/// Short edges in what the body leaves behind: as wide and as high as the body, from its middle on to `length` body lengths behind its end. In a surface that
+/// encloses its fluid (a tunnel with a model) the body is what is no outer wall, and the wake ends where the fluid does.
+/// \throws Error(bad_argument) for a surface without walls, and for one that encloses its fluid and has no other walls than outer ones
 SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction);
 
 /// A body in a farfield of our own without any source or wake sheet, its own or the family's: nothing but the growth of tetrahedra resolves its wake. Not of

@@ -42,7 +42,7 @@ struct Schema<volmesh::EnvelopeOptions> {
   static constexpr std::string_view stage = "envelope";
   static constexpr volmesh::MeshSteps steps = volmesh::k_envelope_step;
   static constexpr std::array fields = {
-      Field<O>{.name = "layers", .member = &O::layers, .min = 1, .max = 1000, .help = "number of prism layers"},
+      Field<O>{.name = "layers", .member = &O::layers, .min = 0, .max = 1000, .help = "number of prism layers; 0: none, tetrahedra alone"},
       Field<O>{.name = "first_height",
                .member = &O::first_height,
                .unit = Unit::metre,

@@ -31,7 +31,7 @@ void refine(double f, double& length) {
   if (!is_automatic(length)) length /= f;
 }
 double refined_growth(double f, double growth) { return std::pow(growth, 1.0 / f); }
-int refined_layers(double f, int layers) { return std::clamp(static_cast<int>(std::lround(f * layers)), 1, k_most_layers); }
+int refined_layers(double f, int layers) { return layers == 0 ? 0 : std::clamp(static_cast<int>(std::lround(f * layers)), 1, k_most_layers); }
 
 void refine(double f, FarfieldOptions& farfield) {
   if (is_automatic(farfield.farfield_edge)) farfield.farfield_edge = -1.0 / f;

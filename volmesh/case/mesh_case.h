@@ -64,7 +64,8 @@ struct MeshCase : MeshOptions, MeshFacts {};
 OptionTable options_of(MeshOptions& options);
 /// Those that may be given at one of the steps.
 OptionTable options_of(MeshOptions& options, MeshSteps steps);
-/// All; first_height is not required where rules of patches give it, as then each patch with layers is asked for its own (layers_of_patches).
+/// All; first_height is not required where rules of patches give it, as then each patch with layers is asked for its own (layers_of_patches), and where no
+/// patch is to have layers.
 OptionTable required_options_of(MeshCase& mesh_case);
 
 }  // namespace sterna::volmesh

@@ -14,7 +14,7 @@ constexpr double k_reach = 0.9;  ///< likewise, that is to be reached
 
 bool is_one_request(const MeshCase& options) {
   const EnvelopeOptions& e = options.envelope;
-  return options.patches.empty() && !options.first_heights && options.family.refinement == 1.0 && is_automatic(e.total_height) &&
+  return e.layers > 0 && options.patches.empty() && !options.first_heights && options.family.refinement == 1.0 && is_automatic(e.total_height) &&
          is_automatic(e.max_thickness) && !is_automatic(e.first_height) && e.max_growth > 1.0;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
 #include "geom/mesh/half.h"
@@ -181,47 +182,101 @@ std::vector<Patch> default_patches(std::span<const EndPlane> ends) {
   return patches;
 }
 
-/// Patches of the planes: what the rules say of them, or of a box's side there; else what the shape has there; else symmetry.
-std::vector<Patch> patches_of(std::span<const EndPlane> ends, std::span<const SideRule> rules, const TriMesh* shape, bool is_box) {
-  std::vector<Patch> patches = default_patches(ends);
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (const Patch* in_plane = shape ? patch_in_plane(*shape, ends[i]) : nullptr) {
-      patches[i] = *in_plane;
-      continue;
+std::string side_of(const EndPlane& end) { return std::string(1, "xyz"[end.axis]) + (end.inward > 0.0 ? "_min" : "_max"); }
+
+/// Of a box, the plane that bodies end on is one of its sides: a rule may name either. \throws where rules name both
+std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const EndPlane> ends) {
+  const std::vector<Patch> planes = default_patches(ends);
+  for (SideRule& rule : rules)
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (rule.side != planes[i].name) continue;
+      const std::string side = side_of(ends[i]);
+      if (std::ranges::find(rules, side, &SideRule::side) != rules.end())
+        throw_bad_argument("farfield_sides", "\"" + rule.side + "\" and \"" + side + "\" are the same plane", {}, "leave one of them out");
+      rule.side = side;
+      // As of a plane of another shape, which is a plane of symmetry unless said otherwise.
+      if (!rule.has_kind) rule.kind = PatchKind::symmetry;
+      if (!rule.has_kind && rule.name.empty()) rule.name = planes[i].name;
+      rule.has_kind = true;
     }
-    const std::string side = std::string(1, "xyz"[ends[i].axis]) + (ends[i].inward > 0.0 ? "_min" : "_max");
+  return rules;
+}
+
+/// Patches and edge lengths of the planes: what the rules say of them, or of a box's side there; else what the shape has there; else symmetry.
+struct PlaneRequests {
+  std::vector<Patch> patches;
+  std::vector<double> edges;  ///< m, automatic where no rule gives one
+};
+
+PlaneRequests requests_of_planes(std::span<const EndPlane> ends, std::span<const SideRule> rules, const TriMesh* shape, bool is_box) {
+  PlaneRequests planes{default_patches(ends), std::vector<double>(ends.size(), k_automatic)};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    Patch& patch = planes.patches[i];
+    const std::string name = patch.name;
+    if (const Patch* in_plane = shape ? patch_in_plane(*shape, ends[i]) : nullptr) patch = *in_plane;
     for (const SideRule& rule : rules) {
-      if (rule.side != patches[i].name && !(is_box && rule.side == side)) continue;
-      if (rule.has_kind) patches[i].kind = rule.kind;
-      if (!rule.name.empty()) patches[i].name = rule.name;
-      else if (rule.has_kind) patches[i].name = std::string(to_string(rule.kind));
+      if (rule.side != name && !(is_box && rule.side == side_of(ends[i]))) continue;
+      if (rule.has_kind) patch.kind = rule.kind;
+      if (!rule.name.empty()) patch.name = rule.name;
+      else if (rule.has_kind) patch.name = std::string(to_string(rule.kind));
+      planes.edges[i] = rule.edge;
       break;
     }
   }
-  return patches;
+  return planes;
 }
 
-/// Every rule has to speak of something that is there.
-void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::span<const Patch> planes) {
+/// Every rule has to speak of something that is there, and edge lengths of what is triangulated here.
+void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::span<const Patch> planes, bool has_own_edges) {
   std::vector<std::string> known;
   if (shape)
     for (const Patch& patch : shape->patches) known.push_back(patch.name);
   for (const Patch& patch : planes) known.push_back(patch.name);
   for (const SideRule& rule : rules) {
-    if (std::find(known.begin(), known.end(), rule.side) != known.end()) continue;
-    std::string names;
-    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-    const std::string nearest = nearest_name(rule.side, known);
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "farfield_sides",
-                 .problem = "there is no side \"" + rule.side + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
-                 .hint = names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "there are " + names});
+    if (std::find(known.begin(), known.end(), rule.side) == known.end()) {
+      std::string names;
+      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+      const std::string nearest = nearest_name(rule.side, known);
+      throw_bad_argument("farfield_sides", "there is no side \"" + rule.side + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"), {},
+                         names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "there are " + names);
+    }
+    if (is_automatic(rule.edge) || has_own_edges || std::ranges::find(planes, rule.side, &Patch::name) != planes.end()) continue;
+    throw_bad_argument("farfield_sides", "the edge length of \"" + rule.side + "\" has no effect: the triangles of this farfield are not made by it", {},
+                       "give farfield_edge for a sphere; a surface of your own keeps its triangles");
   }
+}
+
+/// Two of the planes that are to be periodic: their rims on a sphere would be no images of each other.
+bool has_periodic_planes(std::span<const EndPlane> ends, std::span<const PeriodicNames> pairs) {
+  const std::vector<Patch> planes = default_patches(ends);
+  const auto is_plane = [&](const std::string& name) { return std::ranges::find(planes, name, &Patch::name) != planes.end(); };
+  return std::ranges::any_of(pairs, [&](const PeriodicNames& pair) { return is_plane(pair.first) && is_plane(pair.second); });
+}
+
+/// A box in place of the sphere that nobody asked for, with the same centre and reach.
+void choose_box(const TriMesh& surface, std::span<const EndPlane> ends, FarfieldOptions& farfield, const RunContext& context) {
+  const Vec3 middle = bounding_box(surface).center();
+  const double reach = is_automatic(farfield.farfield_radius) ? k_default_radius * body_length(surface) : farfield.farfield_radius;
+  const std::array center = {&farfield.farfield_center_x, &farfield.farfield_center_y, &farfield.farfield_center_z};
+  const std::array from = {&farfield.farfield_from_x, &farfield.farfield_from_y, &farfield.farfield_from_z};
+  const std::array to = {&farfield.farfield_to_x, &farfield.farfield_to_y, &farfield.farfield_to_z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at = is_automatic(*center[k]) ? middle[k] : *center[k];
+    const auto ends_at = [&](double sense) { return std::ranges::any_of(ends, [&](const EndPlane& end) { return end.axis == k && end.inward == sense; }); };
+    if (is_automatic(*from[k]) && !ends_at(1.0)) *from[k] = at - reach;
+    if (is_automatic(*to[k]) && !ends_at(-1.0)) *to[k] = at + reach;
+    *center[k] = k_automatic;
+  }
+  farfield.farfield_radius = k_automatic;
+  farfield.farfield_shape = "box";
+  context.info("the farfield is a box, " + in_metres(reach) +
+               " around the middle of the walls: the planes are periodic sides, and of a sphere they would be no images of "
+               "each other");
 }
 
 TriMesh cut(TriMesh shape, std::span<const EndPlane> ends, const RunContext& context) {
   for (const EndPlane& end : ends)
-    shape = half_of(shape, {.axis = std::string(1, "xyz"[end.axis]), .at = end.at, .keep = end.inward > 0.0 ? "+" : "-", .snap = k_shape_snap}, context);
+    shape = half_of(shape, {.axis = std::string(1, "xyz"[end.axis]), .at = end.at, .keep = end.inward > 0.0 ? "+" : "-", .snap = k_shape_snap}, context, false);
   return shape;
 }
 
@@ -257,7 +312,7 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
 
 }  // namespace
 
-TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context) {
+TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context, std::vector<AddedPlane>* planes) {
   if (surface.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = k_completing_attempt, .problem = "the surface has no triangles"});
   const Topology topology(surface, context);
   TriMesh mesh = surface;
@@ -267,18 +322,27 @@ TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, c
   snap_rims(rims, ends, mesh);
   const bool is_enclosed = is_enclosing(mesh, topology, ends);
   require_fluid(options.farfield, is_enclosed);
-  const std::vector<SideRule> rules = parse_sides(options.farfield.farfield_sides);
+  OuterOptions outer = options;
+  if (!is_enclosed && outer.farfield.farfield_shape == "automatic" && has_periodic_planes(ends, options.periodic))
+    choose_box(mesh, ends, outer.farfield, context);
+  const bool is_box = outer.farfield.farfield_shape == "box", has_sides = is_box || outer.farfield.farfield_shape == "cylinder";
+  std::vector<SideRule> rules = parse_sides(outer.farfield.farfield_sides);
+  if (is_box) {
+    rules = rules_for_box(std::move(rules), ends);
+    outer.farfield.farfield_sides = sides_text(rules);
+  }
   TriMesh shape;
-  if (!is_enclosed) shape = make_shape(mesh, topology, options, ends, context);
-  check_rules(rules, &shape, default_patches(ends));
-  const bool is_box = options.farfield.farfield_shape == "box";
-  if (!is_enclosed) apply_rules(rules, is_box || options.farfield.farfield_shape == "cylinder", shape);
-  std::vector<Patch> of_planes = patches_of(ends, rules, &shape, is_box);
+  if (!is_enclosed) shape = make_shape(mesh, topology, outer, ends, context);
+  check_rules(rules, &shape, default_patches(ends), has_sides);
+  if (!is_enclosed) apply_rules(rules, has_sides, shape);
+  PlaneRequests of_planes = requests_of_planes(ends, rules, &shape, is_box);
   shape = is_enclosed ? TriMesh{} : cut(std::move(shape), ends, context);
   for (Patch& patch : shape.patches) make_names_new(surface, patch);
-  for (Patch& patch : of_planes) make_names_new(surface, patch);
+  for (Patch& patch : of_planes.patches) make_names_new(surface, patch);
   append(mesh, shape);
-  if (!ends.empty()) fill_ends(mesh, ends, of_planes, context);
+  if (!ends.empty()) fill_ends(mesh, ends, of_planes.patches, of_planes.edges, context);
+  if (planes)
+    for (std::size_t i = 0; i < ends.size(); ++i) planes->push_back({ends[i].axis, ends[i].at, ends[i].inward, of_planes.edges[i]});
   return mesh;
 }
 

@@ -2,16 +2,27 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/farfield_options.h"
+#include "volmesh/case/periodic_names.h"
 
 namespace sterna::volmesh {
 
 struct OuterOptions {
   FarfieldOptions farfield;
-  std::shared_ptr<const TriMesh> surface;  ///< for the shape "surface": closed, or ending in the planes of the bodies
+  std::shared_ptr<const TriMesh> surface = nullptr;  ///< for the shape "surface": closed, or ending in the planes of the bodies
+  std::vector<PeriodicNames> periodic = {};          ///< pairs of patches, also of planes that are added
+};
+
+/// A plane that was added, beside which the fluid ends.
+struct AddedPlane {
+  std::size_t axis = 1;
+  double at = 0.0;            ///< m
+  double inward = 1.0;        ///< +1: the fluid is where the coordinate is larger
+  double edge = k_automatic;  ///< m, longest edge on it
 };
 
 /// Adds what ends the fluid: the outer shape around bodies, and where bodies end in planes x, y or z = constant (half models; constraints_of_rims) these
@@ -21,11 +32,14 @@ struct OuterOptions {
 /// called "symmetry", where there are several "symmetry_y" or "symmetry_y_min"; farfield_sides names them otherwise. A plane in which the shape has a patch of
 /// another kind than farfield takes over its name and kind (the side wall of a tunnel that a wing stands on). Of a user's surface, normals are turned into the
 /// fluid; where it has walls alone and farfield_sides says nothing of them, they become farfield.
+/// Where two of the planes are periodic sides and no shape is given, the shape is a box, whose sides are images of each other there; a log line says so.
+/// `planes`, where it is not null, gets the planes that were added.
 /// \pre surface manifold, normals into the fluid
 /// \post closed (no boundary edges), manifold; body volumes positive, the outermost negative
 /// \throws Error(open_surface) for rims in no plane; (bad_argument) when the shape does not enclose the bodies, when there is nothing around them (shape none),
-/// or when a shape is asked for around a surface that encloses its fluid; (empty_surface)
-TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context);
+/// when a shape is asked for around a surface that encloses its fluid, or for farfield_sides with an edge length where nothing is triangulated by it;
+/// (empty_surface)
+TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context, std::vector<AddedPlane>* planes = nullptr);
 
 /// A plane x, y or z = constant that an open surface ends in.
 struct RimPlane {

@@ -93,7 +93,7 @@ class DomainSplitter {
     require_closed(surface_, topology_);
     wall_ = part_of(surface_, [&](TriangleId t) { return is_layered(t); });
     outer_ = part_of(surface_, [&](TriangleId t) { return !is_layered(t); });
-    domain_.bodies = bodies();
+    find_parts();
     find_rim();
     keep_periodic();
     if (!domain_.rim.empty()) hold_rim();
@@ -107,8 +107,8 @@ class DomainSplitter {
  private:
   bool is_layered(TriangleId t) const { return has_layer_[surface_.triangle_patch[t]] != 0; }
 
-  /// All closed parts but the one that turns inwards with the largest volume: that encloses the fluid.
-  TriMesh bodies() const {
+  /// All closed parts but the one that turns inwards with the largest volume: that encloses the fluid. Others that turn inwards are cavities.
+  void find_parts() {
     const Components parts = connected_components(surface_, topology_);
     std::vector<CompensatedSum> sums(parts.count);
     std::vector<VertexId> first(parts.count);
@@ -124,7 +124,22 @@ class DomainSplitter {
     if (sums[container].value() >= 0.0)
       throw Error(error(ErrorCode::not_orientable, "no part of the boundary encloses the fluid",
                         "normals must point into the fluid: out of bodies, and inwards on what encloses them"));
-    return part_of(surface_, [&](TriangleId t) { return parts.component[t] != container; }).mesh;
+    domain_.bodies = part_of(surface_, [&](TriangleId t) { return parts.component[t] != container; }).mesh;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      if (k != container && sums[k].value() < 0.0) add_cavity(parts, k, -sums[k].value());
+  }
+
+  void add_cavity(const Components& parts, std::size_t k, double volume) {
+    Domain::Cavity cavity{.volume = volume, .box = {}, .patches = {}};
+    std::vector<std::uint8_t> has_patch(surface_.patches.size(), 0);
+    for (const TriangleId t : surface_.triangles.ids()) {
+      if (parts.component[t] != k) continue;
+      for (const Point& p : corners(surface_, t)) cavity.box.add(p);
+      has_patch[surface_.triangle_patch[t].index()] = 1;
+    }
+    for (const PatchId p : surface_.patches.ids())
+      if (has_patch[p.index()] != 0) cavity.patches.push_back(surface_.patches[p].name);
+    domain_.cavities.push_back(std::move(cavity));
   }
 
   void link() {
@@ -208,7 +223,7 @@ class DomainSplitter {
   void hold_rim() {
     domain_.constraints.vertex.resize(wall_.mesh.n_vertices());
     for (const RimEdge& edge : domain_.rim)
-      if (std::ranges::none_of(domain_.ends, [&](const EndPatch& end) { return end.patch == edge.patch; })) domain_.ends.push_back({edge.patch, -1});
+      if (std::ranges::none_of(domain_.ends, [&](const EndPatch& end) { return end.patch == edge.patch; })) domain_.ends.push_back({.patch = edge.patch});
     std::sort(domain_.ends.begin(), domain_.ends.end(), [](const EndPatch& a, const EndPatch& b) { return a.patch < b.patch; });
     make_surfaces();
 

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/domain/periodic_sides.h"
 #include "volmesh/domain/split_needles.h"
@@ -19,8 +21,9 @@ namespace sterna::volmesh {
 
 /// A patch without layers on which layers end. It is triangulated anew around the layer's footprint (ends/close_ends.h).
 struct EndPatch {
-  PatchId patch;              ///< of Domain::outer
-  std::int32_t surface = -1;  ///< of Domain::constraints.surfaces
+  PatchId patch;                  ///< of Domain::outer
+  std::int32_t surface = -1;      ///< of Domain::constraints.surfaces
+  double max_edge = k_automatic;  ///< m, of its triangles
 };
 
 /// An edge of the wall's border and the patch beyond it.
@@ -73,7 +76,14 @@ struct Domain {
   std::vector<VertexId>
       slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc
   std::vector<std::size_t> vertex2slit;  ///< of each of them: the slit
-  TriMesh bodies;                        ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
+  /// Fluid that no other fluid reaches: the insides of closed parts with normals inwards, but that of the one that encloses the rest.
+  struct Cavity {
+    double volume = 0.0;               ///< m^3, with what is in it
+    Box box;                           ///< of the part
+    std::vector<std::string> patches;  ///< of the part
+  };
+  std::vector<Cavity> cavities;
+  TriMesh bodies;  ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
   /// Whether vertices of the wall have several lines, so that its layer is not the given wall's yet.
   bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
   /// Whether the outer boundary is made anew around the layer.

@@ -65,17 +65,17 @@ double length_at(const TriMesh& mesh, const std::vector<std::vector<Edge>>& rims
   return n > 0 ? sum / n : 0.0;
 }
 
-/// Parameters in (0, 1) of a line of length 1 whose pieces grow from `first` at its start and `last` at its end.
-std::vector<double> graded(double first, double last) {
+/// Parameters in (0, 1) of a line of length 1 whose pieces grow from `first` at its start and `last` at its end, up to `most`.
+std::vector<double> graded(double first, double last, double most) {
   std::vector<double> lower, upper;
   double a = 0.0, b = 1.0, step_a = first, step_b = last;
   while (a + step_a < b - step_b && lower.size() + upper.size() < k_most_line_vertices) {
     if (step_a <= step_b) {
       lower.push_back(a += step_a);
-      step_a *= k_line_growth;
+      step_a = std::max(step_a, std::min(step_a * k_line_growth, most));
     } else {
       upper.push_back(b -= step_b);
-      step_b *= k_line_growth;
+      step_b = std::max(step_b, std::min(step_b * k_line_growth, most));
     }
   }
   // What is left between is less than both steps: without the last point the gap would be up to their sum.
@@ -84,8 +84,8 @@ std::vector<double> graded(double first, double last) {
 }
 
 /// Edges along the line of two planes, divided; added to the rims of both.
-void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::size_t k, std::size_t l, std::vector<std::vector<Edge>>& rims,
-                  std::vector<std::vector<Edge>>& lines) {
+void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const double> edges, std::size_t k, std::size_t l,
+                  std::vector<std::vector<Edge>>& rims, std::vector<std::vector<Edge>>& lines) {
   const std::size_t along = 3 - ends[k].axis - ends[l].axis;
   std::vector<VertexId> on_line;
   for (const Edge& edge : rims[k])
@@ -109,7 +109,10 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::size_t k, 
     const Point from = mesh.points[a], to = mesh.points[b];
     const double length = distance(from, to);
     std::vector<VertexId> chain{a};
-    for (const double t : graded(length_at(mesh, rims, a) / length, length_at(mesh, rims, b) / length)) {
+    double most = 1.0;
+    for (const std::size_t plane : {k, l})
+      if (!is_automatic(edges[plane])) most = std::min(most, edges[plane] / length);
+    for (const double t : graded(length_at(mesh, rims, a) / length, length_at(mesh, rims, b) / length, most)) {
       Point p = from;
       p[along] = from[along] + t * (to[along] - from[along]);
       chain.push_back(mesh.points.push_back(p));
@@ -215,11 +218,11 @@ std::vector<double> volumes_of(const TriMesh& mesh, const Components& components
   return volumes;
 }
 
-void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, const RunContext& context) {
+void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, std::span<const double> edges, const RunContext& context) {
   std::vector<std::vector<Edge>> rims = rim_edges(mesh, ends, context), lines(ends.size());
   for (std::size_t k = 0; k < ends.size(); ++k)
     for (std::size_t l = k + 1; l < ends.size(); ++l)
-      if (ends[k].axis != ends[l].axis) join_on_line(mesh, ends, k, l, rims, lines);
+      if (ends[k].axis != ends[l].axis) join_on_line(mesh, ends, edges, k, l, rims, lines);
   for (std::size_t k = 0; k < ends.size(); ++k) triangulate(mesh, ends[k], rims[k], lines[k], patches[k], context);
   require_closed(mesh, context);
 }

@@ -21,10 +21,10 @@ std::vector<EndPlane> end_planes_of(const Constraints& rims);
 std::vector<double> volumes_of(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends);
 
 /// Closes `mesh` by one patch per plane, between the rims that lie in it; patches[i] is that of ends[i]. Where two planes meet, the line between rims is
-/// divided with lengths that grow from rim to rim, and both planes share its new vertices; they have no other ones. Long thin triangles; normals into the
-/// fluid.
+/// divided with lengths that grow from rim to rim, up to the lesser of the planes' `edges` (m; automatic: no limit), and both planes share its new vertices;
+/// they have no other ones. Long thin triangles; normals into the fluid.
 /// \pre rims lie in their planes to the bit
 /// \throws Error(open_surface) with places where rims are no border between inside and outside, and where three planes meet
-void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, const RunContext& context);
+void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, std::span<const double> edges, const RunContext& context);
 
 }  // namespace sterna::volmesh

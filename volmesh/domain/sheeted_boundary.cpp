@@ -112,11 +112,12 @@ void give_back_patches(const std::vector<LeftOut>& left_out, std::size_t n_befor
 }  // namespace
 
 SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
-                                 std::span<const WakeSheet> wakes, double first_height, const OuterOptions& options, const RunContext& context) {
+                                 std::span<const WakeSheet> wakes, double first_height, const std::function<TriMesh(const TriMesh&)>& complete_again,
+                                 const RunContext& context) {
   UserPart part = user_part(complete, n_given, needles, periodic);
   SheetsOnWall made = add_wake_sheets(wakes, stream_of(complete), first_height, part.partner, part.mesh, context);
   SheetedBoundary result;
-  result.boundary = complete_boundary(part.mesh, options, context);
+  result.boundary = complete_again(part.mesh);
   give_back_patches(part.left_out, part.mesh.n_triangles(), result.boundary);
   DoubledSheets& sheets = result.sheets = std::move(made.sheets);
   const std::size_t n_vertices = part.mesh.n_vertices(), n_triangles = part.mesh.n_triangles();

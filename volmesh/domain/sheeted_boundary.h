@@ -1,6 +1,8 @@
 // The fluid's boundary with wake sheets: what the user gave gets them, and is completed anew around them.
 #pragma once
 
+#include <functional>
+
 #include "volmesh/case/wake_sheet.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/domain_parts.h"
@@ -20,9 +22,11 @@ struct SheetedBoundary {
 /// a plane x, y or z = constant are triangulated anew, as those that are added are, and so are given periodic sides, whose borders stay images of each other.
 /// \p n_given: triangles of the user's surface, the first ones of the boundary before needles were split
 /// \p periodic: sides of the boundary, whose vertices are on their images
+/// \p complete_again: complete_boundary(), or more, of what it is given; the triangles that it is given are the first of its result
 /// \throws as add_wake_sheets() and complete_boundary(); Error(bad_argument) for given periodic sides in no such plane
 SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
-                                 std::span<const WakeSheet> wakes, double first_height, const OuterOptions& options, const RunContext& context);
+                                 std::span<const WakeSheet> wakes, double first_height, const std::function<TriMesh(const TriMesh&)>& complete_again,
+                                 const RunContext& context);
 
 /// The sheets in numbers of a domain's wall; vertices on their rims get no layer there.
 /// \pre domain of split_domain() on the boundary, all walls at the sheets have layers

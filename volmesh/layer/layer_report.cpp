@@ -227,6 +227,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.feature_angle = options.feature_angle;
   report.visibility = report_visibility(base);
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
+  if (base.wall.n_triangles() == 0) return report;
   const Classifier classifier(base, options, envelope, extrusion.layers, outer, context);
   Areas areas;
   double heights = 0.0, targets = 0.0, ratios = 0.0;

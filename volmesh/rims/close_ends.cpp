@@ -145,6 +145,11 @@ class Closer {
     return std::ranges::any_of(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
   }
 
+  double max_edge(PatchId patch) const {
+    const auto found = std::ranges::find(domain_.ends, patch, &EndPatch::patch);
+    return found == domain_.ends.end() ? k_automatic : found->max_edge;
+  }
+
   bool is_slit(PatchId patch) const { return std::ranges::find(domain_.slits, patch, &DiscSlit::patch) != domain_.slits.end(); }
 
   VertexId add(const Point& p, VertexId line) {
@@ -201,6 +206,8 @@ class Closer {
     const double slope = options_.ends.size_growth - 1.0;
     const auto size = [&](double s) {
       double h = std::min({line.edge(s), from_start + slope * std::abs(s - s0), from_end + slope * std::abs(s1 - s)});
+      for (const PatchId side : {chain.left, chain.right})
+        if (!is_automatic(max_edge(side))) h = std::min(h, max_edge(side));
       if (options_.size) h = std::min(h, options_.size(line.point(s)));
       return h;
     };
@@ -308,16 +315,13 @@ class Closer {
     const TriMesh& original = made->original;
     std::optional<TriangleTree> tree;
     if (made->has_inner) tree.emplace(original, context_);
-    if (tree || options_.size) {
-      made->region.size = [&](const Point& p) {
-        double h = options_.size ? options_.size(p) : 1e300;
-        if (tree) {
-          const auto [a, b, c] = corners(original, tree->nearest(p).triangle);
-          h = std::min(h, std::max({distance(a, b), distance(b, c), distance(c, a)}));
-        }
-        return h;
+    std::function<double(const Point&)> size = options_.size;
+    if (tree)
+      size = [&](const Point& p) {
+        const auto [a, b, c] = corners(original, tree->nearest(p).triangle);
+        return std::min(options_.size ? options_.size(p) : 1e300, std::max({distance(a, b), distance(b, c), distance(c, a)}));
       };
-    }
+    made->region.size = limited_size(made->region, end.max_edge, options_.ends.size_growth, std::move(size));
     const EndTriangles triangles = triangulate_end(made->region, options_.ends, context_);
     add_triangles(triangles, made->vertices, end.patch);
     if (std::ranges::find(domain_.periodic, end.patch, &PeriodicEnds::first) != domain_.periodic.end())

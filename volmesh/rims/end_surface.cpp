@@ -1,5 +1,9 @@
 #include "volmesh/rims/end_surface.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "geom/base/schema.h"
 #include "volmesh/rims/check_end.h"
 #include "volmesh/rims/curved_parts.h"
 #include "volmesh/rims/end_errors.h"
@@ -56,6 +60,20 @@ EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options,
   for (const EndPart& part : split_curved(region, result, context)) mesh_part(region, part, options, result, context);
   prove_whole(region, result);
   return result;
+}
+
+std::function<double(const Point&)> limited_size(const EndRegion& region, double edge, double size_growth, std::function<double(const Point&)> size) {
+  if (is_automatic(edge)) return size;
+  std::vector<std::pair<Point, double>> coarse;  // middles of longer edges of the loops
+  for (const EndEdge& of_loop : region.edges) {
+    const Point &a = region.points[of_loop[0]], &b = region.points[of_loop[1]];
+    if (distance(a, b) > edge) coarse.emplace_back(0.5 * (a + b), distance(a, b));
+  }
+  return [edge, slope = size_growth - 1.0, coarse = std::move(coarse), size = std::move(size)](const Point& p) {
+    double h = edge;
+    for (const auto& [middle, length] : coarse) h = std::max(h, length - slope * distance(middle, p));
+    return size ? std::min(h, size(p)) : h;
+  };
 }
 
 }  // namespace sterna::volmesh

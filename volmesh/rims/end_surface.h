@@ -49,4 +49,8 @@ struct EndTriangles {
 /// place and patch; Error(geometry_failed) where even the neighbourhood of a footprint has no projection; Error(overflow) for more than max_triangles
 EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options, const RunContext& context);
 
+/// Longest edge at a place of the region: `edge` (m; automatic: no limit), longer beside loops of longer edges, which stay and from where sizes fall by
+/// size_growth - 1 per distance; and `size`, which may be empty. Empty where neither limits.
+std::function<double(const Point&)> limited_size(const EndRegion& region, double edge, double size_growth, std::function<double(const Point&)> size);
+
 }  // namespace sterna::volmesh

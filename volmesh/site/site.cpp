@@ -7,8 +7,10 @@
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
+#include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "volmesh/case/body_wake.h"
+#include "volmesh/case/ignored_requests.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/cut_discs.h"
@@ -16,16 +18,20 @@
 #include "volmesh/domain/open_ridges.h"
 #include "volmesh/domain/periodic_sides.h"
 #include "volmesh/domain/sheeted_boundary.h"
+#include "volmesh/domain/split_corners.h"
 #include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/patch_layers.h"
 #include "volmesh/envelope/periodic.h"
 #include "volmesh/envelope/sheet_heights.h"
+#include "volmesh/rims/bare_planes.h"
 #include "volmesh/rims/slits.h"
 
 namespace sterna::volmesh {
 namespace {
+
+constexpr std::size_t k_named_patches = 3;  ///< of a cavity, in messages
 
 bool opens_ridges(const MeshCase& options) {
   return options.ridges.is_on() || std::ranges::any_of(options.patches, [](const PatchRule& rule) { return rule.open_ridges == "always"; });
@@ -100,6 +106,59 @@ Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const
   return has_layer;
 }
 
+/// A boundary on which no layer grows: of inviscid flow where walls are to have none. \throws where there is no wall for the layers that are requested
+void require_no_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
+  const bool has_walls = std::ranges::any_of(boundary.patches, [](const Patch& patch) { return patch.kind == PatchKind::wall; });
+  if (options.envelope.layers > 0 && !has_walls)
+    throw Error({.code = ErrorCode::empty_surface,
+                 .attempted = "volume_mesh",
+                 .problem = "no patch carries a layer: none is of kind wall",
+                 .hint = "give a patch the kind wall, or layers = 0 for a mesh of tetrahedra alone"});
+  const std::string text = "no patch carries layers: the mesh is made of tetrahedra alone, for inviscid flow (Euler)";
+  if (options.envelope.layers == 0) context.info(text);
+  else context.warn(text + "; layers = " + std::to_string(options.envelope.layers) + " has no effect, as the rules of all patches say layers = 0");
+}
+
+/// The closed boundary of the fluid with the kinds of its patches; planes that were added and on which no layers end have vertices of their own.
+struct WholeBoundary {
+  TriMesh mesh;
+  Column<PatchId, std::uint8_t> has_layer;
+  std::vector<AddedPlane> planes;
+};
+
+WholeBoundary completed(const TriMesh& given, const MeshCase& options, const RunContext& context) {
+  WholeBoundary whole;
+  whole.mesh = complete_boundary(given, {options.farfield, options.farfield_surface, options.periodic}, context, &whole.planes);
+  apply_patch_kinds(whole.mesh, options.patches);
+  whole.has_layer = patches_with_layers(whole.mesh, options);
+  mesh_bare_planes(whole.planes, given.n_triangles(), whole.has_layer, {options.ends, end_sizes(options)}, whole.mesh, context);
+  return whole;
+}
+
+/// Lengths of edges that the user gives for planes, of those on which layers end.
+void limit_edges(std::span<const AddedPlane> planes, Domain& domain) {
+  for (EndPatch& end : domain.ends)
+    for (const TriangleId t : domain.outer.triangles.ids()) {
+      if (domain.outer.triangle_patch[t] != end.patch) continue;
+      for (const AddedPlane& plane : planes)
+        if (std::ranges::all_of(corners(domain.outer, t), [&](const Point& p) { return p[plane.axis] == plane.at; })) end.max_edge = plane.edge;
+      break;
+    }
+}
+
+void warn_of_cavities(const Domain& domain, const RunContext& context) {
+  std::size_t n_told = 0;
+  for (const Domain::Cavity& cavity : domain.cavities) {
+    if (n_told++ == k_max_places) break;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(cavity.patches.size(), k_named_patches); ++i) names += (i == 0 ? "\"" : ", \"") + cavity.patches[i] + "\"";
+    context.warn("the inside of " + names + (cavity.patches.size() > k_named_patches ? " and more" : "") + " is a sealed cavity of " +
+                 number_text(cavity.volume, 3) + " m^3 about " + format_point(cavity.box.center()) + ", " + in_metres(cavity.box.longest_side(), 3) +
+                 " long: it is meshed, but no flow reaches it. Leave its faces out of the surface, or open it where the flow should enter");
+  }
+  if (!domain.cavities.empty()) context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
+}
+
 }  // namespace
 
 Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed) {
@@ -110,15 +169,23 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
     return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   apply_patch_kinds(given, of_given);
-  TriMesh boundary = complete_boundary(given, {options.farfield, options.farfield_surface}, context);
-  apply_patch_kinds(boundary, options.patches);
-  Column<PatchId, std::uint8_t> has_layer = patches_with_layers(boundary, options);
+  WholeBoundary whole = completed(given, options, context);
+  TriMesh& boundary = whole.mesh;
+  Column<PatchId, std::uint8_t>& has_layer = whole.has_layer;
+  require_used_requests(boundary.patches, has_layer, options, context);
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
+    context.warn(
+        "wake sheets are experimental: at their sides, beside the tips of wings, cells fail gates that pass without sheets; compare the verdict with that of a "
+        "mesh without wakes");
     const std::vector<PeriodicPatches> sides = move_onto_images(boundary, options.periodic, context);
-    sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, sides, options.wakes, least_first_height(options),
-                               {options.farfield, options.farfield_surface}, context);
+    const auto complete_again = [&](const TriMesh& with_sheets) {
+      WholeBoundary again = completed(with_sheets, options, context);
+      whole.planes = std::move(again.planes);
+      return std::move(again.mesh);
+    };
+    sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, sides, options.wakes, least_first_height(options), complete_again, context);
     apply_patch_kinds(sheeted.boundary, options.patches);
     boundary = sheeted.boundary;
     has_layer = patches_with_layers(boundary, options);
@@ -127,12 +194,11 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   require_own_names(options.discs, boundary.patches, {});
   const DiscCuts cuts = cut_discs(boundary, has_layer, options.discs, context);
   const JoinedSides periodic = join_periodic_sides(boundary, options.periodic, context);
+  split_at_corners(boundary, has_layer, context);
   Domain domain = split_domain(boundary, has_layer, context, periodic.pairs);
-  if (domain.wall.n_triangles() == 0)
-    throw Error({.code = ErrorCode::empty_surface,
-                 .attempted = "volume_mesh",
-                 .problem = "no patch carries a layer",
-                 .hint = "at least one patch must be a wall with layers"});
+  limit_edges(whole.planes, domain);
+  warn_of_cavities(domain, context);
+  if (domain.wall.n_triangles() == 0) require_no_layers(boundary, options, context);
   std::vector<std::size_t> on_walls;
   for (const CutDisc& cut : cuts.discs) on_walls.push_back(cut.disc);
   domain.outer = with_discs(std::move(domain.outer), domain.wall, free_discs(options.discs, on_walls), options.size.size_growth, context);
@@ -161,6 +227,7 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
 
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context) {
   LayerBase base(domain.wall, context, domain.constraints, &domain.ridges);
+  if (domain.wall.n_triangles() == 0) base.body_length = body_length(domain.bodies.n_triangles() > 0 ? domain.bodies : domain.outer);
   base.let_grow_alike(domain.partners);
   base.sheet_rims = domain.sheets.rims;
   for (const DoubledSheets::Foot& foot : domain.sheets.feet)

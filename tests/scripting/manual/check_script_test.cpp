@@ -203,7 +203,7 @@ TEST_F(CheckScript, WhatAScriptCatchesIsNoMistake) {
 }
 
 TEST_F(CheckScript, IsACommand) {
-  std::ofstream(folder_ / "case.lua") << "volume_mesh{ layers = 0 }\nread_surfaces 'a.stl'\n";
+  std::ofstream(folder_ / "case.lua") << "volume_mesh{ layers = -1 }\nread_surfaces 'a.stl'\n";
   const test::ProcessResult result = test::run_process(test::sterna_program(), {"check-script", "case.lua"}, folder_);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, testing::AllOf(HasSubstr("case.lua:1: volume_mesh: 3 problems"), HasSubstr("did you mean read_surface?")));
