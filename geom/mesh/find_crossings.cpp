@@ -30,7 +30,7 @@ namespace {
 using CornerIndices = std::array<std::uint32_t, 3>;
 
 /// Boxes of a packet, triangles in a leaf, children of a node: one vector register of floats.
-constexpr std::size_t k_width = 8;
+constexpr std::size_t k_leaf_width = 8;
 /// Leaves per task: about 1 ms.
 constexpr std::size_t k_chunk = 128;
 /// Cells of Morton's curve along an axis: three times as many bits fit into a key.
@@ -56,7 +56,7 @@ struct FloatBox {
 
 /// Eight boxes, coordinate by coordinate; unused ones overlap nothing.
 struct alignas(32) Packet {
-  std::array<std::array<float, k_width>, 3> low, high;
+  std::array<std::array<float, k_leaf_width>, 3> low, high;
   Packet() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis].fill(std::numeric_limits<float>::infinity());
@@ -80,9 +80,9 @@ struct alignas(32) Packet {
   }
   /// Bit k: box k overlaps.
   std::uint32_t overlapping(const FloatBox& b) const {
-    constexpr std::array<std::uint32_t, k_width> bit{1, 2, 4, 8, 16, 32, 64, 128};
+    constexpr std::array<std::uint32_t, k_leaf_width> bit{1, 2, 4, 8, 16, 32, 64, 128};
     std::uint32_t mask = 0;
-    for (std::size_t k = 0; k < k_width; ++k) {
+    for (std::size_t k = 0; k < k_leaf_width; ++k) {
       const bool is_hit = (low[0][k] <= b.high[0]) & (high[0][k] >= b.low[0]) & (low[1][k] <= b.high[1]) & (high[1][k] >= b.low[1]) & (low[2][k] <= b.high[2]) &
                           (high[2][k] >= b.low[2]);
       mask |= is_hit ? bit[k] : 0u;
@@ -137,7 +137,7 @@ TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const CornerI
   tree.order.resize(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) tree.order[i] = places[i].triangle;
 
-  tree.levels.emplace_back((places.size() + k_width - 1) / k_width);
+  tree.levels.emplace_back((places.size() + k_leaf_width - 1) / k_leaf_width);
   parallel_for(context, places.size(), [&](std::size_t i) {
     Box box;
     for (const std::uint32_t v : triangles[tree.order[i]]) box.add(points[v]);
@@ -146,12 +146,12 @@ TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const CornerI
       near.low[axis] = rounded(box.min[axis] - middle[axis]);
       near.high[axis] = rounded(box.max[axis] - middle[axis]);
     }
-    tree.levels[0][i / k_width].set(i % k_width, near);
+    tree.levels[0][i / k_leaf_width].set(i % k_leaf_width, near);
   });
   while (tree.levels.back().size() > 1) {
     const std::vector<Packet>& below = tree.levels.back();
-    std::vector<Packet> above((below.size() + k_width - 1) / k_width);
-    for (std::size_t i = 0; i < below.size(); ++i) above[i / k_width].set(i % k_width, below[i].hull());
+    std::vector<Packet> above((below.size() + k_leaf_width - 1) / k_leaf_width);
+    for (std::size_t i = 0; i < below.size(); ++i) above[i / k_leaf_width].set(i % k_leaf_width, below[i].hull());
     tree.levels.push_back(std::move(above));
   }
   return tree;
@@ -175,7 +175,7 @@ void for_each_leaf(const TriangleLeaves& tree, const FloatBox& box, std::size_t 
     // Children before that of `first` hold nothing but leaves before it.
     const std::size_t least = first >> (3 * (step.level - 1));
     for (; mask != 0; mask &= mask - 1) {
-      const std::size_t child = step.packet * k_width + static_cast<std::size_t>(std::countr_zero(mask));
+      const std::size_t child = step.packet * k_leaf_width + static_cast<std::size_t>(std::countr_zero(mask));
       if (child < least) continue;
       if (step.level == 1) visit(child);
       else stack[n++] = {step.level - 1, child};
@@ -282,7 +282,7 @@ CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::
           std::uint32_t theirs = packet.overlapping(own.box(k));
           if (other == leaf) theirs &= ~((2u << k) - 1u);
           for (; theirs != 0; theirs &= theirs - 1)
-            test(tree.order[leaf * k_width + k], tree.order[other * k_width + static_cast<std::size_t>(std::countr_zero(theirs))]);
+            test(tree.order[leaf * k_leaf_width + k], tree.order[other * k_leaf_width + static_cast<std::size_t>(std::countr_zero(theirs))]);
         }
       });
     }
