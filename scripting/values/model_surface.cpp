@@ -147,6 +147,17 @@ std::string indented(std::string text) {
   return "  " + text;
 }
 
+/// Lengths that are no aircraft's, rotor's, car's or wind-tunnel model's: mostly millimetres taken for metres.
+void doubt_size(const Model& model, const RunContext& context) {
+  constexpr double k_smallest = 1e-3, k_largest = 200.0;  // m
+  const double size = box_of(model).longest_side();
+  if (size <= 0.0 || (size >= k_smallest && size <= k_largest)) return;
+  context.info(
+      fmt::format("hint: the model is {:.4g} m long. Lengths are in metres: write 1200*mm in scripts for millimetres, and for CAD files give the unit "
+                  "of their numbers (unit = mm, --unit mm)",
+                  size));
+}
+
 /// Closed parts that stand in each other or touch, as CAD files of one aircraft have them: united where their triangles cross, and told.
 SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
   std::size_t n_solids = 0;
@@ -183,6 +194,7 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
 SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
                        const RunContext& context, const Reuse& reuse) {
   const ModelValue all = fluid_of(assemble(models, context), context);
+  doubt_size(all.model, context);
   SurfaceRecipe recipe = asked;
   put_first(present(all.sizes, all.model), recipe);
   for (const ModelHandle& model : models)
@@ -285,7 +297,13 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
   std::string text = describe(surface) + fmt::format("; angles {:.3g} to {:.4g} deg", report.min_angle / k_degree, report.max_angle / k_degree);
   if (report.n_free_edges > 0) {
-    const std::vector<OpenEdge> open = open_edges(model);
+    std::vector<OpenEdge> open = open_edges(model);
+    const Vec3 side = bounding_box(surface.mesh).max - bounding_box(surface.mesh).min;
+    const bool is_flat = std::min({side.x, side.y, side.z}) <= 1e-6 * bounding_box(surface.mesh).longest_side();  // a sheet: its rim says nothing of symmetry
+    if (const std::string plane = is_flat ? std::string() : open_plane_text(open); !plane.empty()) {
+      text += "\n  open      along " + plane;
+      open.clear();
+    }
     for (std::size_t i = 0; i < std::min(k_listed, open.size()); ++i)
       text += fmt::format("\n  open      along {:.4g} m of face \"{}\" about {}", open[i].length, open[i].face, format_point(open[i].middle));
     if (open.size() > k_listed) text += fmt::format("\n  open      and {} more edges of the model", open.size() - k_listed);
