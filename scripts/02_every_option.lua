@@ -406,7 +406,10 @@ block:write{ "every_option.step",
   step_schema = "ap214",              -- ap203, ap242
   tolerance = "automatic",            -- of splines in place of deformed surfaces: 1e-6 of the longest side
 }
-local again = read_cad{ "every_option.step", unit = "automatic", heal = true, cap = false, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
+local again = read_cad{ "every_option.step", unit = "automatic", heal = true, cap = false, sew_tolerance = "automatic", small = "automatic", time_limit = 600,
+  sheets = "automatic",               -- open shells and loose faces beside closed solids: keep, drop, or patterns of names to leave out: "sketch*, plane 1"
+  fluid = "automatic",                -- outside; inside: closed solids are ducts or complete domains
+}
 -- Control surfaces that files describe (sumo, CPACS) turn as they are read, or later: by an angle, or a table as of wing:deflect{}.
 local fin = wing{ name = "fin", trailing_edge = 0, sections = { { chord = 2, airfoil = "naca0012" }, { z = 2, chord = 1 } } }
 fin:control{ "rudder", from = {0.2, 0.7}, to = {0.9, 0.7} }
@@ -432,6 +435,7 @@ local skin = surface_mesh{ block,
   thickness_factor = "automatic",     -- edges by the thickness of the part; automatic: no limit
   sources = { line{ {0, 0, 0}, {0.5, 0, 0}, size = 0.05, radius = 0.1 } },
   size = function(x, y, z) return 0.2 end,  -- metres: edges are at most that long
+  failed_faces = "error",             -- hole: a face that cannot be meshed is left out, with a warning
   crossings = "error",                -- of triangles that finer ones do not part; warn keeps the mesh, ignore does not look
   max_triangles = 100000000,
   -- Bands of stretched triangles along the edges of wings; a block has none, so nothing is asked for. Also in tables: leading_edge = { chordwise = 0.004, stretch = 8 }.

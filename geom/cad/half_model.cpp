@@ -12,6 +12,7 @@
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/cad/aircraft_union.h"
+#include "geom/cad/split_closed.h"
 #include "geom/cad/try_boolean.h"
 #include "geom/model/flattened_curve.h"
 #include "geom/model/model_builder.h"
@@ -214,6 +215,22 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
   return select_faces(result->model, [&](FaceId f) { return origins[f.index()].part == 0; });
 }
 
+/// As cut_at. OpenCASCADE fails where the seam of a closed face lies in the plane: such faces are split into halves then, which may lie on one side each.
+Model cut_or_split(const Model& model, const Plane& plane, const MeasureBox& box, const HalfModelOptions& options, HalfModelReport& report,
+                   const RunContext& context) {
+  try {
+    return cut_at(model, plane, box, options, context);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::geometry_failed) throw;
+    std::optional<Model> split = split_closed_faces(model, context);
+    if (!split) throw;
+    report.n_faces_split = split->faces.size() - model.faces.size();
+    const std::vector<Side> sides = sides_of(*split, plane, context);
+    report.n_faces_cut = static_cast<std::size_t>(std::count(sides.begin(), sides.end(), Side::across));
+    return report.n_faces_cut == 0 ? std::move(*split) : cut_at(*split, plane, box, options, context);
+  }
+}
+
 /// Free edges and their corners into the plane. \pre they are within the tolerance
 void flatten_rim(Model& model, const Plane& plane, HalfModelReport& report) {
   std::map<const Curve*, CurvePtr> curves;
@@ -260,7 +277,7 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   boxes = boxes_of(half.model, context);
   sides = sides_of(half.model, plane, context);
   half.report.n_faces_cut = count(sides, Side::across);
-  if (half.report.n_faces_cut > 0) half.model = cut_at(half.model, plane, hull(boxes), options, context);
+  if (half.report.n_faces_cut > 0) half.model = cut_or_split(half.model, plane, hull(boxes), options, half.report, context);
   sides = sides_of(half.model, plane, context);
   half.report.n_flat_faces = count(sides, Side::in_plane);
   // After a cut borders may be off the plane by what the cut tolerates, but nothing is beyond.

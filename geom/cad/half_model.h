@@ -45,8 +45,9 @@ struct HalfModelReport {
   bool was_half = false;              ///< nothing was beyond the plane
   std::size_t n_solids_left_out = 0;  ///< wholly beyond the plane
   bool was_united = false;
-  std::size_t n_faces_cut = 0;   ///< that cross the plane; 0: edges of the model lie along it, faces were but chosen
-  std::size_t n_flat_faces = 0;  ///< in the plane, left out
+  std::size_t n_faces_cut = 0;    ///< that cross the plane; 0: edges of the model lie along it, faces were but chosen
+  std::size_t n_faces_split = 0;  ///< closed faces that were made halves, because their seams lie in the plane
+  std::size_t n_flat_faces = 0;   ///< in the plane, left out
   std::size_t n_rim_edges = 0;
   double rim_length = 0.0;     ///< m
   double largest_shift = 0.0;  ///< m: of the rim, into the plane

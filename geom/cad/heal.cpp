@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/base/number_text.h"
 #include "geom/cad/openings.h"
 
 namespace sterna::cad {
@@ -47,6 +48,9 @@ constexpr double k_max_tolerance_share = 1e-4;
 constexpr double k_same_face = 1e-6;
 /// A step that removes small things may change neither the area nor the volume by more than this share: what STEP has to keep.
 constexpr double k_extent_change = 1e-6;
+
+/// Mending that changes an area or a volume by more than this share is told.
+constexpr double k_told_change = 1e-3;
 
 /// OpenCASCADE's keys for what it mends, in our words; what is not here is told by its key.
 constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
@@ -164,6 +168,29 @@ void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
   std::erase_if(labelled.parts, [](const ShapePart& part) { return part.shape.IsNull() || !TopExp_Explorer(part.shape, TopAbs_FACE).More(); });
 }
 
+/// Area of all faces, and volume where a shape is closed, else 0.
+struct Extent {
+  double area = 0.0, volume = 0.0;
+};
+
+Extent extent_of(const TopoDS_Shape& shape);
+
+std::string changed_text(const char* what, double before, double after, const char* unit) {
+  if (std::abs(after - before) <= k_told_change * std::abs(before)) return {};
+  return std::string(what) + " from " + number_text(before) + " to " + number_text(after) + " " + unit;
+}
+
+/// A warning where mending changed the area or the volume of a part by more than is rounding: what a wrong border cost is lost without a word else.
+void tell_change(const std::string& name, const Extent& before, const Extent& after, const Point& place, CadReport& report) {
+  const std::string area = changed_text("its area", before.area, after.area, "m^2");
+  const std::string volume = before.volume != 0.0 && after.volume == 0.0 ? "it is no longer closed"
+                             : before.volume != 0.0                      ? changed_text("its volume", before.volume, after.volume, "m^3")
+                                                                         : "";
+  if (area.empty() && volume.empty()) return;
+  report.warnings.push_back("mending changed \"" + name + "\" near " + format_point(place) + ": " + area + (area.empty() || volume.empty() ? "" : ", ") +
+                            volume + "; compare with the program that wrote the file, heal = false reads it as it is");
+}
+
 /// Faces, borders and shells that OpenCASCADE's check rejects.
 void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
   Message_ProgressScope parts(progress, "mending", static_cast<double>(labelled.parts.size()));
@@ -171,6 +198,7 @@ void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const
     context.check_stop();
     const Message_ProgressRange range = parts.Next();
     if (BRepCheck_Analyzer(part.shape).IsValid()) continue;
+    const Extent before = extent_of(part.shape);
     const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
     const Handle(ShapeFix_Shape) fixer = new ShapeFix_Shape(part.shape);
     fixer->SetContext(changes);
@@ -179,6 +207,7 @@ void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const
     fixer->Perform(range);
     move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
     part.shape = fixer->Shape();
+    if (!part.shape.IsNull()) tell_change(part.component, before, extent_of(part.shape), place_of(part.shape), report);
   }
   std::erase_if(labelled.parts, [](const ShapePart& part) { return part.shape.IsNull() || !TopExp_Explorer(part.shape, TopAbs_FACE).More(); });
 }
@@ -217,6 +246,12 @@ double volume_of(const TopoDS_Shape& shape, const gp_Pnt& about) {
   GProp_GProps properties(about);
   BRepGProp::VolumeProperties(shape, properties);
   return std::abs(properties.Mass());
+}
+
+Extent extent_of(const TopoDS_Shape& shape) {
+  const Bnd_Box box = box_of(shape);
+  if (box.IsVoid()) return {};
+  return {measure(shape).area, volume_of(shape, gp_Pnt(0.5 * (box.CornerMin().XYZ() + box.CornerMax().XYZ())))};
 }
 
 bool is_same_extent(double before, double after) { return std::abs(after - before) <= k_extent_change * before; }
@@ -387,7 +422,9 @@ void heal(LabelledShape& labelled, const ReadCadOptions& options, CadReport& rep
   drop_doubled_faces(labelled, report);
   mend_invalid(labelled, size, report, steps.Next(), context);
   drop_small(labelled, small, report, context);
+  const double area = extent_of(compound_of(labelled.parts)).area;
   join_faces(labelled, options, size, small, report, steps.Next(), context);
+  tell_change("all faces", {.area = area}, {.area = extent_of(compound_of(labelled.parts)).area}, place_of(compound_of(labelled.parts)), report);
   if (options.cap) cap_openings(labelled, report);
   make_solids(labelled, report);
 }

@@ -13,6 +13,7 @@
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
+#include <Standard_Failure.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopLoc_Location.hxx>
@@ -48,8 +49,10 @@ Box with_margin(Box box, double margin) {
   return box;
 }
 
-/// Knots to insert so that [from, to] has k_pieces pieces or more.
+/// Knots to insert so that [from, to] has k_pieces pieces or more. Edges may run beyond their spline by a rounding, where no knot can be.
 std::vector<double> finer_knots(const TColStd_Array1OfReal& knots, double from, double to) {
+  from = std::max(from, knots.First());
+  to = std::min(to, knots.Last());
   std::vector<double> inside;
   for (int i = knots.Lower(); i <= knots.Upper(); ++i)
     if (knots(i) > from && knots(i) < to) inside.push_back(knots(i));
@@ -166,7 +169,13 @@ class NearPairs : public BOPDS_Iterator {
     const double tolerance = is_face ? BRep_Tool::Tolerance(TopoDS::Face(shape)) : BRep_Tool::Tolerance(TopoDS::Edge(shape));
     // Twice what OpenCASCADE widens its own boxes by.
     const double margin = 2.0 * (tolerance + std::max(fuzzy, Precision::Confusion()));
-    tree = std::make_unique<BoxTree>(is_face ? pieces_of(TopoDS::Face(shape), whole, margin) : pieces_of(TopoDS::Edge(shape), whole, margin), context_);
+    std::vector<Box> boxes;
+    try {
+      boxes = is_face ? pieces_of(TopoDS::Face(shape), whole, margin) : pieces_of(TopoDS::Edge(shape), whole, margin);
+    } catch (const Standard_Failure&) {  // a spline that takes no more knots: its box alone is no less right
+      boxes = {box_of(whole)};
+    }
+    tree = std::make_unique<BoxTree>(std::move(boxes), context_);
     return *tree;
   }
 

@@ -12,9 +12,13 @@
 #include <cstdio>
 #include <map>
 
+#include "geom/cad/find_contacts.h"
 #include "geom/cad/heal.h"
 #include "geom/cad/occt_call.h"
+#include "geom/cad/sheets.h"
 #include "geom/cad/translate.h"
+#include "geom/model/model_measures.h"
+#include "geom/model/select_faces.h"
 
 namespace sterna {
 namespace cad {
@@ -151,6 +155,36 @@ void count_names(const LabelledShape& labelled, CadReport& report) {
   for (FaceLabels::Iterator it(labelled.labels); it.More(); it.Next()) report.n_named_faces += !it.Value().name.empty();
 }
 
+/// Normals of closed solids that lie in no other one point into them: the fluid is there.
+void turn_inwards(Model& model, const std::string& attempted, CadReport& report, const RunContext& context) {
+  std::vector<SolidId> closed;
+  std::vector<Model> parts;
+  for (const SolidId s : model.solids.ids()) {
+    if (!model.solids[s].is_closed) continue;
+    closed.push_back(s);
+    const std::vector<FaceId>& faces = model.solids[s].faces;
+    parts.push_back(select_faces(model, [&](FaceId f) { return std::find(faces.begin(), faces.end(), f) != faces.end(); }));
+  }
+  if (closed.empty()) {
+    report.warnings.push_back("fluid = \"inside\" has no effect: the model has no closed solid; cap = true closes flat openings");
+    return;
+  }
+  std::vector<bool> is_body(closed.size(), false);
+  if (closed.size() > 1) {
+    const RunContext quiet({.threads = context.threads(), .stop = context.stop_token()});
+    for (const PartContact& contact : find_contacts(parts, quiet).contacts)
+      if (contact.kind == ContactKind::inside) is_body[contact.first] = true;
+  }
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    if (is_body[i]) continue;
+    if (solid_measures(model, closed[i]).volume <= 0.0) continue;
+    for (const FaceId f : model.solids[closed[i]].faces) model.faces[f].is_reversed = !model.faces[f].is_reversed;
+  }
+  model.shape.reset();
+  if (const auto n = static_cast<std::size_t>(std::count(is_body.begin(), is_body.end(), true)); n > 0)
+    context.info(attempted + ": the fluid is inside; " + std::to_string(n) + (n == 1 ? " solid within another is a body" : " solids within others are bodies"));
+}
+
 }  // namespace
 
 CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::string& source, const ReadCadOptions& options, const RunContext& context) {
@@ -168,6 +202,11 @@ CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::stri
                    .problem = "no face in it",
                    .hint = "only solids, shells and faces are read, no wires or meshes"});
     report.file_unit = translated.file_unit;
+    for (const std::string& loss : translated.losses) report.warnings.push_back(loss + "; compare area and volume with the program that wrote the file");
+    for (const std::string& face : translated.seams.failed)
+      report.warnings.push_back("the face " + face +
+                                " covers a closed surface, and its holes leave no place for a seam: OpenCASCADE may read it wrongly. "
+                                "Compare area and volume with the program that wrote the file, or give the model as BREP");
     report.unit = is_automatic(options.unit) ? translated.unit : options.unit;
     if (report.unit != translated.unit) scale(translated.labelled, report.unit / translated.unit);
     doubt_unit(longest_side(compound_of(translated.labelled.parts)), !is_automatic(options.unit), report);
@@ -175,10 +214,12 @@ CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::stri
     name_after_file(translated.labelled, source);
     label_faces(translated.labelled);
     if (options.heal) heal(translated.labelled, options, report, steps.Next(k_heal_share), context);
+    drop_sheets(translated.labelled, options, report);
     file.model = model_of(translated.labelled, attempted, context);
     file.model.source_unit = report.file_unit;
     describe_result(file.model, report);
   });
+  if (options.fluid == "inside") turn_inwards(file.model, attempted, report, context);
   for (const std::string& warning : report.warnings) context.warn(source + ": " + warning);
   return file;
 }

@@ -20,6 +20,8 @@ struct ReadCadOptions {
   double sew_tolerance = k_automatic;  ///< metres
   double small = k_automatic;          ///< metres
   bool cap = false;
+  std::string sheets = "automatic";
+  std::string fluid = "automatic";
   double time_limit = 600.0;  ///< seconds
 };
 template <>
@@ -52,6 +54,16 @@ struct Schema<ReadCadOptions> {
       Field<T>{.name = "cap",
                .member = &T::cap,
                .help = "close flat openings of shells with plane faces, named after the component: ends of blades and ducts, planes of symmetry"},
+      Field<T>{.name = "sheets",
+               .member = &T::sheets,
+               .help =
+                   "open shells and loose faces beside closed solids: automatic leaves out those that are flat, lie within a solid or on its edges (sketches, "
+                   "construction planes), with a warning; keep, drop, or patterns of the names of those to leave out: \"sketch*, plane 1\""},
+      Field<T>{.name = "fluid",
+               .member = &T::fluid,
+               .help = "on which side of the outermost closed solids the fluid is: around bodies, or inside of a duct or a complete domain; solids within "
+                       "others are bodies. automatic: outside",
+               .choices = "automatic outside inside"},
       Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "reading and mending give up after this"},
   };
 };

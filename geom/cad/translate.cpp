@@ -13,6 +13,9 @@
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepShape_ClosedShell.hxx>
+#include <StepShape_ConnectedFaceSet.hxx>
 #include <TColStd_HSequenceOfExtendedString.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
@@ -21,17 +24,24 @@
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <UnitsMethods.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 
 #include <cerrno>
 #include <cstring>
 #include <map>
 #include <sstream>
 #include <streambuf>
+
+#include "geom/cad/step_faces.h"
+#include "geom/cad/text_encoding.h"
 
 namespace sterna::cad {
 namespace {
@@ -40,7 +50,16 @@ namespace {
   throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + source, .problem = problem, .hint = hint});
 }
 
-std::string utf8(const TCollection_ExtendedString& text) { return TCollection_AsciiString(text, 0).ToCString(); }
+/// Names as UTF-8, whatever their bytes were: OpenCASCADE takes each byte for a letter where a file says nothing of its letters.
+std::string utf8(const TCollection_ExtendedString& text) {
+  std::string bytes;
+  for (int i = 1; i <= text.Length(); ++i) {
+    const auto letter = static_cast<unsigned>(text.Value(i));
+    if (letter > 0xffu) return TCollection_AsciiString(text, 0).ToCString();
+    bytes += static_cast<char>(letter);
+  }
+  return utf8_of_bytes(bytes);
+}
 
 /// Names that translators put where the file has none.
 bool is_made_up(const std::string& name) {
@@ -219,6 +238,32 @@ void set_common_parameters() {
   Interface_Static::SetIVal("read.surfacecurve.mode", 0);
 }
 
+std::size_t count_shapes(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  std::size_t n = 0;
+  for (TopExp_Explorer part(shape, kind); part.More(); part.Next()) ++n;
+  return n;
+}
+
+/// Shells of the file of which fewer faces came than it has, and closed ones that fell apart: borders that were read wrongly.
+std::vector<std::string> losses_of(const STEPControl_Reader& reader) {
+  std::vector<std::string> losses;
+  const Handle(StepData_StepModel) model = reader.StepModel();
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(StepShape_ConnectedFaceSet) shell = Handle(StepShape_ConnectedFaceSet)::DownCast(model->Value(i));
+    if (shell.IsNull() || shell->CfsFaces().IsNull()) continue;
+    const TopoDS_Shape came = TransferBRep::ShapeResult(process, shell);
+    if (came.IsNull()) continue;  // of no solid or model of shells that is translated, or merged into one
+    const auto n_file = static_cast<std::size_t>(shell->NbCfsFaces());
+    const std::size_t n_faces = count_shapes(came, TopAbs_FACE), n_shells = count_shapes(came, TopAbs_SHELL);
+    const std::string name = "the shell #" + std::to_string(model->IdentLabel(shell)) + " of " + std::to_string(n_file) + " faces";
+    if (n_faces < n_file) losses.push_back(name + " lost " + std::to_string(n_file - n_faces) + " of them as OpenCASCADE read it");
+    if (shell->IsKind(STANDARD_TYPE(StepShape_ClosedShell)) && n_shells > 1)
+      losses.push_back(name + " is closed in the file and fell apart into " + std::to_string(n_shells) + " as OpenCASCADE read it: borders of faces are wrong");
+  }
+  return losses;
+}
+
 Translated translate_step(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
   STEPCAFControl_Reader reader;
   reader.SetNameMode(true);
@@ -233,8 +278,10 @@ Translated translate_step(std::string_view bytes, const std::string& source, con
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   result.file_unit = lengths.IsEmpty() ? "none" : lengths.First().ToCString();
+  result.seams = give_seams(reader.ChangeReader().StepModel());
   Handle(TDocStd_Document) document = new_document();
   if (!reader.Transfer(document, progress)) malformed(source, "holds no shape that OpenCASCADE can translate");
+  result.losses = losses_of(reader.ChangeReader());
   result.labelled = DocumentWalk(document).walk();
   return result;
 }

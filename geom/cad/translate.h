@@ -6,6 +6,7 @@
 
 #include "geom/cad/cad_format.h"
 #include "geom/cad/occt_shape.h"
+#include "geom/cad/step_faces.h"
 
 class Message_ProgressRange;
 
@@ -14,7 +15,9 @@ namespace sterna::cad {
 struct Translated {
   LabelledShape labelled;
   std::string file_unit;
-  double unit = 1.0;  ///< metres for 1 unit of the file, already applied
+  double unit = 1.0;                     ///< metres for 1 unit of the file, already applied
+  SeamReport seams = {};                 ///< STEP alone
+  std::vector<std::string> losses = {};  ///< by the file's own topology, one sentence each; STEP alone
 };
 
 /// \throws Error(file_malformed), and whatever OpenCASCADE throws; call it inside run_occt.

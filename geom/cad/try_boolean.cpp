@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <span>
+#include <sstream>
 
 #include "geom/base/parallel.h"
 #include "geom/cad/near_pairs.h"
@@ -20,6 +21,8 @@ namespace {
 
 /// Share of a try's progress that finding intersections is.
 constexpr double k_intersect_share = 0.9;
+/// Letters of what OpenCASCADE says of an error.
+constexpr std::size_t k_longest_error = 200;
 
 TopTools_ListOfShape list_of(std::span<const BooleanPart> parts) {
   TopTools_ListOfShape list;
@@ -34,6 +37,16 @@ BOPAlgo_Operation occt_operation(BooleanOperation operation) {
     case BooleanOperation::common: return BOPAlgo_COMMON;
   }
   return BOPAlgo_UNKNOWN;
+}
+
+/// ": BOPAlgo_AlertIntersectionFailed", OpenCASCADE's own words; empty: it has none.
+std::string errors_of(const BRepAlgoAPI_BooleanOperation& operation) {
+  std::ostringstream stream;
+  operation.DumpErrors(stream);
+  std::string text = stream.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text.resize(std::min(text.find_last_not_of(' ') + 1, k_longest_error));
+  return text.empty() ? text : ": " + text;
 }
 
 /// An operation whose intersections are known.
@@ -73,7 +86,7 @@ BooleanTry try_once(const BooleanTask& task, const std::vector<BooleanPart>& par
     run_occt({.attempted = task.attempted, .time_limit = task.time_limit}, context, [&](const Message_ProgressRange& progress) {
       run_operation(task, parts, tolerance, context, progress, [&](BRepAlgoAPI_BooleanOperation& operation) {
         if (operation.HasErrors() || !operation.IsDone() || operation.Shape().IsNull()) {
-          result.outcome.problem = "OpenCASCADE's boolean ended with an error";
+          result.outcome.problem = "OpenCASCADE's boolean ended with an error" + errors_of(operation);
           return;
         }
         const StageTimer timer(context, task.stage + "/proof");

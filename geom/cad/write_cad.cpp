@@ -32,9 +32,12 @@
 #include <map>
 #include <sstream>
 
+#include "geom/cad/check_written.h"
 #include "geom/cad/occt_call.h"
 #include "geom/cad/occt_shape.h"
 #include "geom/cad/refit.h"
+#include "geom/cad/split_closed.h"
+#include "geom/cad/step_faces.h"
 
 namespace sterna::cad {
 namespace {
@@ -120,6 +123,7 @@ std::string step_bytes(const Handle(TDocStd_Document) & document, const std::str
   writer.SetPropsMode(false);
   if (!writer.Transfer(document, STEPControl_AsIs, nullptr, progress)) refuse(name, "OpenCASCADE cannot translate the shape to STEP");
   const Handle(StepData_StepModel) model = writer.ChangeWriter().Model();
+  static_cast<void>(give_seams(model));  // other programs read with OpenCASCADE, too; what stays wrong is found by reading back
   APIHeaderSection_MakeHeader header(model);
   const auto text = [](const char* t) { return new TCollection_HAsciiString(t); };
   header.SetName(text(name.c_str()));
@@ -180,11 +184,7 @@ Model exact_for_export(const Model& model, const std::string& name, const WriteC
   return exact;
 }
 
-}  // namespace
-
-std::string cad_bytes(const Model& original, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
-  const bool is_refitted = !original.shape && needs_refit(original);
-  const Model model = is_refitted ? exact_for_export(original, name, options, context) : original;
+std::string bytes_of(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
   std::shared_ptr<const CadShape> shape = shape_of(model, context);
   if (needs_own_shape(shape->content())) {
     Model bare = model;
@@ -205,6 +205,30 @@ std::string cad_bytes(const Model& original, CadFormat format, const std::string
     }
   });
   return bytes;
+}
+
+}  // namespace
+
+std::string cad_bytes(const Model& original, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
+  const bool is_refitted = !original.shape && needs_refit(original);
+  const Model model = is_refitted ? exact_for_export(original, name, options, context) : original;
+  std::string bytes = bytes_of(model, format, name, options, context);
+  const std::vector<std::string> differences = differences_of_file(model, bytes, format, name, context);
+  if (differences.empty()) return bytes;
+  if (const std::optional<Model> split = split_closed_faces(model, context)) {
+    bytes = bytes_of(*split, format, name, options, context);
+    if (differences_of_file(*split, bytes, format, name, context).empty()) {
+      context.info("writing " + name + ": faces on closed surfaces were split into halves, because the format's reader loses whole ones (" +
+                   differences.front() + ")");
+      return bytes;
+    }
+  }
+  std::string problem = "the file, read again, does not hold the model";
+  for (const std::string& difference : differences) problem += "; " + difference;
+  throw Error({.code = ErrorCode::geometry_failed,
+               .attempted = "writing " + name,
+               .problem = problem,
+               .hint = "BREP files hold a model as it is; fewer parts at once show the one that it is about"});
 }
 
 }  // namespace sterna::cad

@@ -33,8 +33,9 @@ struct Schema<WriteCadOptions> {
 namespace cad {
 
 /// The bytes of a file. What has no exact form (deformed models, functions) is refitted to options.tolerance and told in the log; all else is exact. STEP keeps
-/// names of solids and faces, colours and layers; IGES colours and layers; BREP geometry alone. No date is written. `name` stands in the file's header.
-/// \throws Error(geometry_failed) for what OpenCASCADE refuses; Error(bad_argument) with the place where the tolerance is not reached; Error(cancelled)
+/// names of solids and faces, colours and layers; IGES colours and layers; BREP geometry alone. No date is written. `name` stands in the file's header. The
+/// bytes are read again and compared: each solid has its faces, area and volume (to 1e-6). Where that fails, faces on closed surfaces are written as halves.
+/// \throws Error(geometry_failed) for what OpenCASCADE refuses, and naming the solids that the file would lose or change; Error(bad_argument) with the place where the tolerance is not reached; Error(cancelled)
 std::string cad_bytes(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -98,6 +98,7 @@ class Reader {
   bool is_mirrored(const Node& component);
   void wing(const Node& node, bool is_pylon);
   void fuselage(const Node& node);
+  void engine(const Node& node);
   template <class Read>
   void or_leave_out(const char* what, const Read& read);
   void devices(const Node& node, const Wing& wing, const std::vector<Element>& elements, bool is_turned);
@@ -142,7 +143,12 @@ Vec3 Reader::translation_of(const Node& component, std::set<std::string>& visite
   const Transformation own = read_transformation(document_, component);
   const std::string parent_uid = XmlFile::child_text(component, "parentUID");
   if (own.is_absolute || parent_uid.empty()) return own.translation;
-  Node parent = document_.resolve(component.child("parentUID"), parent_uid);
+  Node parent = document_.find(parent_uid);
+  if (!parent) {
+    file_.tell(component.child("parentUID"),
+               "the file has no element with the uID '" + parent_uid + "'; the component is placed from the origin of the aircraft instead");
+    return own.translation;
+  }
   const auto is_component = [](const Node& node) {
     return std::any_of(std::begin(k_component_tags), std::end(k_component_tags), [&](const char* tag) { return std::string_view(node.name()) == tag; });
   };
@@ -176,8 +182,13 @@ std::map<std::string, Vec3> Reader::positionings(const Node& component) {
     if (!steps.emplace(to, Step{node, XmlFile::child_text(node, "fromSectionUID"), vector}).second)
       file_.fail(node, "section '" + to + "' is positioned twice");
   }
+  std::set<std::string> sections;
+  for (const Node section : component.child("sections").children("section")) sections.insert(file_.text(section, "uID"));
   std::map<std::string, Vec3> positions;
   for (const auto& [section, step] : steps) {
+    if (!sections.contains(section)) file_.tell(step.node, "the component has no section '" + section + "'; this positioning has no effect");
+    if (!step.from.empty() && !sections.contains(step.from) && !steps.contains(step.from))
+      file_.fail(step.node, "section '" + section + "' is positioned from '" + step.from + "', and the component has no such section");
     Vec3 sum;
     std::string at = section;
     for (std::size_t n = 0; steps.contains(at); ++n) {
@@ -326,7 +337,10 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
             const double other_eta = border.child(other) ? value(other, "eta") : eta;
             if (other_eta != eta)
               file_.tell(border, "the border is taken along the flow at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
-            Node reference = document_.find(XmlFile::child_text(border.child(hinge_eta), "referenceUID"));
+            const std::string reference_uid = XmlFile::child_text(border.child(hinge_eta), "referenceUID");
+            Node reference = document_.find(reference_uid);
+            if (!reference && !reference_uid.empty())
+              file_.tell(border, "the file has no element with the uID '" + reference_uid + "'; the border is taken along this component segment instead");
             if (!reference || !reference.child("fromElementUID")) reference = segment;
             const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")),
                               to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
@@ -371,6 +385,19 @@ void Reader::fuselage(const Node& node) {
   reading_.aircraft.bodies.push_back(std::move(body));
 }
 
+void Reader::engine(const Node& node) {
+  file_.warn_unknown(node, "uID symmetry xsi:type", {"name description engineUID parentUID transformation", k_no_shape});
+  const Node engine = document_.resolve(node, XmlFile::child_text(node, "engineUID"));
+  const Node nacelle = engine.child("nacelle");
+  if (!nacelle.child("fanCowl") && !nacelle.child("coreCowl") && !nacelle.child("centerCowl")) {
+    file_.tell(engine, "the engine has no cowls; it is left out");
+    return;
+  }
+  CowlNacelle read = read_nacelle(document_, node, place_of(node));
+  read.has_mirror_image = is_mirrored(node);
+  reading_.aircraft.nacelles.push_back(std::move(read));
+}
+
 void Reader::read_model(const Node& model) {
   Aircraft& aircraft = reading_.aircraft;
   file_.warn_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines landingGear landingGears", k_no_shape});
@@ -385,17 +412,7 @@ void Reader::read_model(const Node& model) {
   for (const Node node : model.child("fuselages").children("fuselage")) fuselage(node);
   for (const Node node : model.child("wings").children("wing")) wing(node, false);
   for (const Node node : model.child("enginePylons").children("enginePylon")) or_leave_out("pylon", [&] { wing(node, true); });
-  for (const Node node : model.child("engines").children("engine")) {
-    file_.warn_unknown(node, "uID symmetry xsi:type", {"name description engineUID parentUID transformation", k_no_shape});
-    const Node engine = document_.resolve(node, XmlFile::child_text(node, "engineUID"));
-    const bool has_cowls = engine.child("nacelle").child("fanCowl") || engine.child("nacelle").child("coreCowl") || engine.child("nacelle").child("centerCowl");
-    if (!has_cowls) {
-      file_.tell(engine, "the engine has no cowls; it is left out");
-      continue;
-    }
-    aircraft.nacelles.push_back(read_nacelle(document_, node, place_of(node)));
-    aircraft.nacelles.back().has_mirror_image = is_mirrored(node);
-  }
+  for (const Node node : model.child("engines").children("engine")) or_leave_out("engine", [&] { engine(node); });
 }
 
 AircraftReading Reader::read() {

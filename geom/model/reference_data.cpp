@@ -40,16 +40,23 @@ double across(const Vec3& v) { return std::hypot(v.y, v.z); }
 WingReference wing_reference(const Wing& wing) {
   WingReference r{.name = wing.name};
   const std::vector<ChordLine> lines = chord_lines(wing);
+  double extent_y = 0.0, extent_z = 0.0;
   for (const ChordLine& a : lines)
-    for (const ChordLine& b : lines) r.span = std::max(r.span, across(b.leading - a.leading));
+    for (const ChordLine& b : lines) {
+      extent_y = std::max(extent_y, std::abs(b.leading.y - a.leading.y));
+      extent_z = std::max(extent_z, std::abs(b.leading.z - a.leading.z));
+    }
+  const bool is_upright = !wing.is_symmetric && extent_z > extent_y;
+  r.span = is_upright ? extent_z : extent_y;
   double square = 0.0;
   Vec3 moment;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     const ChordLine &a = lines[i], &b = lines[i + 1];
     const double c0 = a.trailing.x - a.leading.x, c1 = b.trailing.x - b.leading.x;
     const Vec3 step = b.leading - a.leading;
-    const double width = across(step);
+    const double width = std::abs(is_upright ? step.z : step.y);
     r.area += 0.5 * (c0 + c1) * width;
+    r.unrolled_area += 0.5 * (c0 + c1) * across(step);
     r.projected_area += 0.5 * (c0 + c1) * std::abs(step.y);
     square += (c0 * c0 + c0 * c1 + c1 * c1) / 3.0 * width;
     // Integral of the leading edge's place weighted with the chord: both are linear along the panel.

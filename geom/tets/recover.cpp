@@ -33,7 +33,7 @@ constexpr double k_beside = 0.3;
 /// And how far towards an end of the other edge, as a share of the way.
 constexpr double k_aside = 0.1;
 /// So often the distance is halved where they do not see what is around.
-constexpr int k_most_halvings = 30;
+constexpr int k_most_edge_halvings = 30;
 constexpr std::size_t k_stop_tries = 256;
 
 /// Any order in which neighbours in the list are no neighbours in space (Steele, Lea and Flood 2014).
@@ -233,7 +233,7 @@ bool Recoverer::add_points_in_ring(const Edge& edge, const Edge& across, const V
     double beside = (is_first ? side : -side) * k_beside * length;
     int n_halvings = 0;
     while (!flips_.add_point_in_ring(p, q, ends[0], ends[1], foot + beside * normalized(normal))) {
-      if (++n_halvings > k_most_halvings) return false;
+      if (++n_halvings > k_most_edge_halvings) return false;
       beside *= 0.5;
     }
     flips_.accept();

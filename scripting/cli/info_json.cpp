@@ -112,6 +112,7 @@ Json of_model(const std::string& file, std::optional<double> unit, const Command
                              {"span", wing.span},
                              {"area", wing.area},
                              {"projected_area", wing.projected_area},
+                             {"unrolled_area", wing.unrolled_area},
                              {"mean_geometric_chord", wing.mean_geometric_chord},
                              {"mean_aerodynamic_chord", wing.mean_aerodynamic_chord},
                              {"aerodynamic_chord_start", xyz(wing.aerodynamic_chord_start)},

@@ -276,6 +276,7 @@ ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& option
                      ? "half model as it is"
                      : fmt::format("half at {} = {:g}: {} faces cut{}", options.axis, options.at, r.n_faces_cut, r.was_united ? ", after the union" : "");
   if (r.n_solids_left_out > 0) value.report += fmt::format(", {} solids of the other half left out", r.n_solids_left_out);
+  if (r.n_faces_split > 0) value.report += fmt::format(", {} closed faces split at their seams", r.n_faces_split);
   if (r.n_flat_faces > 0) value.report += fmt::format(", {} faces in the plane left out", r.n_flat_faces);
   value.report += fmt::format("; rim of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_rim_edges, r.rim_length, r.largest_shift);
   context.info(value.report);

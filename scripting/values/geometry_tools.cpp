@@ -138,6 +138,7 @@ ScriptValue wing_table(const WingReference& wing) {
   table->fields = {{"span", wing.span},
                    {"area", wing.area},
                    {"projected_area", wing.projected_area},
+                   {"unrolled_area", wing.unrolled_area},
                    {"aspect_ratio", wing.aspect_ratio},
                    {"mean_geometric_chord", wing.mean_geometric_chord},
                    {"mean_aerodynamic_chord", wing.mean_aerodynamic_chord},

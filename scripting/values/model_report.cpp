@@ -134,6 +134,24 @@ std::vector<OpenEdge> open_edges(const Model& model) {
   return result;
 }
 
+std::string open_plane_text(const std::vector<OpenEdge>& open) {
+  constexpr double k_in_plane = 1e-6;  // of the size of all open edges
+  Box box;
+  double length = 0.0;
+  for (const OpenEdge& edge : open) {
+    for (const Point& p : {edge.from, edge.middle, edge.to}) box.add(p);
+    length += edge.length;
+  }
+  if (box.empty()) return {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (box.max[k] - box.min[k] > k_in_plane * box.longest_side()) continue;
+    const double at = 0.5 * (box.min[k] + box.max[k]);
+    return fmt::format("the plane {} = {:.6g} alone: {} {}, {:.4g} m", "xyz"[k], std::abs(at) <= k_in_plane * box.longest_side() ? 0.0 : at, open.size(),
+                       open.size() == 1 ? "edge" : "edges", length);
+  }
+  return {};
+}
+
 std::string measures_text(const ModelReport& measures) {
   std::string text = "  total    " + part_text(measures.total);
   // Where every component is a solid of its own, one line for both.
@@ -144,13 +162,26 @@ std::string measures_text(const ModelReport& measures) {
   for (const PartMeasures& part : measures.components) text += fmt::format("\n  part     \"{}\", {}: {}", part.name, part.kind, part_text(part));
   for (const WingReference& wing : measures.wings)
     text += fmt::format(
-        "\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric {:.6g} m, aerodynamic "
+        "\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, laid flat {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric "
+        "{:.6g} m, aerodynamic "
         "{:.6g} m from {}",
-        wing.name, wing.span, wing.area, wing.projected_area, wing.aspect_ratio, wing.mean_geometric_chord, wing.mean_aerodynamic_chord,
+        wing.name, wing.span, wing.area, wing.projected_area, wing.unrolled_area, wing.aspect_ratio, wing.mean_geometric_chord, wing.mean_aerodynamic_chord,
         format_point(wing.aerodynamic_chord_start));
   if (!measures.no_wings.empty()) text += "\n  wing     no reference data, which components as data have: " + measures.no_wings;
   return text;
 }
+
+namespace {
+
+/// All of it in one plane of constant x, y or z: then its rim says nothing of symmetry.
+bool is_flat_model(const Model& model) {
+  constexpr double k_flat_share = 1e-6;  // of the longest side
+  const Box box = box_of(model);
+  const Vec3 side = box.max - box.min;
+  return std::min({side.x, side.y, side.z}) <= k_flat_share * box.longest_side();
+}
+
+}  // namespace
 
 std::string closedness_text(const Model& model, std::size_t limit) {
   const auto n_closed = std::count_if(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
@@ -162,6 +193,7 @@ std::string closedness_text(const Model& model, std::size_t limit) {
                   model.faces.size() - in_solids.size(), model.faces.size() - in_solids.size() == 1 ? "face" : "faces");
   const std::vector<OpenEdge> open = open_edges(model);
   if (open.empty()) return text + "; no open edge";
+  if (const std::string plane = is_flat_model(model) ? std::string() : open_plane_text(open); !plane.empty()) return text + "; open along " + plane;
   text += fmt::format("; {} open {}", open.size(), open.size() == 1 ? "edge" : "edges");
   for (std::size_t i = 0; i < std::min(limit, open.size()); ++i)
     text += fmt::format("\n  open     face \"{}\" of \"{}\": edge from {} over {} to {}, {:.4g} m long", open[i].face, open[i].component,

@@ -184,6 +184,17 @@ std::string indented(std::string text) {
   return "  " + text;
 }
 
+/// Lengths that are no aircraft's, rotor's, car's or wind-tunnel model's: mostly millimetres taken for metres.
+void doubt_size(const Model& model, const RunContext& context) {
+  constexpr double k_smallest = 1e-3, k_largest = 200.0;  // m
+  const double size = box_of(model).longest_side();
+  if (size <= 0.0 || (size >= k_smallest && size <= k_largest)) return;
+  context.info(
+      fmt::format("hint: the model is {:.4g} m long. Lengths are in metres: write 1200*mm in scripts for millimetres, and for CAD files give the unit "
+                  "of their numbers (unit = mm, --unit mm)",
+                  size));
+}
+
 /// Closed parts that stand in each other or touch, as CAD files of one aircraft have them: united where their triangles cross, and told.
 SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
   std::size_t n_solids = 0;
@@ -220,6 +231,7 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
 SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
                        const RunContext& context, const Reuse& reuse) {
   const ModelValue all = fluid_of(assemble(models, context), context);
+  doubt_size(all.model, context);
   SurfaceRecipe recipe = asked;
   put_first(present(all.sizes, all.model), recipe);
   for (const ModelHandle& model : models)

@@ -100,6 +100,8 @@ struct OpenEdge {
   double length = 0.0;
 };
 std::vector<OpenEdge> open_edges(const Model& model);
+/// "the plane y = 0 alone: 11 edges, 12.3 m", where all of them lie in one plane of constant x, y or z, as those of half models do; else empty.
+std::string open_plane_text(const std::vector<OpenEdge>& open);
 
 /// "Model: 12 components, 84 faces, 12 closed solids, 35.8 x 34.1 x 12.2 m"
 std::string describe(const ModelValue& value);

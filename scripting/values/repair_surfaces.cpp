@@ -235,10 +235,12 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   if (are_models(files)) {
     SurfaceRecipe recipe = options.recipe;
     recipe.options.crossings = "ignore";
+    recipe.options.failed_faces = "hole";  // repair fills them
     const RunContext part = context.part("triangles", k_as_it_is_end, k_triangles_end);
     of_model = std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse, options.periodic));
     items = {of_model};
     stitching.unit = 1.0;
+    if (options.reading.fluid != "automatic") stitching.fluid = options.reading.fluid;
   }
   std::optional<Repaired> folded;  // what is left lies on itself
   try {

@@ -146,6 +146,7 @@ ScriptValue component_field(const ScriptCall& call) {
     fields.insert(fields.end(), {{"span", r.span},
                                  {"area", r.area},
                                  {"projected_area", r.projected_area},
+                                 {"unrolled_area", r.unrolled_area},
                                  {"aspect_ratio", r.aspect_ratio},
                                  {"mean_geometric_chord", r.mean_geometric_chord},
                                  {"mean_aerodynamic_chord", r.mean_aerodynamic_chord},

@@ -93,7 +93,8 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
   return result;
 }
 
-JoinFaults check_joins(const Model& model, const ModelTopology& topology, const SurfaceMesh& surface, const RunContext& context) {
+JoinFaults check_joins(const Model& model, const ModelTopology& topology, const Column<FaceId, MeshedFace>& meshes, const SurfaceMesh& surface,
+                       const RunContext& context) {
   const TriMesh& mesh = surface.mesh;
   std::vector<EdgeEntry> entries(3 * mesh.n_triangles());
   JoinFaults faults;
@@ -109,6 +110,10 @@ JoinFaults check_joins(const Model& model, const ModelTopology& topology, const 
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   Column<EdgeId, std::uint8_t> is_free(model.edges.size(), 0);
   for (const EdgeId e : free_edges(model)) is_free[e] = 1;
+  for (const FaceId f : model.faces.ids())
+    if (meshes[f].failure)
+      for (const Border& border : model.faces[f].borders)
+        for (const EdgeUse& use : border) is_free[topology.same_as[use.edge].edge] = 1;
   for (const EdgeId e : model.edges.ids())
     if (is_free[topology.same_as[e].edge] != 0)
       for (const EdgeUsePlace& place : uses[e]) has_free_edge[place.face] = 1;

@@ -13,11 +13,12 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
                        const Column<FaceId, MeshedFace>& faces);
 
 /// Triangles whose edges have more than two triangles, or two that run the same way, or one where the model is not open (nor was, before strips along its rims
-/// were absorbed).
+/// were absorbed). A face that has no mesh leaves its neighbours open.
 struct JoinFaults {
   std::vector<TriangleId> triangles;  ///< ascending
   std::int64_t n_free_edges = 0;
 };
-JoinFaults check_joins(const Model& model, const ModelTopology& topology, const SurfaceMesh& mesh, const RunContext& context);
+JoinFaults check_joins(const Model& model, const ModelTopology& topology, const Column<FaceId, MeshedFace>& faces, const SurfaceMesh& mesh,
+                       const RunContext& context);
 
 }  // namespace sterna::surfmesh

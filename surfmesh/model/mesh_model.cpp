@@ -29,6 +29,8 @@ constexpr const char* k_attempted = "meshing the model's surface";
 /// Rounds of meshing: each halves sizes at what is wrong, so a place is at 1/32 after the last.
 constexpr int k_max_rounds = 6;
 constexpr double k_repair_factor = 0.5;
+/// A face that still fails in this round stays a hole, where that is allowed: shorter edges around it seldom help, and they stay.
+constexpr int k_rounds_before_holes = 2;
 /// Above it volume_mesh takes no feature angle from the mesh.
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
 constexpr int k_digits = 4;  ///< of numbers in messages
@@ -133,6 +135,7 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
     if (info.hint.empty()) info.hint = face.failure->hint;
   }
   info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
+  if (info.hint.empty()) info.hint = "failed_faces = \"hole\" leaves them out; --auto does so and fills the holes";
   throw Error(std::move(info));
 }
 
@@ -192,9 +195,25 @@ BandSummary summarise_bands(const Meshing& meshing) {
   return summary;
 }
 
+/// Faces without a mesh, each in one sentence.
+std::vector<std::string> holes_of(const Meshing& meshing) {
+  std::vector<std::string> notes;
+  for (const FaceId f : meshing.model.faces.ids()) {
+    const MeshedFace& face = meshing.faces[f];
+    if (!face.failure) continue;
+    const CornerId corner = meshing.model.edges[meshing.model.faces[f].borders.front().front().edge].start;
+    const Point place = !face.failure->places.empty() ? face.failure->places.front().position : meshing.model.corners[corner].point;
+    notes.push_back("face " + std::to_string(f.value()) + ", \"" + meshing.model.faces[f].name + "\", near " + format_point(place) +
+                    " cannot be meshed and stays a hole: " + face.failure->problem);
+  }
+  return notes;
+}
+
 void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   mesh.report.absorbed = meshing.absorbed;
   mesh.report.bands = summarise_bands(meshing);
+  const std::vector<std::string> holes = holes_of(meshing);
+  mesh.report.bands.notes.insert(mesh.report.bands.notes.end(), holes.begin(), holes.end());
   summarise_faces(meshing.faces, mesh.report);
   measure_triangles(mesh);
 }
@@ -245,15 +264,16 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
     mesh.report.n_rounds = round;
     check_count(mesh, options);
     const bool is_last = round == k_max_rounds;
-    if (refine_failures(meshing, field)) {
+    const bool may_leave_holes = options.failed_faces == "hole" && round >= k_rounds_before_holes;
+    if (!may_leave_holes && refine_failures(meshing, field)) {
       if (is_last) throw_failures(meshing);
       continue;
     }
-    JoinFaults faults = check_joins(model, meshing.topology, mesh, context);
+    JoinFaults faults = check_joins(model, meshing.topology, meshing.faces, mesh, context);
     if (!faults.triangles.empty() && split_doubled_edges(model, mesh, faults.triangles, meshing.faces) > 0) {
       mesh = join_faces(model, meshing.topology, meshing.cuts, number_border(model, meshing.topology, meshing.cuts), meshing.faces);
       mesh.report.n_rounds = round;
-      faults = check_joins(model, meshing.topology, mesh, context);
+      faults = check_joins(model, meshing.topology, meshing.faces, mesh, context);
     }
     mesh.report.n_free_edges = faults.n_free_edges;
     if (!faults.triangles.empty()) {

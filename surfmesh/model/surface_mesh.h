@@ -34,6 +34,7 @@ struct SurfaceMeshOptions {
   double gap_cells = 0.0;
   double thickness_factor = k_automatic;
   std::string crossings = "error";
+  std::string failed_faces = "error";
   int max_triangles = 100'000'000;
   double leading_edge_chordwise = k_automatic;
   double leading_edge_stretch = k_automatic;
@@ -302,6 +303,10 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
                .member = &O::crossings,
                .help = "triangles that cross are refined; what still crosses is an error, or kept with a warning; ignore: not looked for",
                .choices = "error warn ignore"},
+      Field<O>{.name = "failed_faces",
+               .member = &O::failed_faces,
+               .help = "a face that cannot be meshed is an error, or stays a hole, with a warning; --auto leaves holes and fills them",
+               .choices = "error hole"},
       Field<O>{.name = "max_triangles",
                .member = &O::max_triangles,
                .min = 1,

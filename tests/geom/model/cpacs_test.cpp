@@ -261,5 +261,49 @@ TEST(Cpacs, errors_name_line_and_path) {
       HasSubstr("line 2, /cpacs/vehicles/aircraft/model[M]/wings/wing[W]/sections/section[S1]/elements/element[E1]: the file has no element with the uID 'B'"));
 }
 
+/// The file of wing_file with an engine of the given references, and its definition where it has one.
+std::string file_with_engine(const std::string& uid, const std::string& definition) {
+  std::string text = wing_file("", k_diamond);
+  text.insert(text.find("</model>"), "<engines><engine uID='inst'><engineUID>" + uid + "</engineUID></engine></engines>");
+  text.insert(text.find("<profiles>"), "<engines>" + definition + "</engines>");
+  return text;
+}
+
+TEST(CpacsReferences, AnEngineThatIsNotThereIsLeftOut) {
+  for (const std::string uid : {"nothing", ""}) {
+    const AircraftReading reading = read_cpacs_text(file_with_engine(uid, ""));
+    EXPECT_EQ(reading.aircraft.wings.size(), 1u);
+    EXPECT_TRUE(reading.aircraft.nacelles.empty());
+    EXPECT_THAT(reading.messages, Contains(testing::AllOf(HasSubstr("engine[inst]"), HasSubstr("the engine is left out"))));
+  }
+  // Its cowl's profile is not there.
+  const AircraftReading reading = read_cpacs_text(file_with_engine(
+      "e",
+      "<engine uID='e'><nacelle><fanCowl uID='c'><sections><section uID='s'><profileUID>none</profileUID></section></sections></fanCowl></nacelle></engine>"));
+  EXPECT_TRUE(reading.aircraft.nacelles.empty());
+  EXPECT_THAT(reading.messages, Contains(testing::AllOf(HasSubstr("'none'"), HasSubstr("the engine is left out"))));
+}
+
+TEST(CpacsReferences, AParentThatIsNotThereIsTold) {
+  std::string text = wing_file("", k_diamond);
+  text.insert(text.find("<sections>"), "<parentUID>gone</parentUID>");
+  const AircraftReading reading = read_cpacs_text(text);
+  EXPECT_EQ(reading.aircraft.wings.size(), 1u);
+  EXPECT_THAT(reading.messages, Contains(testing::AllOf(HasSubstr("'gone'"), HasSubstr("from the origin of the aircraft"))));
+}
+
+TEST(CpacsReferences, PositioningsOfSectionsThatAreNotThere) {
+  const AircraftReading reading = read_cpacs_text(wing_file("", k_diamond, "<positioning><length>1</length><toSectionUID>S9</toSectionUID></positioning>"));
+  EXPECT_THAT(reading.messages, Contains(testing::AllOf(HasSubstr("'S9'"), HasSubstr("no effect"))));
+  try {
+    read_cpacs_text(
+        wing_file("", k_diamond, "<positioning><length>1</length><fromSectionUID>S9</fromSectionUID><toSectionUID>S1</toSectionUID></positioning>"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::file_malformed);
+    EXPECT_THAT(error.info().problem, testing::AllOf(HasSubstr("'S9'"), HasSubstr("no such section")));
+  }
+}
+
 }  // namespace
 }  // namespace sterna

@@ -34,6 +34,35 @@ TEST(ReferenceData, a_trapezoid_has_its_formulas) {
   EXPECT_NEAR(r.aspect_ratio, 100.0 / 15.0, 1e-12);
 }
 
+// Dihedral shortens span and area alike: the chords stay those of the flat wing. Vertical winglets add to neither.
+TEST(ReferenceData, DihedralLeavesTheMeanChordsAlone) {
+  const double root = 0.17, tip = 0.09, half_span = 0.22;
+  const auto wing = [&](double dihedral, double winglet) {
+    Wing w{.name = "V", .is_symmetric = true};
+    const Point end{0.1, half_span, half_span * std::tan(dihedral)};
+    if (winglet > 0.0) w.sections.push_back(diamond(end + Vec3{0.0, 0.0, winglet}, tip));
+    w.sections.push_back(diamond(end, tip));
+    w.sections.push_back(diamond({}, root));
+    return wing_reference(w);
+  };
+  const double taper = tip / root, aerodynamic = 2.0 / 3.0 * root * (1 + taper + taper * taper) / (1 + taper);
+  for (const double dihedral : {0.0, 0.3, 38.0 / 180.0 * M_PI}) {
+    const WingReference r = wing(dihedral, 0.0);
+    EXPECT_NEAR(r.mean_geometric_chord, 0.13, 1e-12);
+    EXPECT_NEAR(r.mean_aerodynamic_chord, aerodynamic, 1e-12);
+    EXPECT_NEAR(r.area, 0.13 * 2 * half_span, 1e-12);
+    EXPECT_NEAR(r.unrolled_area, r.area / std::cos(dihedral), 1e-12);
+    EXPECT_NEAR(r.aspect_ratio, r.span / 0.13, 1e-12);
+  }
+  const WingReference r = wing(0.0, 0.05);
+  EXPECT_NEAR(r.area, 0.13 * 2 * half_span, 1e-12);
+  EXPECT_NEAR(r.mean_geometric_chord, 0.13, 1e-12);
+  EXPECT_NEAR(r.unrolled_area, r.area + 2 * 0.05 * tip, 1e-12);
+  Wing fin{.name = "F", .sections = {diamond({0.5, 0.0, 2.0}, 1.0), diamond({0.0, 0.0, 0.0}, 2.0)}};
+  EXPECT_NEAR(wing_reference(fin).area, 3.0, 1e-12);
+  EXPECT_NEAR(wing_reference(fin).projected_area, 0.0, 1e-12);
+}
+
 // Schmitt and Charpin, AGARD AR-138 (1979), quoted from memory (no copy is stored here): semi span 1.1963 m, root 0.8059 m, taper 0.562, mean aerodynamic chord
 // 0.64607 m, half area 0.7532 m2. The file says 1.1963 along the swept leading edge instead of along the span, so its span is that times cos 30 degrees: 0.866
 // of the published.

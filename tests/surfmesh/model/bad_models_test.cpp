@@ -54,6 +54,22 @@ ErrorInfo failure_of(const Model& model, const SurfaceMeshOptions& options) {
   return {};
 }
 
+TEST(BadModels, AFaceThatCannotBeMeshedStaysAHole) {
+  Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
+  Border& border = model.faces[FaceId(2)].borders.front();
+  std::swap(border[0].parameter, border[2].parameter);  // it crosses itself in the parameters
+  SurfaceMeshOptions options = edges_and_crossings(0.5);
+  EXPECT_THAT(failure_of(model, options).problem, HasSubstr("1 of 6 faces cannot be meshed"));
+  EXPECT_THAT(failure_of(model, options).hint, HasSubstr("failed_faces"));
+  options.failed_faces = "hole";
+  const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+  EXPECT_GE(mesh.report.n_free_edges, 4);
+  EXPECT_THAT(mesh.report.bands.notes, testing::Contains(AllOf(HasSubstr("face 2, \"box\""), HasSubstr("stays a hole"))));
+  double area = 0.0;
+  for (const FaceMeshSummary& face : mesh.report.faces) area += face.area;
+  EXPECT_NEAR(area, 5.0, 1e-12);
+}
+
 TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
   const Model a = make_box("left", {0, 0, 0}, {1, 1, 1}), b = make_box("right", {0.5, 0.3, 0.3}, {2, 0.7, 0.7});
   const Model model = both(a, b);
