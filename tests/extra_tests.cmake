@@ -45,7 +45,7 @@ set_tests_properties(library PROPERTIES TIMEOUT 300)
 
 # From Python.
 add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SOURCE_DIR}/scripting/python/sterna_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna> ${STERNA_TEST_DATA})
-set_tests_properties(python PROPERTIES TIMEOUT 300)
+set_tests_properties(python PROPERTIES TIMEOUT 300 LABELS real_data)
 
 # Links and pictures of the documents lead somewhere, and the index has every page.
 add_test(NAME documents COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/documents_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
@@ -68,11 +68,11 @@ set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 
 
 add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
 add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA} --all USES_TERMINAL)  # all five, by hand
-set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_11_surface_file;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
+set_tests_properties(report_real_pages PROPERTIES LABELS real_data SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_11_surface_file;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
 
 # The same browser uses every control of the workbench.
 add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
-set_tests_properties(view_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 250 DEPENDS report_page_browser)
+set_tests_properties(view_browser PROPERTIES LABELS real_data SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 250 DEPENDS report_page_browser)
 
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)

@@ -107,6 +107,7 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
   add_script_arguments(*command, run.arguments);
   add_set_option(*command, run.overrides);
   command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
+  command->add_flag("--retry", run.retries, "of a series: run all cases again that failed in an earlier run, whatever the script says");
   command->add_option("--series-case", run.series_case, "")->group("");  // hidden: what series{} gives its workers
   command->add_option("--look-in", run.input_folder, "")->group("");     // hidden: what `sterna determinism` gives its runs
   add_cache_options(*command, run.cache);

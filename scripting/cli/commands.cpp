@@ -447,7 +447,8 @@ int execute(const RunCommand& command, const CommandContext& context) {
                         .words = worker_words(command, context.run),
                         .worker = {},
                         .stops_itself = context.stops_itself,
-                        .tasks = command.tasks};
+                        .tasks = command.tasks,
+                        .retries = command.retries};
   if (!command.series_case.empty() || !command.input_folder.empty()) become_worker();
   if (!command.series_case.empty()) {
     series.worker = case_of_text(command.series_case);

@@ -31,6 +31,7 @@ struct RunCommand {
   OptionOverrides overrides;  ///< --set
   CacheChoice cache;
   int tasks = 0;                       ///< --tasks: cases of a series at a time; 0 = as the script says
+  bool retries = false;                ///< --retry: failed cases of a series run again
   std::string series_case;             ///< --series-case NAME/INDEX: this process is a worker
   OptionOverrides arguments;           ///< NAME=VALUE
   std::filesystem::path input_folder;  ///< --look-in: this process was started in a folder of its own by another one, and ends with it

@@ -9,6 +9,7 @@
 #include "geom/base/number_text.h"
 #include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
+#include "scripting/interpreter/declared_arguments.h"
 #include "scripting/interpreter/script_verbs.h"
 #include "scripting/lua/script_watch.h"
 #include "scripting/lua/verb_tools.h"
@@ -149,11 +150,9 @@ ScriptValue declare(const ScriptCall& of_table) {
   const ScriptTable table = table_argument(call, 0, k_script_args_usage);
   TableReader reader(table, call.attempted());
   ScriptTable result;
-  std::vector<std::string> known;
   std::vector<ScriptParameter> declared;
   for (const auto& [name, value] : table.fields) {
     reader.field(name);
-    known.push_back(name);
     if (std::optional<ScriptParameter> number = number_parameter(name, value)) {
       if (const std::string* text = given(call, name)) set_number_parameter(*number, *text, reader);
       result.fields[name] = number->value;
@@ -171,18 +170,16 @@ ScriptValue declare(const ScriptCall& of_table) {
       reader.add_problem("expected the name of an argument, not " + std::string(name ? "\"" + *name + "\"" : type_text(item)));
       continue;
     }
-    known.push_back(*name);
     if (const std::string* text = given(call, *name)) result.fields[*name] = value_of(*text);
     else if (call.session.check) result.fields[*name] = std::int64_t{1};  // any value will do
     else reader.add_problem("argument " + *name + " is missing: sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE");
     declared.push_back({.name = *name, .initial = {}, .value = result.fields[*name], .min = {}, .max = {}, .step = {}});
   }
-  if (call.session.watch) call.session.watch->declared(declared);
-  for (const auto& [name, text] : call.session.arguments) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::string nearest = nearest_name(name, known);
-    reader.add_problem("this script has no argument " + name + (nearest.empty() ? "" : ", did you mean " + nearest + "?"));
-  }
+  for (const std::string& problem : add_declared(call.session, call.where, std::move(declared))) reader.add_problem(problem);
+  const std::vector<std::string> unknown = unknown_arguments(call.session, false);
+  for (const std::string& problem : unknown) reader.add_problem(problem);
+  call.session.declared.is_refused |= !unknown.empty();
+  if (call.session.watch) call.session.watch->declared(call.session.declared.list, !unknown.empty());
   reader.finish();
   return std::make_shared<const ScriptTable>(std::move(result));
 }
@@ -203,7 +200,7 @@ ScriptValue read_argument(const ScriptCall& call) {
 constexpr std::array<ScriptVerb, 2> k_script_args_verbs = {{
     {"args", k_script_args_usage,
      "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; "
-     "args.alpha reads one alone.",
+     "args.alpha reads one alone. Script and modules may each call args{}.",
      declare},
     {"number", k_number_usage,
      "Of args{}: a default with limits and a unit, in which all of them and bare numbers of the command line count; the script gets the value in SI. "

@@ -1,6 +1,7 @@
 #include "scripting/interpreter/script_run.h"
 
 #include "geom/base/error.h"
+#include "scripting/interpreter/declared_arguments.h"
 #include "scripting/interpreter/script_state.h"
 #include "scripting/lua/script_check.h"
 
@@ -12,6 +13,7 @@ ScriptOutcome run_script(const ScriptSettings& settings, const RunContext& conte
   series.script_text = read_script(settings.script);
   state.run(series.script_text, "@" + settings.script.string());
   if (series.is_case_over) return {.n_failed_cases = series.is_case_done ? 0u : 1u};
+  refuse_unknown_arguments(state.session(), true);
   if (settings.series.worker)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = settings.script.string(),

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "geom/base/error.h"
+#include "scripting/interpreter/declared_arguments.h"
 #include "scripting/interpreter/script_args.h"
 #include "scripting/interpreter/script_objects.h"
 #include "scripting/interpreter/script_verbs.h"
@@ -191,6 +192,7 @@ Error with_traceback(const Error& error, const std::string& traceback) {
 namespace {
 
 ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
+  if (verb.is_heavy) refuse_unknown_arguments(call.session, false);
   if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call)) return verb.run(call);  // no union: neither kept nor the origin of what is
   return with_provenance(cached_model(verb, call), call);
 }

@@ -13,6 +13,7 @@
 
 #include "geom/base/run_context.h"
 #include "scripting/cache/reuse.h"
+#include "scripting/lua/script_parameter.h"
 #include "scripting/lua/script_value.h"
 #include "scripting/lua/series_session.h"
 
@@ -47,6 +48,8 @@ struct ScriptSession {
   const ScriptWatch* watch = nullptr;  ///< who looks on; null: nobody
 
   ScriptValue value;  ///< what a verb leaves for call_verb: its result or its error
+
+  DeclaredArguments declared = {};  ///< of all args{} that have run
 
   Reuse reuse() { return {cache, &reused, series.reference ? series.reference->use.get() : nullptr}; }
 };

@@ -8,28 +8,19 @@
 #include <vector>
 
 #include "scripting/lua/script_call.h"
+#include "scripting/lua/script_parameter.h"
 
 struct lua_State;
 struct lua_Debug;
 
 namespace sterna::scripting {
 
-/// An argument that a script declares with args{}.
-struct ScriptParameter {
-  std::string name;
-  ScriptValue initial;             ///< SI; nil: it must be given
-  ScriptValue value;               ///< SI, what the script goes on with
-  std::optional<double> min, max;  ///< in `unit`
-  std::optional<double> step;      ///< the same
-  std::string unit = {};           ///< "deg"; empty: a plain number, text or flag
-  double unit_value = 1.0;         ///< SI value of the unit: a bare number on the command line counts in it
-};
-
 struct ScriptWatch {
   std::function<void(const ScriptCall& call, const ScriptValue& value)> made;  ///< behind each verb that gave an object
   /// When a function of the script, or the script itself, ends: a local variable that holds an object, or a table that holds some ("wings.left").
   std::function<void(std::string_view name, bool is_of_script, const ScriptValue& value)> named;
-  std::function<void(const std::vector<ScriptParameter>&)> declared;
+  /// All arguments so far, in the order of their declaration; is_complete: no later args{} can add to them.
+  std::function<void(const std::vector<ScriptParameter>&, bool is_complete)> declared;
   bool is_sketch = false;             ///< solids that would be united stay side by side: to see at once where things are
   mutable bool has_left_out = false;  ///< a sketch did
 };

@@ -29,6 +29,7 @@ struct SeriesSettings {
   std::optional<CaseAddress> worker;            ///< this process runs that case and nothing else
   std::function<void(bool)> stops_itself = {};  ///< told true while a series runs, which ends its workers or jobs itself when it is stopped; may be empty
   int tasks = 0;                                ///< cases at a time, in place of what the script says; 0 = as the script says
+  bool retries = false;                         ///< cases that failed in an earlier run, too, run again
 };
 
 /// The case that the others of a series start from.

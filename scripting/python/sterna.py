@@ -33,6 +33,8 @@ __all__ = [
 Path = typing.Union[str, os.PathLike]
 Paths = typing.Union[Path, collections.abc.Iterable[Path]]
 
+Arguments = typing.Union[collections.abc.Mapping[str, object], collections.abc.Iterable[typing.Union[str, tuple[str, object]]]]  # {"alpha": 4} or ["alpha=4"]
+
 _K_STOP_SECONDS = 10.0  # sterna ends within a second of an interrupt; its engines are given time to clean up
 
 
@@ -142,6 +144,39 @@ def _list_of(value: object) -> list:
     return [value] if isinstance(value, (str, os.PathLike)) or not isinstance(value, collections.abc.Iterable) else list(value)
 
 
+def _paths(value: object, what: str) -> list:
+    """One path or several, as a list; anything else is a TypeError here and not a file that the program does not find."""
+    paths = _list_of(value)
+    if isinstance(value, (bytes, collections.abc.Mapping)) or not all(isinstance(path, (str, os.PathLike)) for path in paths):
+        raise TypeError(f"{what}: expected a path or a list of paths, not {value!r}")
+    return paths
+
+
+def _one_path(value: object, what: str) -> Path:
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{what}: expected one path, not {value!r}")
+    return value
+
+
+def _script_arguments(arguments: object) -> list[str]:
+    """NAME=VALUE of a dictionary, or of a list of such texts or of pairs."""
+    if arguments is None:
+        return []
+    if isinstance(arguments, collections.abc.Mapping):
+        arguments = arguments.items()
+    elif isinstance(arguments, (str, bytes)) or not isinstance(arguments, collections.abc.Iterable):
+        raise TypeError(f"arguments: expected a dictionary {{'alpha': 4}} or a list ['alpha=4'], not {arguments!r}")
+    made = []
+    for entry in arguments:
+        if isinstance(entry, str) and re.match(r"\w+=", entry):
+            made.append(entry)
+        elif isinstance(entry, tuple) and len(entry) == 2 and isinstance(entry[0], str):
+            made.append(f"{entry[0]}={_value_text(entry[1])}")
+        else:
+            raise TypeError(f"arguments: {entry!r} is neither 'name=value' nor a pair (name, value)")
+    return made
+
+
 def _option_arguments(options: collections.abc.Mapping[str, object]) -> list[str]:
     """--name=value of each; None is left out. `set` and `patch` take dictionaries: set={"envelope.layers": 24}, patch={"tunnel*": {"layers": 20}}."""
     made = []
@@ -151,6 +186,9 @@ def _option_arguments(options: collections.abc.Mapping[str, object]) -> list[str
         if name == "set" and isinstance(value, collections.abc.Mapping):
             value = [f"{option}={_value_text(entry)}" for option, entry in value.items()]
         elif name == "patch" and isinstance(value, collections.abc.Mapping):
+            for patch, rules in value.items():
+                if not isinstance(rules, collections.abc.Mapping):
+                    raise TypeError(f"patch {patch!r}: expected a dictionary of its options, e.g. {{'layers': 20}}, not {rules!r}")
             value = [f"{patch}:" + ",".join(f"{option}={_value_text(entry)}" for option, entry in rules.items()) for patch, rules in value.items()]
         elif isinstance(value, collections.abc.Mapping):
             raise TypeError(f"option {name} takes no dictionary; set and patch do")
@@ -320,8 +358,10 @@ class Sterna:
 
     def _made(self, verb: str, inputs: Paths, outputs: Paths, options: dict) -> dict:
         """Runs a verb that writes files; gives the manifest of the first with "files", "text" and "warnings"."""
-        outputs = _list_of(outputs)
-        done = self._must(verb, _list_of(inputs), {"output": outputs, **options})
+        outputs = _paths(outputs, "outputs")
+        if not outputs:
+            raise TypeError("outputs: expected at least one path")
+        done = self._must(verb, _paths(inputs, "inputs"), {"output": outputs, **options})
         return {**self.read_manifest(outputs[0]), "files": [str(self._path(name)) for name in outputs], "text": done.output, "warnings": done.warnings}
 
     def version(self) -> str:
@@ -333,14 +373,14 @@ class Sterna:
             raise SternaError(f"{self.program} is no sterna: --version says {(output or messages.error).strip()!r}", command, status, output)
         return output.split()[1]
 
-    def run(self, script: Path, arguments: collections.abc.Mapping[str, object] | None = None, **options: object) -> dict:
-        """`sterna run script.lua name=value ...`: what the script printed ("text") and the warnings. An INVALID mesh, too, is an exception (InvalidMesh)."""
-        done = self._must("run", [script, *(f"{name}={_value_text(value)}" for name, value in (arguments or {}).items())], options)
+    def run(self, script: Path, arguments: Arguments | None = None, **options: object) -> dict:
+        """`sterna run script.lua name=value ...`, with arguments={"name": value} or ["name=value"]: what the script printed ("text") and the warnings. An INVALID mesh, too, is an exception (InvalidMesh)."""
+        done = self._must("run", [_one_path(script, "script"), *_script_arguments(arguments)], options)
         return {"text": done.output, "warnings": done.warnings}
 
-    def check_script(self, script: Path, arguments: collections.abc.Mapping[str, object] | None = None, **options: object) -> list[str]:
+    def check_script(self, script: Path, arguments: Arguments | None = None, **options: object) -> list[str]:
         """The mistakes of a script, found without meshing; an empty list where there is none."""
-        done = self._do("check-script", [script, *(f"{name}={_value_text(value)}" for name, value in (arguments or {}).items())], options)
+        done = self._do("check-script", [_one_path(script, "script"), *_script_arguments(arguments)], options)
         if done.error and done.status != 2:
             raise done.error
         return re.split(r"\n(?=\S)", done.error.message) if done.error else []
@@ -357,31 +397,32 @@ class Sterna:
 
     def union(self, parts: Paths, outputs: Paths, **options: object) -> dict:
         """`sterna union`: closed parts that stick in each other become one wall. Gives "files", "text", "warnings"."""
-        done = self._must("union", _list_of(parts), {"output": _list_of(outputs), **options})
-        return {"files": [str(self._path(name)) for name in _list_of(outputs)], "text": done.output, "warnings": done.warnings}
+        outputs = _paths(outputs, "outputs")
+        done = self._must("union", _paths(parts, "parts"), {"output": outputs, **options})
+        return {"files": [str(self._path(name)) for name in outputs], "text": done.output, "warnings": done.warnings}
 
     def convert(self, source: Path, output: Path, **options: object) -> str:
         """`sterna convert source output`: a surface, a volume mesh or a model in another format; gives the output's path."""
-        self._must("convert", [source, output], options)
+        self._must("convert", [_one_path(source, "source"), _one_path(output, "output")], options)
         return str(self._path(output))
 
     def check(self, mesh: Path, **options: object) -> dict:
         """`sterna check --json`: the proof and the measures of a volume mesh (docs/check_json.md). An INVALID mesh is an answer, not an exception: see "verdict"."""
-        done = self._do("check", [mesh], {"json": True, **options})
+        done = self._do("check", [_one_path(mesh, "mesh")], {"json": True, **options})
         if done.error and done.status != 3:
             raise done.error
         return {**json.loads(done.output), "warnings": done.warnings}
 
     def check_family(self, meshes: Paths, **options: object) -> dict:
         """`sterna check-family --json`: whether meshes, from coarse to fine, are members of one family. A rule that FAILs is an answer."""
-        done = self._do("check-family", _list_of(meshes), {"json": True, **options})
+        done = self._do("check-family", _paths(meshes, "meshes"), {"json": True, **options})
         if done.error and done.status != 3:
             raise done.error
         return {**json.loads(done.output), "warnings": done.warnings}
 
     def inspect(self, surfaces: Paths, **options: object) -> dict:
         """`sterna inspect --json`: what meshing will make of a surface (docs/inspect.md). Findings that are errors are an answer, not an exception: see "errors"."""
-        done = self._do("inspect", _list_of(surfaces), {"json": True, **options})
+        done = self._do("inspect", _paths(surfaces, "surfaces"), {"json": True, **options})
         if done.error and not (done.status == 1 and done.output.lstrip().startswith("{")):
             raise done.error
         return {**json.loads(done.output), "warnings": done.warnings}
@@ -389,31 +430,31 @@ class Sterna:
     def info(self, file: Path, **options: object) -> dict:
         """`sterna info --json`: what a file holds: "kind" (surface, volume mesh, model), "box", "patches" with name, kind and area; of volume meshes "nodes" and "cells"; of
         models "components", "solids", "wings" (span, areas, mean chords), "total". And "manifest": what is known of how sterna made it, None where there is none."""
-        done = self._must("info", [file], {"json": True, **options})
+        done = self._must("info", [_one_path(file, "file")], {"json": True, **options})
         manifest = self._path(f"{os.fspath(file)}.json")
         return {**json.loads(done.output), "manifest": _load(manifest) if manifest.is_file() else None, "warnings": done.warnings}
 
     def draw(self, mesh: Path, picture: Path, **options: object) -> str:
         """`sterna draw mesh -o picture.png`; gives the picture's path."""
-        self._must("draw", [mesh], {"output": picture, **options})
+        self._must("draw", [_one_path(mesh, "mesh")], {"output": _one_path(picture, "picture"), **options})
         return str(self._path(picture))
 
     def report(self, mesh: Path, page: Path, **options: object) -> str:
         """`sterna report mesh -o page.html`; gives the page's path. Of an INVALID mesh, too, whose page shows where."""
-        done = self._do("report", [mesh], {"output": page, **options})
+        done = self._do("report", [_one_path(mesh, "mesh")], {"output": _one_path(page, "page"), **options})
         if done.error and done.status != 3:
             raise done.error
         return str(self._path(page))
 
-    def series(self, script: Path, name: str, arguments: collections.abc.Mapping[str, object] | None = None, *, must_succeed: bool = False, **options: object) -> dict:
+    def series(self, script: Path, name: str, arguments: Arguments | None = None, *, must_succeed: bool = False, **options: object) -> dict:
         """`sterna run` of a script with `series{ "NAME", ... }` (docs/series.md): gives NAME/series.json, with one entry per case in "cases".
 
         Cases that failed, were killed or are INVALID are an answer; with must_succeed they raise CaseFailure. A script that goes wrong elsewhere raises its own error. What an
         earlier run has done is kept, so that calling it again goes on where it was stopped.
         """
-        table = self._path(name) / "series.json"
+        table = self._path(_one_path(name, "name")) / "series.json"
         begin = time.time_ns()
-        done = self._do("run", [script, *(f"{key}={_value_text(value)}" for key, value in (arguments or {}).items())], options)
+        done = self._do("run", [_one_path(script, "script"), *_script_arguments(arguments)], options)
         is_written = table.is_file() and table.stat().st_mtime_ns >= begin - 10**9  # clocks of file systems are coarse
         result = self.read_series(name) if is_written else None
         bad = [case for case in result["cases"] if case["status"] != "done" or case.get("verdict", "VALID") != "VALID"] if result else []

@@ -29,6 +29,7 @@ Json json_of(const CaseStatus& status) {
   Json json = {{"schema", k_schema}, {"status", to_string(status.state)}, {"key", status.key}};
   if (status.state == CaseState::running) json["process"] = {{"pid", status.process}, {"host", status.host}};
   if (status.state == CaseState::failed) json["error"] = {{"code", status.code}, {"message", status.message}, {"places", places_json(status.places)}};
+  if (status.is_of_machine && status.state == CaseState::failed) json["error"]["of_machine"] = true;
   if (status.state == CaseState::killed) json["killed"] = status.message;
   if (status.state == CaseState::done) {
     json["mesh"] = status.mesh.verdict.empty()
@@ -65,6 +66,7 @@ CaseStatus status_of(const Json& json) {
     const Json& error = json.at("error");
     status.code = error.at("code");
     status.message = error.at("message");
+    status.is_of_machine = error.value("of_machine", false);
     for (const Json& place : error.at("places"))
       status.places.push_back({{place.at("at").at(0), place.at("at").at(1), place.at("at").at(2)}, place.at("what")});
   }

@@ -42,6 +42,7 @@ struct CaseStatus {
   std::string code;                ///< failed: the ErrorCode
   std::string message;             ///< failed: the whole text; killed: by what
   std::vector<ErrorPlace> places;  ///< failed
+  bool is_of_machine = false;      ///< failed for want of memory, disk or a process: another run may succeed
 
   std::int64_t process = 0;  ///< running
   std::string host;          ///< running

@@ -80,12 +80,20 @@ std::string message_of_function(const Error& error) {
   return Error(std::move(info)).what();
 }
 
+/// Whether a full disk, little memory or a process that was ended is the cause, and not the case.
+bool is_of_machine(const Error& error) {
+  if (error.code() == ErrorCode::write_failed) return true;
+  const bool can_be = error.code() == ErrorCode::overflow || error.code() == ErrorCode::tetra_engine_failed;
+  return can_be && std::string_view(error.what()).find("memory") != std::string_view::npos;
+}
+
 /// Fills the status with what became of the function's error, and draws it.
 void note_failure(const Error& error, CaseStatus& status, const fs::path& folder) {
   status.state = error.code() == ErrorCode::cancelled ? CaseState::killed : CaseState::failed;
   status.message = status.state == CaseState::killed ? "stopped on request" : message_of_function(error);
   status.code = to_string(error.code());
   status.places = error.info().places;
+  status.is_of_machine = status.state == CaseState::failed && is_of_machine(error);
   if (status.state == CaseState::failed && !error.info().geometry.empty()) io::write_trouble_vtu(error.info().geometry, folder / "trouble.vtu");
 }
 

@@ -62,6 +62,7 @@ CaseStatus death_of(const Running& running, int wait_status) {
   }
   status.state = CaseState::failed;
   status.code = to_string(ErrorCode::script_failed);
+  status.is_of_machine = true;  // the worker could not even write what became of the case
   const std::string log = end_of_log(running.task->folder);
   status.message = log.empty() ? "the worker ended without a word, status " + std::to_string(WEXITSTATUS(wait_status)) : log;
   return status;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/hash.h"
+#include "scripting/series/script_essence.h"
 #include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
@@ -25,7 +26,7 @@ Json json_of(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& s
       {"index", c.index}};
   json["parameters"] = Json::parse(to_json(std::make_shared<const ScriptTable>(c.parameters)));
   json["script"] = session.script.filename().string();
-  json["script_xxh3_64"] = hex(hash_bytes(session.series.script_text));
+  json["script_xxh3_64"] = hex(hash_bytes(script_essence(session.series.script_text)));
   json["words"] = session.series.settings.words;
   json["seed"] = session.context.seed();
   if (plan.reference) json["reference"] = plan.cases[*plan.reference].name;

@@ -27,7 +27,7 @@ struct SlurmOptions {
 };
 
 struct SeriesOptions {
-  bool retry = false;  ///< run failed cases again
+  bool retry = false;  ///< run failed cases again; those that failed because of the machine run again in any case
 };
 
 struct SeriesPlan {
@@ -47,8 +47,8 @@ struct SeriesPlan {
   std::filesystem::path folder_of(const SeriesCase& c) const { return folder / c.name; }
 };
 
-/// Of all that decides what a case does, but for the files that it reads: script, parameters, name and index, the words of the command line, seed, version and
-/// build, the tables of earlier series. 16 hex digits.
+/// Of all that decides what a case does, but for the files that it reads: script (script_essence.h), parameters, name and index, the words of the command line,
+/// seed, version and build, the tables of earlier series. 16 hex digits.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
 /// case.json: the same for people, and for other programs.

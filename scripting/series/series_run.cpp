@@ -113,13 +113,15 @@ class SeriesRun {
       const SeriesCase& c = plan_.cases[i];
       CaseTask task{.of = &c, .folder = plan_.folder_of(c), .key = case_key(plan_, c, session_)};
       const CaseStatus status = read_status(task.folder, context_);
-      if (!is_current(status, task.folder, task.key) || (status.state == CaseState::failed && plan_.options.retry)) tasks.push_back(std::move(task));
+      if (!is_current(status, task.folder, task.key) || (status.state == CaseState::failed && is_tried_again(status))) tasks.push_back(std::move(task));
       else finish(c, status, true);
     }
     if (tasks.empty()) return;
     if (plan_.is_slurm) run_on_slurm(tasks, runner(plan_.slurm.tasks, plan_.slurm.threads));
     else run_in_pool(tasks, pool_runner(tasks.size()));
   }
+
+  bool is_tried_again(const CaseStatus& status) const { return plan_.options.retry || session_.series.settings.retries || status.is_of_machine; }
 
   RunnerContext pool_runner(std::size_t n_tasks) {
     const int cores = context_.threads();

@@ -41,8 +41,10 @@ struct Schema<scripting::SeriesOptions> {
   using O = scripting::SeriesOptions;
   static constexpr std::string_view stage = "series";
   static constexpr std::array fields = {
-      Field<O>{
-          .name = "retry", .member = &O::retry, .help = "run again what failed in an earlier run; else only what was killed and what has changed runs again"},
+      Field<O>{.name = "retry",
+               .member = &O::retry,
+               .help = "run all cases again that failed in an earlier run; cases that were killed, have changed, or failed because of the machine run again in "
+                       "any case"},
   };
 };
 

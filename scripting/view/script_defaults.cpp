@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "geom/base/error.h"
+#include "scripting/lua/lua_text.h"
 
 namespace sterna::scripting {
 namespace {
@@ -12,66 +13,8 @@ namespace {
   throw Error({.code = ErrorCode::bad_argument, .attempted = "writing values into the script", .problem = problem, .hint = "change it by hand"});
 }
 
-bool is_word(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
-
-/// The place behind a comment or a string that begins at `at`; `at` itself where none does.
-std::size_t behind_text(const std::string& s, std::size_t at) {
-  const auto long_bracket = [&](std::size_t from) -> std::optional<std::size_t> {  // [[ ... ]], [==[ ... ]==]
-    if (from >= s.size() || s[from] != '[') return std::nullopt;
-    std::size_t level = 0;
-    while (from + 1 + level < s.size() && s[from + 1 + level] == '=') ++level;
-    if (from + 1 + level >= s.size() || s[from + 1 + level] != '[') return std::nullopt;
-    const std::size_t end = s.find("]" + std::string(level, '=') + "]", from + level + 2);
-    return end == std::string::npos ? s.size() : end + level + 2;
-  };
-  if (s.compare(at, 2, "--") == 0) {
-    if (const auto end = long_bracket(at + 2)) return *end;
-    const std::size_t end = s.find('\n', at);
-    return end == std::string::npos ? s.size() : end + 1;
-  }
-  if (const auto end = long_bracket(at)) return *end;
-  if (s[at] != '"' && s[at] != '\'') return at;
-  std::size_t end = at + 1;
-  while (end < s.size() && s[end] != s[at]) end += s[end] == '\\' ? 2 : 1;
-  return std::min(end + 1, s.size());
-}
-
-/// Calls f(place) for each character outside of comments and strings from `from` on, and for each first one of a string, until it says true.
-template <class F>
-std::size_t look_through(const std::string& s, std::size_t from, const F& f) {
-  for (std::size_t at = from; at < s.size();) {
-    if (s.compare(at, 2, "--") != 0 && f(at)) return at;
-    const std::size_t next = behind_text(s, at);
-    at = next == at ? at + 1 : next;
-  }
-  return std::string::npos;
-}
-
-/// {place behind "args{", place of its "}"}
-std::pair<std::size_t, std::size_t> find_arguments(const std::string& s) {
-  std::size_t begin = std::string::npos;
-  look_through(s, 0, [&](std::size_t at) {
-    if (s.compare(at, 4, "args") != 0 || (at > 0 && is_word(s[at - 1]))) return false;
-    std::size_t brace = at + 4;
-    while (brace < s.size() && std::isspace(static_cast<unsigned char>(s[brace])) != 0) ++brace;
-    if (brace >= s.size() || s[brace] != '{') return false;
-    if (begin != std::string::npos) refuse_default("it has args{} twice");
-    begin = brace + 1;
-    return false;
-  });
-  if (begin == std::string::npos) refuse_default("it has no args{ ... }");
-  int depth = 1;
-  const std::size_t end = look_through(s, begin, [&](std::size_t at) {
-    if (s[at] == '{') ++depth;
-    if (s[at] == '}') --depth;
-    return depth == 0;
-  });
-  if (end == std::string::npos) refuse_default("its args{ is not closed");
-  return {begin, end};
-}
-
-/// Where the default of `name` stands: {from, to}.
-std::pair<std::size_t, std::size_t> find_default(const std::string& s, std::size_t begin, std::size_t end, const std::string& name) {
+/// Where the value of `name` begins in the table of this args{}.
+std::optional<std::size_t> find_value(const std::string& s, std::size_t begin, std::size_t end, const std::string& name) {
   const auto skip_blanks = [&](std::size_t at) {
     while (at < end && std::isspace(static_cast<unsigned char>(s[at])) != 0) ++at;
     return at;
@@ -88,7 +31,29 @@ std::pair<std::size_t, std::size_t> find_default(const std::string& s, std::size
     value = skip_blanks(equals + 1);
     return true;
   });
-  if (value == std::string::npos) refuse_default("args{} has no default for " + name);
+  return value == std::string::npos ? std::nullopt : std::optional(value);
+}
+
+/// Where the default of `name` stands: {from, to}. Script and modules may have several args{}.
+std::pair<std::size_t, std::size_t> find_default(const std::string& s, const std::string& name) {
+  const std::vector<TableCall> tables = table_calls(s, "args");
+  if (tables.empty()) refuse_default("it has no args{ ... }");
+  const TableCall* table = nullptr;
+  std::size_t value = 0;
+  for (const TableCall& one : tables) {
+    if (one.end == std::string::npos) refuse_default("its args{ is not closed");
+    const std::optional<std::size_t> found = find_value(s, one.begin, one.end, name);
+    if (!found) continue;
+    if (table) refuse_default("it declares " + name + " twice");
+    table = &one;
+    value = *found;
+  }
+  if (!table) refuse_default("args{} of this file has no default for " + name);
+  const std::size_t end = table->end;
+  const auto skip_blanks = [&](std::size_t at) {
+    while (at < end && std::isspace(static_cast<unsigned char>(s[at])) != 0) ++at;
+    return at;
+  };
   if (s.compare(value, 6, "number") == 0 && !is_word(s[value + 6])) {
     const std::size_t brace = skip_blanks(value + 6);
     if (s[brace] != '{') refuse_default("the default of " + name + " is no plain value");
@@ -130,8 +95,7 @@ std::string lua_value(const std::string& value, std::string_view before, const s
 std::string with_defaults(const std::string& script, const std::vector<std::pair<std::string, std::string>>& values) {
   std::string text = script;
   for (const auto& [name, value] : values) {
-    const auto [begin, end] = find_arguments(text);
-    const auto [from, to] = find_default(text, begin, end, name);
+    const auto [from, to] = find_default(text, name);
     const std::string before = text.substr(from, to - from);
     if (value.empty() || !is_plain_default(before)) refuse_default("the default of " + name + " is \"" + before + "\", which is computed");
     text.replace(from, to - from, lua_value(value, before, name));

@@ -173,10 +173,10 @@ class Worker {
     watch.is_sketch = mode == Mode::sketch;
     watch.made = [this](const ScriptCall& call, const ScriptValue& value) { note_made(call, value); };
     watch.named = [this](std::string_view name, bool is_of_script, const ScriptValue& value) { note_name(name, is_of_script, value); };
-    watch.declared = [this](const std::vector<ScriptParameter>& parameters) {
+    watch.declared = [this](const std::vector<ScriptParameter>& parameters, bool is_complete) {
       WorkerJson list = WorkerJson::array();
       for (const ScriptParameter& p : parameters) list.push_back(parameter_json(p));
-      answers_.send({{"is", "parameters"}, {"run", number_}, {"list", std::move(list)}});
+      answers_.send({{"is", "parameters"}, {"run", number_}, {"list", std::move(list)}, {"complete", is_complete}});
     };
     ScriptSettings settings{
         .script = settings_.script,

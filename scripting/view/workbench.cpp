@@ -502,7 +502,7 @@ class Workbench::Parts {
       state_.stage = line.value("stage", "");
       state_.share = line.value("share", 0.0);
       state_.left = line.value("left", BenchJson(nullptr));
-    } else if (is == "parameters") note_parameters(line["list"]);
+    } else if (is == "parameters") note_parameters(line["list"], line.value("complete", false));
     else if (is == "objects") note_objects(line);
     else if (is == "scene") note_scene(line, std::move(bytes));
     else if (is == "asked") state_.asked[line.value("ask", 0)] = std::move(bytes);
@@ -521,8 +521,9 @@ class Workbench::Parts {
   }
 
   /// Values of arguments that the script no longer has are dropped, and the script runs without them.
-  void note_parameters(const BenchJson& list) {
+  void note_parameters(const BenchJson& list, bool is_complete) {
     state_.parameters = list;
+    if (!is_complete) return;  // a module may declare more
     const auto n_dropped = std::erase_if(
         state_.values, [&](const auto& entry) { return std::ranges::none_of(list, [&](const BenchJson& p) { return p.value("name", "") == entry.first; }); });
     if (n_dropped > 0 && asked_mode_.empty()) asked_mode_ = state_.mode;

@@ -232,6 +232,30 @@ TEST_F(CheckScript, WrongArgumentsAreErrorsWithASuggestion) {
   EXPECT_EQ(test::run_process(test::sterna_program(), {"run", "case.lua", "alpha"}, folder_).status, 2);
 }
 
+TEST_F(CheckScript, ScriptAndModulesMayDeclareArguments) {
+  std::ofstream(folder_ / "parts.lua") << "local c = args{ span = 10 } return c";
+  for (const std::string text : {"local g = args{ level = 'coarse' } local m = require 'parts' print(g.level, m.span)",
+                                 "local m = require 'parts' local g = args{ level = 'coarse' } print(g.level, m.span)"}) {
+    EXPECT_EQ(run_with(text, {}), "coarse\t10\n");
+    EXPECT_EQ(run_with(text, {{"span", "12"}, {"level", "fine"}}), "fine\t12\n");
+    EXPECT_THAT(error_with(text, {{"spam", "12"}}), HasSubstr("this script has no argument spam, did you mean span?"));
+    EXPECT_THAT(error_with(text, {{"span", "wide"}}), HasSubstr("argument span=wide: expected a number"));
+  }
+  EXPECT_EQ(run_with("local g = args{ span = 10, level = 'coarse' } local m = require 'parts' print(g.span, m.span)", {{"span", "12"}}), "12\t12\n");
+  EXPECT_EQ(run_with("require 'parts' print(args{ level = 'coarse' }.level, args.height)", {{"height", "2"}}), "coarse\t2\n");
+  EXPECT_THAT(error_with("args{ span = 11 } require 'parts'", {}),
+              testing::AllOf(HasSubstr("parts.lua:1: args"), HasSubstr("argument span: "), HasSubstr("case.lua:1 declares it with another default")));
+  EXPECT_THAT(error_with("require 'parts' args{ span = number{ 10, min = 6 } }", {}), HasSubstr("other limits"));
+}
+
+TEST_F(CheckScript, UnknownArgumentsAreRefusedBeforeWorkBegins) {
+  std::ofstream(folder_ / "parts.lua") << "return args{ span = 10 }";
+  // A function that is never called might still declare it: the error comes when the script is over.
+  EXPECT_THAT(error_with("args{ level = 1 } local function later() args{ deep = 1 } end", {{"deeep", "2"}}), HasSubstr("no argument deeep"));
+  // Nothing else can declare it: the error comes before the first verb that takes time.
+  EXPECT_THAT(error_with("args{ level = 1 } require 'parts' volume_mesh{}", {{"spam", "2"}}), HasSubstr("no argument spam"));
+}
+
 TEST_F(CheckScript, WorkersOfASeriesGetTheArguments) {
   std::ofstream(folder_ / "case.lua") << "local p = args{ alpha = 0, name = '' }\nlocal r = series{ 's', over = { x = {1, 2} }, cache = false, case = "
                                          "function(q) return { y = p.alpha + q.x, name = p.name } end }\n"

@@ -104,6 +104,22 @@ class Commands(Case):
         script = self.write("angle.lua", "local given = args{ alpha = 0, half = false }\nprint(string.format(\"%g\", given.alpha + 1), given.half)\n")
         self.assertEqual(self.sterna.run(script, {"alpha": 4, "half": True})["text"].split(), ["5", "true"])
 
+    def test_arguments_of_scripts_in_every_form(self):
+        self.write("twice.lua", "local p = args{ a = 0, name = '' } print(p.a * 2, p.name)")
+        for arguments in ({"a": 3, "name": "x=y"}, ["a=3", "name=x=y"], [("a", 3), ("name", "x=y")], ("a=3", "name=x=y")):
+            self.assertEqual(self.sterna.run("twice.lua", arguments)["text"], "6\tx=y\n")
+            self.assertEqual(self.sterna.check_script("twice.lua", arguments), [])
+
+    def test_wrong_types_are_type_errors(self):
+        script = self.write("empty.lua", "")
+        for call in (lambda: self.sterna.run(script, "a=1"), lambda: self.sterna.run(script, 3), lambda: self.sterna.run(script, ["a"]), lambda: self.sterna.run(script, [1]),
+                     lambda: self.sterna.run([script]), lambda: self.sterna.check_script(script, "a=1"), lambda: self.sterna.series(script, "s", "a=1"),
+                     lambda: self.sterna.mesh(3, "a.su2"), lambda: self.sterna.mesh({"a": 1}, "a.su2"), lambda: self.sterna.mesh(BOX, None), lambda: self.sterna.mesh(BOX, []),
+                     lambda: self.sterna.mesh(BOX, "a.su2", patch={"wing": 3}), lambda: self.sterna.check(["a.su2"]), lambda: self.sterna.info(None), lambda: self.sterna.union(None, "a.stl"),
+                     lambda: self.sterna.draw("a.su2", None), lambda: self.sterna.convert(["a.su2"], "b.su2"), lambda: self.sterna.inspect(None), lambda: self.sterna.report(3, "a.html")):
+            with self.assertRaisesRegex(TypeError, "expected|neither|at least"):
+                call()
+
     def test_version(self):
         self.assertRegex(self.sterna.version(), r"^\d+\.\d+\.\d+$")
 

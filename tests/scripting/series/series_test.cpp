@@ -147,8 +147,36 @@ TEST_F(Series, WhatItWasMadeOfDecidesWhetherACaseRunsAgain) {
   std::ofstream(folder_ / "box.stl", std::ios::app) << "\n";
   EXPECT_EQ(n_run(run(k_small)), 4u);
   const std::string retry = std::string(k_small).replace(std::string(k_small).find("over ="), 0, "retry = true, ");
-  EXPECT_EQ(n_run(run(retry)), 4u);  // another script
-  EXPECT_EQ(n_run(run(retry)), 1u);  // the failed one
+  EXPECT_EQ(n_run(run(retry)), 1u);  // the failed one: retry is no part of the key
+  EXPECT_EQ(n_run(run(k_small)), 0u);
+}
+
+TEST_F(Series, WhereCasesRunDecidesNothing) {
+  const std::string script =
+      "series{ \"small\", over = { x = {1, 2} }, cache = false, case = function(p)\n  if p.x == 2 then error(\"two\") end\n  return { y = p.x }\nend";
+  EXPECT_EQ(n_run(run(script + " }")), 2u);
+  EXPECT_EQ(n_run(run(script + " }")), 0u);
+  EXPECT_EQ(n_run(run(script + ",\n  run = jobs{ 1, threads = 1 }, -- here\n}")), 0u);
+  EXPECT_EQ(n_run(run(script + ", retry = false }")), 0u);
+  EXPECT_EQ(n_run(run(script + " }", {"--retry"})), 1u);
+  EXPECT_EQ(n_run(run(script + " }")), 0u);
+  EXPECT_EQ(n_run(run(script + " }\nlocal retry = true")), 2u);  // not an entry of the series
+}
+
+TEST_F(Series, FailuresOfTheMachineAreTriedAgain) {
+  const std::string script =
+      "local box = read_surface 'box.stl'\nseries{ 'small', over = { x = {1, 2} }, cache = false, case = function(p)\n"
+      "  if p.x == 2 then box:write('../../out/box.stl') else error('one') end\nend }";
+  std::ofstream(folder_ / "out") << "a file where a folder is needed, as on a disk that is full";
+  const test::ProcessResult first = run(script);
+  EXPECT_EQ(first.status, 1);
+  EXPECT_THAT(text_of("small/x=2/status.json"), AllOf(HasSubstr("write_failed"), HasSubstr("\"of_machine\": true")));
+  EXPECT_THAT(text_of("small/x=1/status.json"), Not(HasSubstr("of_machine")));
+  EXPECT_EQ(n_run(run(script)), 1u);
+  std::filesystem::remove(folder_ / "out");
+  EXPECT_EQ(n_run(run(script)), 1u);
+  EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("\"status\": \"done\""));
+  EXPECT_EQ(n_run(run(script)), 0u);
 }
 
 TEST_F(Series, TasksAndThreadsDoNotChangeAByte) {

@@ -24,6 +24,7 @@ local p = args{
 local span = 5
 )lua");
   EXPECT_EQ(with_defaults(k_script, {}), k_script);
+  EXPECT_EQ(with_defaults("args{ a = 1 } args{ b = 2 }", {{"b", "3"}}), "args{ a = 1 } args{ b = 3 }");
   EXPECT_EQ(with_defaults("local p = args { a=1 }", {{"a", "-2e-3"}}), "local p = args { a=-2e-3 }");
 }
 
@@ -36,7 +37,7 @@ TEST(ScriptDefaults, SaysWhatItCannotChange) {
   refuse(k_script, {"span", "os.exit()"}, "is no value for span");
   refuse(k_script, {"name", "a\" .. evil .. \""}, "has quotes");
   refuse("local p = 1", {"span", "1"}, "has no args{");
-  refuse("args{ a = 1 } args{ a = 2 }", {"a", "1"}, "args{} twice");
+  refuse("args{ a = 1 } args{ a = 2 }", {"a", "1"}, "declares a twice");
   refuse("args{ a = 1 ", {"a", "1"}, "not closed");
 }
 

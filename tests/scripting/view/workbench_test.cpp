@@ -111,6 +111,19 @@ class WorkbenchTest : public testing::Test {
   int port_ = 0;
 };
 
+TEST_F(WorkbenchTest, ShowsTheArgumentsOfScriptAndModulesInTheirOrder) {
+  std::ofstream(folder_ / "parts.lua") << "return args{ zeta = 1,\n  span = number{ 10, min = 6, max = 20 } }";
+  write("local g = args{ level = 'coarse', depth = 3 }\nlocal m = require 'parts'\nlocal b = box{ {0,0,0}, {m.span,1,1} }");
+  start({"case.lua", "--no-browser", "span=12"});
+  const ViewJson now = wait_for_end(0);
+  EXPECT_EQ(now["run"]["status"], "done") << now.dump();
+  std::vector<std::string> names;
+  for (const ViewJson& parameter : now["parameters"]) names.push_back(parameter["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"level", "depth", "zeta", "span"}));
+  EXPECT_EQ(now["parameters"][3]["value"], 12);
+  EXPECT_EQ(now["values"]["span"], "12");
+}
+
 TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   start({"case.lua", "--no-browser", "--threads", "2", "span=12"});
   EXPECT_TRUE(body_of(exchange_bytes(port_, get_request(port_, secret_))).starts_with("<!DOCTYPE html>"));

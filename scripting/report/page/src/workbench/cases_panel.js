@@ -100,7 +100,7 @@ export class CasesPanel {
       { key: "verdict", title: "mesh", is_state: true, of: (entry) => entry.verdict },
       { key: "cells", title: "cells", of: (entry) => entry.cells },
     ];
-    const gates = names("gates").map((name) => ({ key: `g_${name}`, title: name, is_state: true, of: (entry) => entry.gates[name] }));
+    const gates = names("gates").sort((a, b) => a.localeCompare(b, "en", { numeric: true })).map((name) => ({ key: `g_${name}`, title: name, is_state: true, of: (entry) => entry.gates[name] }));
     return [...plain, ...gates];
   }
 

@@ -1,0 +1,33 @@
+// Arguments that a script and its modules declare with args{}.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scripting/lua/script_value.h"
+
+namespace sterna::scripting {
+
+/// An argument that a script declares with args{}.
+struct ScriptParameter {
+  std::string name;
+  ScriptValue initial;             ///< SI; nil: it must be given
+  ScriptValue value;               ///< SI, what the script goes on with
+  std::optional<double> min, max;  ///< in `unit`
+  std::optional<double> step;      ///< the same
+  std::string unit = {};           ///< "deg"; empty: a plain number, text or flag
+  double unit_value = 1.0;         ///< SI value of the unit: a bare number on the command line counts in it
+};
+
+/// All arguments that a run has declared so far, in script and modules.
+struct DeclaredArguments {
+  std::vector<ScriptParameter> list = {};          ///< in the order of declaration
+  std::map<std::string, std::string> places = {};  ///< name -> "case.lua:5"
+  std::set<std::string> calls = {};                ///< places of the args{} that have run
+  bool is_refused = false;                         ///< the error of an unknown argument was raised
+};
+
+}  // namespace sterna::scripting
