@@ -242,8 +242,8 @@ void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext&
 /// With --remesh: the surface with new triangles, as fine as the family asks.
 void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, SurfaceValue& wall, const Reuse& reuse, const CommandContext& context) {
   if (!command.is_remeshed) {
-    if (!command.remesh.empty())
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.remesh.front().first, .problem = "is given without --remesh"});
+    if (!command.remesh.empty() && !command.is_auto)
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.remesh.front().first, .problem = "is given without --remesh or --auto"});
     return;
   }
   RemeshRecipe recipe;
@@ -298,6 +298,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;
+  set_options(sterna::options_of(recipe.options), command.remesh, context);
   const std::size_t n_changes = wall.changes.size();
   const SurfaceValue first = without_needles(wall, recipe, part, reuse);
   const bool is_new = first.changes.size() > n_changes;
