@@ -256,8 +256,8 @@ std::vector<volmesh::SizeSource> sources_of(const std::vector<std::string>& text
 /// With --remesh: the surface with new triangles, as fine as the family asks; sources refine it as they do the volume.
 void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, SurfaceValue& wall, const Reuse& reuse, const CommandContext& context) {
   if (!command.is_remeshed) {
-    if (!command.remesh.empty())
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.remesh.front().first, .problem = "is given without --remesh"});
+    if (!command.remesh.empty() && !command.is_auto)
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.remesh.front().first, .problem = "is given without --remesh or --auto"});
     return;
   }
   RemeshRecipe recipe;
@@ -332,6 +332,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;
   recipe.sources = sources_of(command.sources);
+  set_options(sterna::options_of(recipe.options), command.remesh, context);
   const std::size_t n_changes = wall.changes.size();
   const SurfaceValue first = without_needles(wall, recipe, part, reuse);
   const bool is_new = first.changes.size() > n_changes;

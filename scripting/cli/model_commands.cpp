@@ -92,7 +92,20 @@ void refuse_on_triangulations(const SurfaceCommand& command) {
 int execute(const SurfaceCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
-  set_options(model_surface_options(recipe.options, reading), command.options, context);
+  AutoSurface asked;
+  // Options of the stages that --auto may start have their stage's name before them: --set remesh.max_triangles=1e6
+  const auto stage_of = [&](const std::string& name) -> OptionTable {
+    if (name.starts_with("remesh.")) return sterna::options_of(asked.remesh);
+    if (name.starts_with("repair.")) return sterna::options_of(asked.repair);
+    if (name.starts_with("wrap.")) return sterna::options_of(asked.wrap);
+    return {};
+  };
+  OptionOverrides own, of_stages;
+  for (const auto& option : command.options) (stage_of(option.first).empty() ? own : of_stages).push_back(option);
+  if (!command.is_auto && !of_stages.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + of_stages.front().first, .problem = "is given without --auto"});
+  set_options(model_surface_options(recipe.options, reading), own, context);
+  for (const auto& option : of_stages) set_options(stage_of(option.first), {option}, context);
   const std::vector<volmesh::PatchRule> layers = layer_rules_of(command.patches, &recipe.patches);
   for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
   if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
@@ -103,10 +116,10 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
   const Reuse reuse{.cache = cache.get(), .lines = nullptr};
   const RunContext part = context.run.part("surface", 0.0, 0.95);
-  surfmesh::StitchOptions stitching;
-  if (!is_automatic(reading.unit)) stitching.unit = reading.unit;
-  SurfaceValue surface = command.is_auto ? auto_surface(inputs, {.stitching = stitching, .reading = reading, .recipe = recipe}, reuse, part)
-                                         : mesh_model_files(inputs, reading, recipe, part, reuse);
+  if (!is_automatic(reading.unit)) asked.stitching.unit = reading.unit;
+  asked.reading = reading;
+  asked.recipe = recipe;
+  SurfaceValue surface = command.is_auto ? auto_surface(inputs, asked, reuse, part) : mesh_model_files(inputs, reading, recipe, part, reuse);
   add_layer_rules(layers, surface);
   for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();

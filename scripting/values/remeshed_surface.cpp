@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "geom/math/constants.h"
 #include "scripting/cache/content_key.h"
@@ -21,14 +23,31 @@
 namespace sterna::scripting {
 namespace {
 
-/// Of the needles before: with more left the lines of the surface force them, and layers there are no better for it.
+/// Of the share of needles before: with more left the lines of the surface force them, and layers there are no better for it.
 constexpr double k_fewer_needles = 0.5;
-/// Refinements that are tried one after the other where there would be too many triangles: those of a family.
-constexpr std::array<double, 3> k_coarser = {1.0, 2.0 / 3.0, 4.0 / 9.0};
-/// Of the body's length: new triangles further from the given ones have lost something of the shape (a nose, a thin part), and nobody asked for them.
-constexpr double k_largest_distance = 0.02;
-/// without_needles() makes at most so many times the triangles, within these bounds: steps and slivers that look like curvature would ask for millions.
-constexpr std::size_t k_many_times = 5, k_few_triangles = 50'000, k_many_triangles = 200'000;
+/// Of the body's length and of the new triangles' edges: new triangles further from the given ones have lost something of the shape (a dent, a nose, a thin
+/// part).
+constexpr double k_largest_distance = 1e-3, k_largest_of_edge = 0.2;
+/// Share of the area that may be turned from the smooth surface beyond what the given triangles are: places at lines where both are a matter of one triangle.
+constexpr double k_more_turned = 0.005;
+/// without_needles() makes at most so many times the triangles, or so many where that is more: steps and slivers that look like curvature would ask for
+/// millions.
+constexpr std::size_t k_many_times = 20, k_few_triangles = 200'000;
+
+/// What is tried: sizes of a family, and vertices on the given triangles where those on the smooth surface are too far from them.
+struct Attempt {
+  double refinement;
+  bool is_smooth;
+};
+/// First the sizes that were asked for. Where there would be too many triangles, larger ones; where the result is no likeness, or too thin, smaller ones.
+constexpr Attempt k_first{1.0, true};
+constexpr std::array<Attempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0, true}}};
+constexpr std::array<Attempt, 2> k_finer{{{1.0, false}, {1.5, true}}};
+
+std::string text_of(const Attempt& attempt) {
+  if (!attempt.is_smooth) return "it is tried with vertices on the given triangles";
+  return fmt::format("it is tried with edges {:.3g} times as long", 1.0 / attempt.refinement);
+}
 
 std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size) {
   if (size) return std::nullopt;
@@ -45,7 +64,7 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
     return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, demand, context);
   });
-  require_near(result.report, demand);  // a cached result was made without a demand, perhaps
+  require_likeness(result.report, demand);  // a cached result was made without a demand, perhaps
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
   made.remesh_options = recipe.options;
@@ -86,31 +105,48 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   const surfmesh::NeedleCount before = surfmesh::count_needles(wall.mesh);
   RemeshRecipe bounded = recipe;
   const std::size_t n = wall.mesh.n_triangles();
-  const std::size_t most = std::clamp(k_many_times * n, k_few_triangles, std::max(k_many_triangles, n));
-  bounded.options.max_triangles = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), most));
-  const surfmesh::RemeshDemand demand{.most_needles = static_cast<std::int64_t>(std::ceil(k_fewer_needles * static_cast<double>(before.n))) - 1,
-                                      .least_angle = before.least_angle,
-                                      .largest_distance = k_largest_distance};
-  for (std::size_t i = 0; i < k_coarser.size(); ++i) {
-    bounded.options.refinement = k_coarser[i] * recipe.options.refinement;
+  const double share_before = static_cast<double>(before.n) / static_cast<double>(n);
+  const bool is_own_budget = recipe.options.max_triangles == surfmesh::RemeshOptions{}.max_triangles;
+  if (is_own_budget)
+    bounded.options.max_triangles =
+        static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), std::max(k_many_times * n, k_few_triangles)));
+  const surfmesh::RemeshDemand demand{.most_needles = k_fewer_needles * share_before,
+                                      .least_angle = std::min(before.least_angle, surfmesh::k_worst_needle_angle),
+                                      .largest_distance = k_largest_distance,
+                                      .largest_distance_of_edge = k_largest_of_edge,
+                                      .more_turned = k_more_turned};
+  const auto meets = [&](const SurfaceValue& made) {  // a cached result was made without a demand, perhaps
+    const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
+    const double share = static_cast<double>(after.n) / static_cast<double>(made.mesh.n_triangles());
+    if (share <= demand.most_needles && after.least_angle >= demand.least_angle) return true;
+    context.info(fmt::format("auto: remesh leaves {:.3g} % needles of {:.3g} %, the least angle {:.3g} deg for {:.3g} deg", 100.0 * share, 100.0 * share_before,
+                             after.least_angle / k_degree, before.least_angle / k_degree));
+    return false;
+  };
+  std::span<const Attempt> others;
+  std::size_t next = 0;
+  for (Attempt attempt = k_first;;) {
+    bounded.options.refinement = attempt.refinement * recipe.options.refinement;
+    bounded.options.smooth = attempt.is_smooth && recipe.options.smooth;
+    std::string problem = "auto: it does not meet the demand";
     try {
       SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
-      // A cached result was made without a demand, perhaps: it is looked at again.
-      const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
-      if (static_cast<double>(after.n) < k_fewer_needles * static_cast<double>(before.n) && after.least_angle >= before.least_angle)
-        return with_change(std::move(made), wall, context);
-      context.info(fmt::format("auto: remesh leaves {} needles of {}, the least angle {:.3g} deg for {:.3g} deg: the triangles stay as they are",
-                               count_text(after.n), count_text(before.n), after.least_angle / k_degree, before.least_angle / k_degree));
-      break;
+      if (meets(made)) return with_change(std::move(made), wall, context);
+      if (others.empty()) others = k_finer;
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled) throw;
-      const bool is_last = error.code() != ErrorCode::overflow || i + 1 == k_coarser.size();
-      context.info("auto: " + error.info().attempted + ": " + error.info().problem +
-                   (is_last ? "; the triangles stay as they are" : fmt::format("; it is tried with edges {:.3g} times as long", 1.0 / k_coarser[i + 1])));
-      if (is_last) break;
+      const bool is_too_many = error.code() == ErrorCode::overflow;
+      problem = "auto: " + error.info().attempted + ": " + error.info().problem;
+      if (is_too_many) problem += fmt::format(" (remesh.max_triangles{})", is_own_budget ? ", by default 20 times the given triangles, at least 200000" : "");
+      if (others.empty()) others = is_too_many ? std::span<const Attempt>(k_coarser) : std::span<const Attempt>(k_finer);
     }
+    if (next == others.size()) {
+      context.info(problem + "; the triangles stay as they are");
+      return wall;
+    }
+    attempt = others[next++];
+    context.info(problem + "; " + text_of(attempt));
   }
-  return wall;
 }
 
 }  // namespace sterna::scripting

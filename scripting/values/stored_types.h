@@ -57,11 +57,11 @@ inline constexpr std::size_t k_members<surfmesh::SurfaceMesh> = 7;
 template <>
 inline constexpr std::size_t k_members<SurfaceRecipe> = 4;
 template <>
-inline constexpr std::size_t k_members<surfmesh::SurfaceDistance> = 3;
+inline constexpr std::size_t k_members<surfmesh::SurfaceDistance> = 4;
 template <>
 inline constexpr std::size_t k_members<surfmesh::RowReport> = 6;
 template <>
-inline constexpr std::size_t k_members<surfmesh::RemeshReport> = 19;
+inline constexpr std::size_t k_members<surfmesh::RemeshReport> = 21;
 template <>
 inline constexpr std::size_t k_members<surfmesh::RemeshResult> = 2;
 template <>

@@ -22,6 +22,11 @@ constexpr double k_of_longest_side = 0.02;
 /// Of the root of a face's area.
 constexpr double k_of_face = 0.25;
 constexpr double k_min_of_max = 0.02;
+/// Of the model's longest side: automatic longest and shortest edges are no shorter, or tip faces of nearly zero size would ask for edges of nothing.
+constexpr double k_least_max_edge = 1e-4, k_least_min_edge = 1e-5;
+/// Of the longest edge of a face: narrow places ask for no shorter edges while min_edge is automatic. A rim a millionth as wide as it is long would ask for
+/// millions.
+constexpr double k_least_narrow = 1e-4;
 /// Rad: beyond about 45 degrees between triangles layers take a smooth place for an edge; edges miss their size by a third.
 constexpr double k_most_turn = 30.0 * std::numbers::pi / 180.0;
 /// Of the automatic min_edge: it gives way so far and no farther, since pointed tips and thin round trailing edges would ask for most of all triangles.
@@ -117,7 +122,8 @@ void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& 
                .hint = "a larger chord_error, or a min_edge, where it ends; are the model's units right?"});
 }
 
-FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
+FaceSizes resolve(const std::string& name, double automatic_max, double automatic_least, const SurfaceMeshOptions& options,
+                  std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
   double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
   // The last rule that matches and says something counts.
@@ -135,11 +141,12 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
   sizes.trailing_factor = trailing;
   sizes.has_tip_strips = options.tip_strips;
   sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
-  sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? k_min_of_max * sizes.max_edge : min_edge);
+  sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? std::max(k_min_of_max * sizes.max_edge, automatic_least) : min_edge);
+  sizes.least_narrow = is_automatic(min_edge) ? std::min(sizes.max_edge, automatic_least) / options.refinement : 0.0;
   // A min_edge that nobody gave ends neither a chord error, nor may the mesh turn sharply for it where the model is smooth.
   if (is_automatic(min_edge)) {
     sizes.limits.most_turn = std::max(angle, k_most_turn);
-    sizes.limits.least_edge = k_least_of_min * sizes.limits.min_edge;
+    sizes.limits.least_edge = std::max(k_least_of_min * sizes.limits.min_edge, std::min(sizes.max_edge, automatic_least));
   } else {
     sizes.limits.least_edge = sizes.limits.error_edge = sizes.limits.min_edge;
   }
@@ -203,13 +210,17 @@ void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSa
   constexpr double k_at_corner = 1e-6;  // of the edge's length: the corner itself has no distance to the other edge
   constexpr double k_least_of_min_edge = 0.2;
   const double reach = sizes.max_edge / narrow;
-  const double least = k_least_of_min_edge * sizes.limits.min_edge;
   std::vector<EdgeId> used;
   for (const Border& border : model.faces[f].borders)
     for (const EdgeUse& use : border)
       if (!edges[use.edge].samples.empty()) used.push_back(use.edge);
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
+  double least = k_least_of_min_edge * sizes.limits.min_edge;
+  if (sizes.least_narrow > 0.0) {
+    least = std::max(least, sizes.least_narrow);
+    for (const EdgeId e : used) least = std::max(least, k_least_narrow * edges[e].length);
+  }
   std::vector<Box> boxes(used.size());
   for (std::size_t i = 0; i < used.size(); ++i)
     for (const EdgeSample& s : edges[used[i]].samples) boxes[i].add(s.point);
@@ -305,8 +316,10 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     double by_default = face.component.is_valid() ? automatic[face.component] : of_model;
     // Of a component that says nothing of itself only faces tell what is large and what is small: a farfield and a wing may be one part.
     const bool is_unknown = !face.component.is_valid() || model.components[face.component].kind == ComponentKind::unknown;
-    if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0) by_default = std::min(by_default, k_of_face * side);
-    sizes.faces[f] = resolve(face.name, by_default, options, patches);
+    const double length = of_model / k_of_longest_side;
+    if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0)
+      by_default = std::min(by_default, std::max(k_of_face * side, k_least_max_edge * length));
+    sizes.faces[f] = resolve(face.name, by_default, k_least_min_edge * length, options, patches);
     sizes.faces[f].curvature = std::move(curvature);
     sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
   }

@@ -24,6 +24,7 @@ struct FaceSizes {
   double trailing_cells = k_automatic;                 ///< across a blunt trailing edge
   double leading_factor = 1.0, trailing_factor = 1.0;  ///< of max_edge at a wing's leading and trailing edges
   bool has_tip_strips = false;
+  double least_narrow = 0.0;  ///< m: narrow places ask for no shorter edges, where min_edge is automatic
   CurvatureLimits limits;
   std::unique_ptr<CurvatureSizes> curvature;  ///< of the surface within the face
 };

@@ -246,7 +246,8 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
                .unit = Unit::metre,
                .min = 0.0,
                .help = "curvature and narrow places ask for no shorter edges",
-               .automatic = "2 % of the longest edge; half of that where an edge would span more than 30 degrees, and less where chord_error needs it"},
+               .automatic = "2 % of the longest edge, at least 1e-5 of the model's length; half where an edge would span more than 30 degrees, less where "
+                            "chord_error needs it"},
       Field<O>{.name = "curvature_angle",
                .member = &O::curvature_angle,
                .unit = Unit::radian,

@@ -1,7 +1,7 @@
 // Steps: normals of triangles, lines and their corners, smooth pieces, normals at corners of triangles, bulges.
 //
-// The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share (bulges.cpp), so patches join without
-// gaps. A flat place beside a curved one stays flat (straight_parts.cpp), where point-normal triangles (Vlachos et al. 2001) would make it wavy.
+// The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share (bulges.cpp), so patches join
+// without gaps. A flat place beside a curved one stays flat (straight_parts.cpp), where point-normal triangles (Vlachos et al. 2001) would make it wavy.
 #include "surfmesh/remesh/reference.h"
 
 #include <algorithm>

@@ -11,19 +11,22 @@ namespace sterna::surfmesh {
 
 /// What a result has to meet.
 struct RemeshDemand {
-  std::int64_t most_needles = std::numeric_limits<std::int64_t>::max();  ///< triangles with an angle below k_needle_angle
-  double least_angle = 0.0;                                              ///< rad
-  double largest_distance = std::numeric_limits<double>::infinity();     ///< of the body's length, between the two surfaces, seen from either
+  double most_needles = std::numeric_limits<double>::infinity();              ///< triangles with an angle below k_needle_angle, of all
+  double least_angle = 0.0;                                                   ///< rad
+  double largest_distance = std::numeric_limits<double>::infinity();          ///< of the body's length, between the two surfaces, seen from either
+  double largest_distance_of_edge = std::numeric_limits<double>::infinity();  ///< of the new triangles' edges there
+  double more_turned = std::numeric_limits<double>::infinity();               ///< share of the area turned, more than of the given triangles
 };
 
-/// remesh_surface that gives up early: before the work, where corners of lines, which stay, force more needles than that (needles whose shortest edge joins two
-/// of them); and after a round that does not meet the demand, whatever crosses: later rounds keep more of the given triangles. A result that is further
-/// from the given surface than asked is refused at last.
+/// remesh_surface that gives up early: before the work, where corners of lines, which stay, force more needles than that (edges between two corners that are
+/// much shorter than the edges there will be); and after a round that does not meet the demand, whatever crosses: later rounds keep more of the given
+/// triangles. A result that is further from the given surface than demanded, or turned more, is refused at last.
 /// \throws Error as remesh_surface; Error(geometry_failed) with the place of the thinnest triangle, or of the largest distance, where it gives up
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RemeshDemand& demand, const RunContext& context);
 
-/// \throws Error(geometry_failed), with the place of the largest distance, where that is more than the demand's: also for a result that was made without demand
-void require_near(const RemeshReport& report, const RemeshDemand& demand);
+/// \throws Error(geometry_failed), with the place of the largest distance, where distance or turn are more than demanded: also for a result that was made
+/// without demand
+void require_likeness(const RemeshReport& report, const RemeshDemand& demand);
 
 }  // namespace sterna::surfmesh

@@ -15,6 +15,11 @@ namespace {
 
 constexpr double k_to_degrees = 180.0 / std::numbers::pi;
 
+double longest_edge(const TriMesh& mesh, TriangleId t) {
+  const auto [a, b, c] = corners(mesh, t);
+  return std::max({distance(a, b), distance(b, c), distance(c, a)});
+}
+
 }  // namespace
 
 void measure_angles(const TriMesh& mesh, RemeshReport& report) {
@@ -60,15 +65,16 @@ bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles) {
   return needles.n > 0 && (needles.least_angle < k_worst_needle_angle || static_cast<double>(needles.n) > k_needle_share * static_cast<double>(n_triangles));
 }
 
-SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, const RunContext& context) {
+SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is_from_new, const RunContext& context) {
   const TriangleTree tree(to, context);
   struct Part {
     SurfaceDistance distance;
     CompensatedSum sum;
     std::int64_t n = 0;
-    void add(const Point& p, double d) {
+    void add(const Point& p, double d, double edge) {
       sum.add(d);
       ++n;
+      if (edge > 0.0) distance.of_edge = std::max(distance.of_edge, d / edge);
       if (d > distance.max) {
         distance.max = d;
         distance.place = p;
@@ -81,33 +87,36 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, const R
       [&](std::size_t begin, std::size_t end) {
         Part part;
         TriangleId last;
-        const auto add = [&](const Point& p) {
+        const auto add = [&](const Point& p, double edge) {
           // No farther than the last one's nearest triangle.
           NearestHit hit;
           if (last.is_valid()) hit = tree.nearest(p, distance(p, nearest_on_triangle(p, corners(to, last))) * (1.0 + 1e-9));
           if (!hit.triangle.is_valid()) hit = tree.nearest(p);
-          part.add(p, hit.distance);
+          part.add(p, hit.distance, is_from_new ? edge : longest_edge(to, hit.triangle));
           last = hit.triangle;
         };
         for (std::size_t i = begin; i < end; ++i) {
           if (i < n_points) {
-            add(from.points[VertexId(i)]);
+            add(from.points[VertexId(i)], 0.0);
             continue;
           }
           // Middles of edges once, with the triangle that has them ascending; at a rim maybe not at all, where they are middles of the input's edges.
           const TriangleVertices& v = from.triangles[TriangleId(i - n_points)];
           const auto [a, b, c] = corners(from, TriangleId(i - n_points));
-          add((a + b + c) / 3.0);
-          if (v[0] < v[1]) add(0.5 * (a + b));
-          if (v[1] < v[2]) add(0.5 * (b + c));
-          if (v[2] < v[0]) add(0.5 * (c + a));
+          const double edge = longest_edge(from, TriangleId(i - n_points));
+          add((a + b + c) / 3.0, edge);
+          if (v[0] < v[1]) add(0.5 * (a + b), edge);
+          if (v[1] < v[2]) add(0.5 * (b + c), edge);
+          if (v[2] < v[0]) add(0.5 * (c + a), edge);
         }
         return part;
       },
       [](Part a, const Part& b) {
         a.sum.add(b.sum);
         a.n += b.n;
+        const double of_edge = std::max(a.distance.of_edge, b.distance.of_edge);
         if (b.distance.max > a.distance.max) a.distance = b.distance;
+        a.distance.of_edge = of_edge;
         return a;
       });
   all.distance.mean = all.n > 0 ? all.sum.value() / static_cast<double>(all.n) : 0.0;

@@ -172,47 +172,79 @@ void require_clear(const TriMesh& wall, const RunContext& context) {
   throw Error(std::move(info));
 }
 
-void require_worth(const NeedleCount& needles, const char* what, const RemeshDemand& demand) {
-  if (needles.n <= demand.most_needles && needles.least_angle >= demand.least_angle) return;
+std::string percent_text(double share) { return number_text(100.0 * share, k_angle_digits) + " %"; }
+
+void require_worth(const NeedleCount& needles, double n_triangles, const char* what, const RemeshDemand& demand) {
+  const double share = static_cast<double>(needles.n) / std::max(1.0, n_triangles);
+  if (share <= demand.most_needles && needles.least_angle >= demand.least_angle) return;
   ErrorInfo info{.code = ErrorCode::geometry_failed,
                  .attempted = std::string(k_attempted),
-                 .problem = std::string(what) + " " + std::to_string(needles.n) + " needles, the least angle " +
-                            number_text(needles.least_angle / k_degree, k_angle_digits) + " degrees; asked for at most " + std::to_string(demand.most_needles) +
-                            " and " + number_text(demand.least_angle / k_degree, k_angle_digits) + " degrees",
+                 .problem = std::string(what) + " " + std::to_string(needles.n) + " needles, " + percent_text(share) + " of the triangles, the least angle " +
+                            number_text(needles.least_angle / k_degree, k_angle_digits) + " degrees; demanded are at most " +
+                            percent_text(demand.most_needles) + " and at least " + number_text(demand.least_angle / k_degree, k_angle_digits) + " degrees",
                  .hint = "remesh without that demand, or wrap{}"};
   info.add_place(needles.place, "the thinnest triangle");
   throw Error(std::move(info));
 }
 
-/// Needles whose shortest edge joins two corners of lines: corners stay, and so do they.
-NeedleCount forced_needles(const Reference& reference) {
+/// Needles on edges between two corners of lines, which stay: triangles there are as long as the sizes around them ask for.
+NeedleCount forced_needles(const Reference& reference, const RemeshSizes& sizes) {
   const TriMesh& mesh = *reference.mesh;
   NeedleCount forced{.n = 0, .least_angle = k_half_turn};
   for (const TriangleId t : mesh.triangles.ids()) {
-    const auto p = corners(mesh, t);
-    std::size_t shortest = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (distance(p[k], p[(k + 1) % 3]) < distance(p[shortest], p[(shortest + 1) % 3])) shortest = k;
-    const TriangleVertices& v = mesh.triangles[t];
-    if (reference.is_corner[v[shortest]] == 0 || reference.is_corner[v[(shortest + 1) % 3]] == 0) continue;
-    const double least = std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])});
-    if (least >= k_needle_angle) continue;
-    if (forced.n++ == 0) forced.place = (p[0] + p[1] + p[2]) / 3.0;
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(t, k);
+      const VertexId a = reference.topology.from(h), b = reference.topology.to(h);
+      if (reference.line[h] == k_no_line || reference.is_corner[a] == 0 || reference.is_corner[b] == 0) continue;
+      const Point &p = mesh.points[a], &q = mesh.points[b];
+      const double angle = std::atan2(distance(p, q), k_short * sizes(0.5 * (p + q), t));
+      if (angle < k_needle_angle) ++forced.n;
+      if (angle >= forced.least_angle) continue;
+      forced.least_angle = angle;
+      forced.place = 0.5 * (p + q);
+    }
   }
   return forced;
 }
 
+/// Share of the area of the given triangles that are turned from their own smooth surface: edges that bend make it so.
+double turned_share(const Reference& r, double angle) {
+  const double cosine = std::cos(angle);
+  double turned = 0.0, all = 0.0;
+  for (const TriangleId t : r.mesh->triangles.ids()) {
+    const auto [a, b, c] = corners(*r.mesh, t);
+    const double area = triangle_area(a, b, c);
+    all += area;
+    for (int k = 0; k < 3; ++k) {
+      if (dot(r.triangle_normals[t], r.normals[halfedge(t, k)]) >= cosine) continue;
+      turned += area;
+      break;
+    }
+  }
+  return all > 0.0 ? turned / all : 0.0;
+}
+
 }  // namespace
 
-void require_near(const RemeshReport& report, const RemeshDemand& demand) {
+void require_likeness(const RemeshReport& report, const RemeshDemand& demand) {
   const SurfaceDistance& further = report.to_input.max >= report.from_input.max ? report.to_input : report.from_input;
-  if (further.max <= demand.largest_distance * report.length) return;
+  const double of_edge = std::max(report.to_input.of_edge, report.from_input.of_edge);
+  std::string problem;
+  if (further.max > demand.largest_distance * report.length)
+    problem = "the new triangles are up to " + number_text(further.max, k_angle_digits) + " m from the given ones, the limit is " +
+              number_text(demand.largest_distance * report.length, k_angle_digits) + " m, " + number_text(demand.largest_distance, k_angle_digits) +
+              " of the length";
+  else if (of_edge > demand.largest_distance_of_edge)
+    problem = "the new triangles are up to " + number_text(of_edge, k_angle_digits) + " of their edges from the given ones, the limit is " +
+              number_text(demand.largest_distance_of_edge, k_angle_digits);
+  else if (report.turned > report.turned_before + demand.more_turned)
+    problem = percent_text(report.turned) + " of the area is turned by more than " + number_text(k_turned_angle / k_degree, k_angle_digits) +
+              " degrees from the smooth surface, " + percent_text(report.turned_before) + " of the given triangles";
+  else return;
   ErrorInfo info{.code = ErrorCode::geometry_failed,
                  .attempted = std::string(k_attempted),
-                 .problem = "the new triangles are up to " + number_text(further.max, k_angle_digits) + " m from the given ones, the limit is " +
-                            number_text(demand.largest_distance * report.length, k_angle_digits) + " m, " +
-                            number_text(demand.largest_distance, k_angle_digits) + " of the length",
-                 .hint = "remesh with a smaller max_edge or curvature_angle, or wrap{}"};
+                 .problem = std::move(problem),
+                 .hint = "remesh with a smaller max_edge, min_edge or curvature_angle, or wrap{}"};
   info.add_place(further.place, "the largest distance");
   throw Error(std::move(info));
 }
@@ -237,7 +269,6 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
   std::int64_t n_crossing = std::numeric_limits<std::int64_t>::max();
   for (int round = 1;; ++round) {
     const Reference reference(wall, reference_options, trouble.kept, trouble.flat, context);
-    if (round == 1) require_worth(forced_needles(reference), "corners of lines, which stay, force", demand);
     const RowLines rows = find_row_lines(reference, SurfaceLimitTable(wall, reference.topology, options, patches), options, patches);
     RemeshSizes sizes(reference, options, patches, asked, context);
     if (const std::vector<RowReach> reaches = foreseen_reaches(reference, rows); !reaches.empty())
@@ -248,7 +279,9 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
       sizes.lower(t, (a + b + c) / 3.0, size);
     }
     if (!trouble.sizes.empty()) sizes.carry();
-    require_few(sizes.n_expected(), 1.0, "sizes and areas foretell ", options);
+    const double n_expected = sizes.n_expected();
+    if (round == 1) require_worth(forced_needles(reference, sizes), n_expected, "corners of lines, which stay, force", demand);
+    require_few(n_expected, 1.0, "sizes and areas foretell ", options);
     Remesher remesher(reference, sizes, context);
     run_passes(remesher, reference, options, rows, sizes, context.part("round", 0.0, 0.8));
     result.mesh = remesher.result();
@@ -257,10 +290,12 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
     report.max_edge = sizes.largest();
     report.n_lines = static_cast<std::int64_t>(reference.lines.size());
     report.n_corners = std::count(reference.is_corner.begin(), reference.is_corner.end(), 1);
-    require_worth(count_needles(result.mesh), "the new triangles have", demand);
+    require_worth(count_needles(result.mesh), static_cast<double>(result.mesh.n_triangles()), "the new triangles have", demand);
     const CrossingPairs pairs = find_crossings(result.mesh, context);
     if (pairs.total == 0) {
       report.needles = remesher.needles(k_needle_angle);
+      report.turned_before = turned_share(reference, k_turned_angle);
+      report.turned = remesher.turned_share(k_turned_angle);
       report.rows = remesher.row_report();
       report.rows.notes = rows.notes;
       break;
@@ -308,9 +343,9 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
   report.n_needles = static_cast<std::int64_t>(report.needles.size());
   if (report.needles.size() > k_max_places) report.needles.resize(k_max_places);
   measure_angles(result.mesh, report);
-  report.to_input = surface_distance(result.mesh, given, context);
-  report.from_input = surface_distance(given, result.mesh, context);
-  require_near(report, demand);
+  report.to_input = surface_distance(result.mesh, given, true, context);
+  report.from_input = surface_distance(given, result.mesh, false, context);
+  require_likeness(report, demand);
   context.progress(1.0);
   return result;
 }

@@ -51,9 +51,10 @@ struct RowReport {
 
 /// How far one surface is from another: sampled at vertices, middles of edges and of triangles.
 struct SurfaceDistance {
-  double max = 0.0;   ///< m
-  double mean = 0.0;  ///< m, over the samples
-  Point place{};      ///< where the largest is
+  double max = 0.0;      ///< m
+  double mean = 0.0;     ///< m, over the samples
+  Point place{};         ///< where the largest is
+  double of_edge = 0.0;  ///< the largest of the distances over the longest edge of the new triangle there
 };
 
 struct RemeshReport {
@@ -71,6 +72,7 @@ struct RemeshReport {
   std::vector<ErrorPlace> needles;             ///< the worst of them, at most k_max_places, and which features force them
   SurfaceDistance to_input;                    ///< from the new surface to the given one
   SurfaceDistance from_input;                  ///< from the given one to the new
+  double turned_before = 0.0, turned = 0.0;    ///< shares of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner
   double length = 0.0;                         ///< m, body length
   std::int64_t n_kept = 0;                     ///< triangles taken as they were, because new ones would cross
   int n_rounds = 1;                            ///< of remeshing; above 1 where triangles crossed
@@ -79,6 +81,9 @@ struct RemeshReport {
 
 /// An angle below this is a needle's (dirty.md), rad.
 inline constexpr double k_needle_angle = 8.0 * std::numbers::pi / 180.0;
+
+/// Triangles turned by more from the smooth surface are no likeness of it, rad.
+inline constexpr double k_turned_angle = 10.0 * std::numbers::pi / 180.0;
 
 struct RemeshResult {
   TriMesh mesh;  ///< patches as given, in the same order

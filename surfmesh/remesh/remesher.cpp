@@ -168,6 +168,26 @@ double Remesher::quality_now(std::uint32_t t) const {
   return quality_of(v, {mesh_.at(v[0]), mesh_.at(v[1]), mesh_.at(v[2])}, mesh_.hint[t]);
 }
 
+double Remesher::turned_share(double angle) const {
+  const double cosine = std::cos(angle);
+  double turned = 0.0, all = 0.0;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (mesh_.is_gone(t)) continue;
+    const auto& v = mesh_.triangles[t];
+    const Vec3 n = cross(mesh_.at(v[1]) - mesh_.at(v[0]), mesh_.at(v[2]) - mesh_.at(v[0]));
+    const Point middle = (mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0;
+    const double area = norm(n);
+    all += area;
+    Vec3 seen;
+    for (const std::uint32_t k : v)
+      if (mesh_.vertices[k].kind == VertexKind::face) seen = mesh_.vertices[k].normal;
+    const bool is_turned =
+        std::ranges::any_of(v, [&](std::uint32_t k) { return dot(n, normalized(normal_at(k, mesh_.hint[t], middle, seen))) < cosine * area; });
+    if (is_turned) turned += area;
+  }
+  return all > 0.0 ? turned / all : 0.0;
+}
+
 double Remesher::fan_quality(std::uint32_t v) const {
   double worst = 1.0;
   mesh_.for_out(v, [&](std::uint32_t h) { worst = std::min(worst, quality(h / 3)); });

@@ -58,6 +58,8 @@ class Remesher {
   std::vector<Strip> strips() const;
   /// Triangles with an angle below `angle`, the least first, and what of lines and corners is there.
   std::vector<ErrorPlace> needles(double angle) const;
+  /// Share of the area of triangles that are turned by more than `angle` from the reference at a corner; rows do not count.
+  double turned_share(double angle) const;
   /// Vertices and triangles that are left, in their order.
   TriMesh result() const;
   /// Triangles of the reference about those of result() in the pairs: the nearer of `rings` rings about what the pairs cover. Sorted, each once.

@@ -91,7 +91,7 @@ void print(const std::string& file, const char* who, const TriMesh& wall, const 
   }
   surfmesh::RemeshReport r;
   surfmesh::measure_angles(mesh, r);
-  const auto out = surfmesh::surface_distance(mesh, wall, k_one), back = surfmesh::surface_distance(wall, mesh, k_one);
+  const auto out = surfmesh::surface_distance(mesh, wall, true, k_one), back = surfmesh::surface_distance(wall, mesh, false, k_one);
   std::int64_t n_needles = 0;
   std::vector<std::array<std::uint32_t, 3>> list;
   for (const TriangleId t : mesh.triangles.ids()) {

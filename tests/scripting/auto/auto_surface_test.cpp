@@ -12,6 +12,7 @@
 namespace sterna::scripting {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -117,6 +118,65 @@ TEST_F(AutoSurfaceTest, NeedlesGetNewTriangles) {
   const nlohmann::json manifest = nlohmann::json::parse(text_of("fans.su2.json"));
   EXPECT_TRUE(manifest.at("options").contains("remesh")) << manifest.at("options");
   EXPECT_THAT(sterna({"surface", "box.stl", "--auto", "-o", "same.off"}).output, Not(HasSubstr("remeshed")));
+}
+
+/// A bar of 1 x 0.03 x 0.03 m: each long side is two triangles whose short edge joins two corners.
+void write_bar(const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file << "OFF\n8 12 0\n";
+  for (const double x : {0.0, 1.0})
+    for (const double y : {0.0, 0.03})
+      for (const double z : {0.0, 0.03}) file << x << " " << y << " " << z << "\n";
+  for (const char* t : {"0 1 3", "0 3 2", "4 6 7", "4 7 5", "0 4 5", "0 5 1", "2 3 7", "2 7 6", "0 2 6", "0 6 4", "1 5 7", "1 7 3"}) file << "3 " << t << "\n";
+}
+
+TEST_F(AutoSurfaceTest, NeedlesBetweenCornersGetNewTriangles) {
+  write_bar(folder_ / "bar.off");
+  const test::ProcessResult result = sterna({"surface", "bar.off", "--auto", "-o", "new.off"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output + result.errors, HasSubstr("changed: remeshed: 12 ->"));
+}
+
+TEST_F(AutoSurfaceTest, StagesTakeTheirOptions) {
+  write_bar(folder_ / "bar.off");
+  const test::ProcessResult bounded = sterna({"surface", "bar.off", "--auto", "-o", "same.off", "--set", "remesh.max_triangles=50"});
+  ASSERT_EQ(bounded.status, 0) << bounded.errors;
+  EXPECT_THAT(bounded.output + bounded.errors, AllOf(HasSubstr("remesh.max_triangles"), Not(HasSubstr("remeshed: 12 ->"))));
+  const test::ProcessResult coarse = sterna({"surface", "bar.off", "--auto", "-o", "coarse.off", "--set", "remesh.max_edge=0.03", "--set", "repair.gap=1e-4"});
+  EXPECT_THAT(coarse.output + coarse.errors, HasSubstr("edges of 0.03 to 0.03 m were asked for")) << coarse.errors;
+  EXPECT_THAT(sterna({"surface", "bar.off", "-o", "a.off", "--set", "remesh.max_edge=0.03"}).errors, HasSubstr("is given without --auto"));
+}
+
+TEST_F(AutoSurfaceTest, ASmoothBodyIsNotDentedForItsBudget) {
+  // Fine triangles, of which many are needles: every third ring is next to the one before it.
+  constexpr int k_rings = 60, k_sides = 80;
+  std::ofstream file(folder_ / "car.off");
+  file << "OFF\n" << (k_rings - 1) * k_sides + 2 << " " << 2 * (k_rings - 1) * k_sides << " 0\n";
+  const auto power = [](double c, double e) { return std::copysign(std::pow(std::abs(c), e), c); };
+  for (int i = 1; i < k_rings; ++i) {
+    const double shift = i % 3 == 0 ? -0.97 : 0.0, a = 3.14159265358979 * (i + shift) / k_rings;
+    for (int j = 0; j < k_sides; ++j) {
+      const double b = 2.0 * 3.14159265358979 * j / k_sides;
+      file << 2.0 * -power(std::cos(a), 0.7) << " " << 0.9 * power(std::sin(a), 0.7) * power(std::cos(b), 0.7) << " "
+           << 0.6 * power(std::sin(a), 0.7) * power(std::sin(b), 0.7) << "\n";
+    }
+  }
+  file << "-2 0 0\n2 0 0\n";
+  const auto at = [](int i, int j) { return (i - 1) * k_sides + j % k_sides; };
+  const int first = (k_rings - 1) * k_sides;
+  for (int j = 0; j < k_sides; ++j) {
+    file << "3 " << first << " " << at(1, j + 1) << " " << at(1, j) << "\n3 " << first + 1 << " " << at(k_rings - 1, j) << " " << at(k_rings - 1, j + 1)
+         << "\n";
+    for (int i = 1; i + 1 < k_rings; ++i)
+      file << "3 " << at(i, j) << " " << at(i, j + 1) << " " << at(i + 1, j + 1) << "\n3 " << at(i, j) << " " << at(i + 1, j + 1) << " " << at(i + 1, j)
+           << "\n";
+  }
+  file.close();
+  const test::ProcessResult result = sterna({"surface", "car.off", "--auto", "-o", "same.off", "--set", "remesh.max_triangles=4000"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output + result.errors, AllOf(HasSubstr("the triangles stay as they are"), Not(HasSubstr("changed: remeshed"))));
+  const test::ProcessResult free = sterna({"surface", "car.off", "--auto", "-o", "new.off"});
+  EXPECT_THAT(free.output + free.errors, HasSubstr("changed: remeshed")) << free.errors;
 }
 
 /// Half an ellipsoid open along an axis, its rim off the plane by up to `off`.

@@ -180,6 +180,18 @@ TEST(MeshModel, AFaceThatNeedsTooManyTrianglesIsNamed) {
   }
 }
 
+TEST(MeshModel, ARimOfNearlyNoWidthDoesNotAskForMillions) {
+  for (const double width : {1e-6, 1e-9}) {
+    const Model model = make_box("blade", {0, 0, 0}, {1, 0.01, width});
+    try {
+      const SurfaceMesh mesh = mesh_model(model, {}, {}, k_context);
+      EXPECT_LT(mesh.mesh.n_triangles(), 200'000u) << width;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.info().problem, testing::HasSubstr("absorbed")) << width;
+    }
+  }
+}
+
 TEST(MeshModel, CadFilesCloseAndKeepTheirVolume) {
   STERNA_NEEDS_SHARED_DATA();
   struct Case {

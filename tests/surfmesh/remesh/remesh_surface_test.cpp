@@ -343,18 +343,23 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
   const RemeshResult free = remeshed(wall), met = demanding({.most_needles = 0, .least_angle = 10.0 * k_degree});
   EXPECT_EQ(free.mesh.points, met.mesh.points);
   EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
-  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles", [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
+  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles, 0 % of the triangles",
+                     [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
   // A sphere of 8 squares a side is a hundredth of its diameter inside of the one that comes out.
   test::expect_error(ErrorCode::geometry_failed, "from the given ones, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
   EXPECT_EQ(free.mesh.points, demanding({.largest_distance = 0.1}).mesh.points);
+  test::expect_error(ErrorCode::geometry_failed, "of their edges from the given ones", [&] { demanding({.largest_distance_of_edge = 1e-4}); });
+  // Edges that span 40 degrees of a sphere of finer triangles.
+  const TriMesh fine = test::sphere(24);
+  test::expect_error(ErrorCode::geometry_failed, "of the area is turned by more than 10 degrees",
+                     [&] { remesh_surface(fine, {.max_edge = 0.7, .min_edge = 0.7, .curvature_angle = 1.0}, {}, {}, {.more_turned = 0.005}, k_context); });
   // A blunt edge of two corners 1e-4 apart: corners stay, so the needles beside them do.
   TriMesh wedge = test::cube(1);
   for (Point& p : wedge.points)
     if (p.x == 1.0) p.z = 1e-4 * p.z;
-  const std::int64_t n = count_needles(wedge).n;
-  ASSERT_GE(n, 2);
+  ASSERT_GE(count_needles(wedge).n, 2);
   test::expect_error(ErrorCode::geometry_failed, "corners of lines, which stay, force",
-                     [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 1, .least_angle = 0.0}, k_context); });
+                     [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 0.0, .least_angle = 0.0}, k_context); });
 }
 
 /// A box of 1 m by 1e-12 m by 1e-12 m.
