@@ -76,6 +76,7 @@ std::string script_essence(const std::string& script) {
       essence += script[at++];
     }
   }
+  while (essence.ends_with(' ')) essence.pop_back();
   return essence;
 }
 
