@@ -78,6 +78,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   LayerProof proof = prove_layer(knowledge.closed ? *knowledge.closed : filled.layers, context);
   require_proved_cells(proof.cells, knowledge.certificate);
   knowledge.check.emplace(std::move(proof.check));
+  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), !domain.sheets.is_empty());
   return knowledge;
 }
 

@@ -11,6 +11,7 @@
 
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/layer/assemble.h"
+#include "volmesh/second_engine.h"
 #include "volmesh/site/site.h"
 #include "volmesh/tetra/tetra.h"
 #include "volmesh/volume_mesh.h"
@@ -63,8 +64,8 @@ EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const 
 /// \pre `envelope` of make_envelope() on this wall
 /// \throws Error(bad_argument) for an envelope of another size, else of the stages
 FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report.
-/// \throws Error(bad_argument) for parts that do not belong together, else of the stages
+/// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report, and for the tetrahedra
+/// of a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong together, else of the stages
 VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const MeshCase& options, const RunContext& context);
 
 // ---- The same for a driver that does not want to prove anything twice ---------------------------------------------------------------------
@@ -74,8 +75,9 @@ struct LayerKnowledge {
   LayerReport report;
   EnvelopeCertificate certificate;
   std::optional<LayerCheck> check;
-  std::optional<HybridMesh> closed;  ///< the given wall's cells of a layer on an opened one
-  FillBoundary boundary;             ///< that the tetrahedra fill around `closed`
+  std::optional<HybridMesh> closed;         ///< the given wall's cells of a layer on an opened one
+  FillBoundary boundary;                    ///< that the tetrahedra fill around `closed`
+  std::optional<SecondEngine> second = {};  ///< where another engine may fill the boundary, too
 };
 
 /// The first two steps, from an envelope on where there is one.
@@ -88,6 +90,7 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
 /// \throws Error(bad_argument) where an envelope has not one height for each vertex
 void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage);
+SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, bool has_wakes);
 VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -80,6 +80,7 @@ struct Filling {
   TetraResult tets;
   std::optional<SplitLayer> split;  ///< where the engine has split triangles: the layer that has them too
   std::optional<LayerProof> proof;  ///< of the layer that the tetrahedra are around
+  std::vector<Point> holes;
 };
 
 /// Where the layer had to be lower with the splits, the volume inside the split boundary, kept now, is filled anew.
@@ -115,8 +116,8 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   Filling filling;
   // Where layers end on other patches, sides are periodic, ridges are opened and wakes have sheets, the boundary stays as it is.
   const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
-  const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
-  TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
+  filling.holes = find_cavity_points(site.domain.bodies, context);
+  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
   domain.has_wakes = !site.domain.sheets.is_empty();
   const CellCounts cells = count_cells(layer.mesh);
@@ -163,15 +164,14 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 constexpr int k_slide_rounds = 4;
 constexpr double k_slides_begin = 0.75;  ///< share of the time
 
-/// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them. \p slid gets these
-/// lines, ascending.
-ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options,
-                                  std::vector<std::uint32_t>& slid, const RunContext& context) {
+/// Improvement within the boundary, \p improved: begun before; then, where the boundary is at fault, lines of the layer slide, and improvement once more around
+/// them. \p slid gets these lines, ascending.
+void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, ImproveReport& report,
+                       std::vector<std::uint32_t>& slid, const RunContext& context) {
   const auto domain = [&] {
     return TetraBoundary{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
   };
-  ImproveReport report = improve_tetrahedra(domain(), tets, options, context.part("tetrahedra", 0.0, k_slides_begin));
-  if (options.improve_rounds == 0 || options.slide_share == 0.0) return report;
+  if (options.improve_rounds == 0 || options.slide_share == 0.0) return;
   LineSlider slider(layers, boundary, options, context);
   for (int round = 0; round < k_slide_rounds; ++round) {
     const std::vector<std::uint32_t> moved = slider.slide(tets);
@@ -184,7 +184,6 @@ ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, Te
   if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
   sort_unique(slid);
   report.n_slid = static_cast<std::int64_t>(slid.size());
-  return report;
 }
 
 /// Some feet, and those that are up to so many edges away along their ridges; ascending.
@@ -327,6 +326,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};
+  if (!filling.split) knowledge.second = second_engine(site.options, std::move(filling.holes), !site.domain.sheets.is_empty());
   filled.envelope = std::move(stage);
   filled.is_opened = layer.opened.has_value();
   if (filled.is_opened) {
@@ -340,6 +340,15 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   return filled;
 }
 
+SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, bool has_wakes) {
+  return {.tetrahedra = options.tetrahedra,
+          .sources = options.sources,
+          .sizes = options.size,
+          .holes = std::move(holes),
+          .has_sheets = !options.discs.empty(),
+          .has_wakes = has_wakes};
+}
+
 VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context) {
   const StepEnds ends = step_ends(context.threads());
   VolumeMeshResult result;
@@ -347,19 +356,24 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.mesh = std::move(knowledge.closed ? *knowledge.closed : filled.layers);
   result.layer = std::move(knowledge.report);
   result.certificate = knowledge.certificate;
-  result.tetra_engine = tets.engine + (tets.is_two_pass ? " in two passes" : "");
   result.tetra_failures = std::move(filled.tetra_failures);
   result.n_split_triangles = filled.n_split_triangles;
   result.needles = filled.needles;
-  result.is_reproducible = tets.is_reproducible;
-  result.tetra_engine_seconds = tets.engine_seconds;
-  result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
   FillBoundary boundary = knowledge.closed ? std::move(knowledge.boundary) : boundary_of(result.mesh);
   std::vector<std::uint32_t> slid;
   {
     const StageTimer timer(context, "improve");
-    result.improvement = improve_with_slides(result.mesh, boundary, tets, options, slid, context.part("improve", ends.tetrahedra, ends.improve));
+    const RunContext part = context.part("improve", ends.tetrahedra, ends.improve);
+    const TetraBoundary domain{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
+    result.improvement = improve_tetrahedra(domain, tets, options, part.part("tetrahedra", 0.0, k_slides_begin));
+    if (knowledge.second && options.improve_rounds > 0)
+      result.tetra_choice = choose_engine(boundary, *knowledge.second, options, result.tetra_failures, tets, result.improvement, part);
+    slide_and_improve(result.mesh, boundary, tets, options, result.improvement, slid, part);
   }
+  result.tetra_engine = tets.engine + (tets.is_two_pass ? " in two passes" : "");
+  result.is_reproducible = tets.is_reproducible;
+  result.tetra_engine_seconds = tets.engine_seconds;
+  result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
   if (!slid.empty()) {
     const StageTimer timer(context, "check");
     knowledge.check = check_moved_lines(*knowledge.check, result.mesh, slid, {}, context);

@@ -25,6 +25,7 @@ struct VolumeMeshResult {
   ImproveReport improvement;
   std::string tetra_engine;                 ///< "tetgen", "tetgen in two passes", "hxt" or "sterna"
   std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
+  std::string tetra_choice;                 ///< what choose_engine() compared and chose; empty where it did not have to
   std::int64_t n_split_triangles = 0;       ///< of wall and outer boundary, by which the mesh has more than were given
   NeedleReport needles;                     ///< what was done about them before
   bool is_reproducible = true;              ///< false when a time or memory limit decided what was done

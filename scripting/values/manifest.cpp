@@ -163,6 +163,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     json["improvement"] = improvement_json(mesh.origin->improvement);
     json["tetra_engine"] = mesh.origin->tetra_engine;
     if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
+    if (!mesh.origin->tetra_choice.empty()) json["tetra_choice"] = mesh.origin->tetra_choice;
     if (mesh.origin->n_split_triangles > 0) json["boundary_triangles_added_by_splits"] = mesh.origin->n_split_triangles;
     if (mesh.origin->needles.n_needles > 0) json["needles"] = Json::parse(needles_json(mesh.origin->needles));
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";

@@ -330,6 +330,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .improvement = std::move(result.improvement),
                             .tetra_engine = result.tetra_engine,
                             .tetra_failures = result.tetra_failures,
+                            .tetra_choice = result.tetra_choice,
                             .n_split_triangles = result.n_split_triangles,
                             .needles = result.needles,
                             .changes = wall.changes,

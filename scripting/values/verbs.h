@@ -82,6 +82,7 @@ struct MeshOrigin {
   volmesh::ImproveReport improvement;
   std::string tetra_engine;
   std::vector<std::string> tetra_failures;
+  std::string tetra_choice;  ///< VolumeMeshResult::tetra_choice
   std::int64_t n_split_triangles = 0;
   volmesh::NeedleReport needles;
   std::vector<std::string> changes;  ///< of the wall

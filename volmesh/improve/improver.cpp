@@ -24,8 +24,10 @@ constexpr std::uint64_t k_least_effort = 300'000'000, k_effort_of_tet = 500, k_e
 constexpr std::uint64_t k_free_effort = 2'000'000, k_free_effort_of_tet = 100;
 /// Then it ends with the first passes, one of each kind, that took more than so many tetrahedra graded for each bad one mended: usual ones are mended with some
 /// thousand, walls full of needles go on like this for minutes.
-constexpr std::uint64_t k_dear_mend = 10'000;
+constexpr int k_dear_mend = 10'000;
 constexpr std::size_t k_judged_passes = 3;
+/// Or with one pass that took this many times as much for each: on tessellated cylinders with thousands of needles one pass takes longer than all else.
+constexpr double k_hopeless_factor = 5.0;
 constexpr double k_expected_passes = 2.5;  ///< like the coming one, as far as progress is told
 constexpr double k_hard_counts = 3.0;      ///< tetrahedra beyond the hard limits count as so many bad ones, as in the costs of a Region
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
@@ -178,6 +180,20 @@ double Improver::amount_of_bad() const {
   return amount;
 }
 
+/// Whether the last passes took more than they brought. By numbers after each pass: tries that are left, and what is bad.
+bool Improver::is_dear(std::span<const std::uint64_t> left_after, std::span<const double> bad_after) const {
+  const auto is_above = [&](std::size_t n_passes, double tries, std::uint64_t least) {
+    const std::size_t n = left_after.size();
+    if (n <= n_passes) return false;
+    const double mended = bad_after[n - 1 - n_passes] - bad_after[n - 1];
+    const auto effort = static_cast<double>(left_after[n - 1 - n_passes] - left_after[n - 1]);
+    context_.debug("improvement, last " + std::to_string(n_passes) + " passes: " + std::to_string(bad_after.back()) + " bad, " + std::to_string(mended) +
+                   " mended with " + std::to_string(effort) + " tries");
+    return effort > std::max(tries * mended, static_cast<double>(least));
+  };
+  return is_above(1, k_hopeless_factor * k_dear_mend, k_free_effort + k_free_effort_of_tet * n_about_) || is_above(k_judged_passes, k_dear_mend, 0);
+}
+
 int Improver::run(int max_passes) {
   int pass = 0;
   std::uint64_t left = k_least_effort + k_effort_of_tet * tets_.size();
@@ -199,15 +215,11 @@ int Improver::run(int max_passes) {
     }
     left_after.push_back(left);
     bad_after.push_back(amount_of_bad());
-    if (const std::size_t n = left_after.size(); left < free_until && n > k_judged_passes) {
-      const double mended = bad_after[n - 1 - k_judged_passes] - bad_after[n - 1];
-      const auto effort = static_cast<double>(left_after[n - 1 - k_judged_passes] - left);
-      if (effort > static_cast<double>(k_dear_mend) * std::max(mended, 0.0)) {
-        context_.log(LogLevel::debug, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
-                                          " below what is wished: the last " + std::to_string(k_judged_passes) + " took more than " +
-                                          std::to_string(k_dear_mend) + " tries for each that they mended");
-        break;
-      }
+    if (left < free_until && is_dear(left_after, bad_after)) {
+      context_.log(LogLevel::debug, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
+                                        " below what is wished: the last ones took more than " + std::to_string(k_dear_mend) +
+                                        " tries for each that they mended");
+      break;
     }
     const std::uint64_t share = std::max(left / jobs.size(), k_effort_of_job);
     owner_.assign(points_.size(), k_no_region);

@@ -62,6 +62,7 @@ class Improver {
   std::uint32_t owner_of(std::uint32_t vertex) const { return owner_[vertex] & 0x0fffffffu; }
   void drop_good();
   double amount_of_bad() const;
+  bool is_dear(std::span<const std::uint64_t> left_after, std::span<const double> bad_after) const;
   void list_incident();
   std::vector<Job> choose_jobs(int pass) const;
   void claim_ring(Job& job, std::uint32_t number, std::uint32_t ring);
