@@ -135,7 +135,7 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
     if (info.hint.empty()) info.hint = face.failure->hint;
   }
   info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
-  if (info.hint.empty()) info.hint = "failed_faces = \"hole\" leaves them out; --auto does so and fills the holes";
+  info.hint += std::string(info.hint.empty() ? "" : "; ") + "failed_faces = \"hole\" leaves them out; --auto does so and fills the holes";
   throw Error(std::move(info));
 }
 
