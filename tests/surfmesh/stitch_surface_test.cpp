@@ -387,7 +387,7 @@ TEST(StitchSurface, NamesKeepDigitsAndLettersOfAnyLanguage) {
                       "a\xc2\xa0"
                       "b"};  // UTF-8, then Latin-1
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) soup.patch[t] = static_cast<std::uint32_t>(t % soup.patch_names.size());
-  const StitchResult result = stitch({soup});
+  const auto result = stitch({soup});
   std::vector<std::string> names;
   for (const Patch& patch : result.mesh.patches) names.push_back(patch.name);
   EXPECT_THAT(names, testing::ElementsAre("1", "Fl\xc3\xbcgel", "\xe7\xbf\xbc_left", "Fl\xc3\xbcgel_\xc3\xa9", "left_wing", "left_wing_2", "a_b"));
