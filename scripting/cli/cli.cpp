@@ -213,9 +213,11 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   OptionTable of_triangulations = sterna::options_of(surface), of_both = volmesh::options_of(volume);
-  const auto shared = std::ranges::find(of_triangulations, "unit", &Option::name);
-  of_both.insert(of_both.begin(), *shared);
-  of_triangulations.erase(shared);
+  for (const char* const name : {"fluid", "unit"}) {  // which reading a model knows, too
+    const auto shared = std::ranges::find(of_triangulations, name, &Option::name);
+    of_both.insert(of_both.begin(), *shared);
+    of_triangulations.erase(shared);
+  }
   add_schema_options(*command, of_triangulations, mesh.options, "of triangulations only");
   add_schema_options(*command, of_both, mesh.options);
   WriteOptions writing;

@@ -73,7 +73,7 @@ void refuse_on_triangulations(const SurfaceCommand& command) {
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
   for (const auto& [name, text] : command.options)
-    if (name != "unit" && name != "read_cad.unit") add(name);
+    if (name != "unit" && name != "read_cad.unit" && !name.starts_with("remesh.") && !name.starts_with("repair.") && !name.starts_with("wrap.")) add(name);
   if (!command.sources.empty()) add("--source");
   surfmesh::PatchSurfaceOptions sizes;
   const OptionTable table = patch_rule_options(sizes);
