@@ -35,16 +35,16 @@ constexpr double k_more_turned = 0.005;
 constexpr std::size_t k_many_times = 20, k_few_triangles = 200'000;
 
 /// What is tried: sizes of a family, and vertices on the given triangles where those on the smooth surface are too far from them.
-struct Attempt {
+struct RemeshAttempt {
   double refinement;
   bool is_smooth;
 };
 /// First the sizes that were asked for. Where there would be too many triangles, larger ones; where the result is no likeness, or too thin, smaller ones.
-constexpr Attempt k_first{1.0, true};
-constexpr std::array<Attempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0, true}}};
-constexpr std::array<Attempt, 2> k_finer{{{1.0, false}, {1.5, true}}};
+constexpr RemeshAttempt k_first{1.0, true};
+constexpr std::array<RemeshAttempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0, true}}};
+constexpr std::array<RemeshAttempt, 2> k_finer{{{1.0, false}, {1.5, true}}};
 
-std::string text_of(const Attempt& attempt) {
+std::string text_of(const RemeshAttempt& attempt) {
   if (!attempt.is_smooth) return "it is tried with vertices on the given triangles";
   return fmt::format("it is tried with edges {:.3g} times as long", 1.0 / attempt.refinement);
 }
@@ -123,9 +123,9 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
                              after.least_angle / k_degree, before.least_angle / k_degree));
     return false;
   };
-  std::span<const Attempt> others;
+  std::span<const RemeshAttempt> others;
   std::size_t next = 0;
-  for (Attempt attempt = k_first;;) {
+  for (RemeshAttempt attempt = k_first;;) {
     bounded.options.refinement = attempt.refinement * recipe.options.refinement;
     bounded.options.smooth = attempt.is_smooth && recipe.options.smooth;
     std::string problem = "auto: it does not meet the demand";
@@ -138,7 +138,7 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
       const bool is_too_many = error.code() == ErrorCode::overflow;
       problem = "auto: " + error.info().attempted + ": " + error.info().problem;
       if (is_too_many) problem += fmt::format(" (remesh.max_triangles{})", is_own_budget ? ", by default 20 times the given triangles, at least 200000" : "");
-      if (others.empty()) others = is_too_many ? std::span<const Attempt>(k_coarser) : std::span<const Attempt>(k_finer);
+      if (others.empty()) others = is_too_many ? std::span<const RemeshAttempt>(k_coarser) : std::span<const RemeshAttempt>(k_finer);
     }
     if (next == others.size()) {
       context.info(problem + "; the triangles stay as they are");

@@ -37,7 +37,7 @@ inline constexpr std::size_t k_members<surfmesh::WrapOptions> = 10;
 template <>
 inline constexpr std::size_t k_members<surfmesh::RemeshOptions> = 18;
 template <>
-inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 23;
+inline constexpr std::size_t k_members<surfmesh::SurfaceMeshOptions> = 24;
 template <>
 inline constexpr std::size_t k_members<surfmesh::PatchSurfaceOptions> = 14;
 template <>
@@ -133,7 +133,7 @@ inline constexpr std::size_t k_members<volmesh::ImproveReport> = 12;
 template <>
 inline constexpr std::size_t k_members<volmesh::NeedleReport> = 7;
 template <>
-inline constexpr std::size_t k_members<volmesh::VolumeMeshResult> = 12;
+inline constexpr std::size_t k_members<volmesh::VolumeMeshResult> = 13;
 template <>
 inline constexpr std::size_t k_members<volmesh::ClosedFans> = 2;
 template <>
