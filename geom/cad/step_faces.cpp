@@ -56,6 +56,8 @@ using StepEdge = Handle(StepShape_OrientedEdge);
 /// Intervals of an edge between places at which its course in the parameters of the face is followed: less than a quarter of a turn each for any edge that
 /// turns up to eight times.
 constexpr int k_edge_places = 32;
+/// A longer step between two of these places, as a share of the period, passes through a pole.
+constexpr double k_largest_step = 0.3;
 /// An end of a surface narrower than this share of the surface is a pole.
 constexpr double k_pole_share = 1e-6;
 /// Least distance between a seam and the holes, as a share of the period: less would make needles.
@@ -77,6 +79,7 @@ struct Hole {
   double low = 0.0, high = 0.0;  ///< unwrapped, in the closed direction
   double winding = 0.0;          ///< in periods
   double area = 0.0;             ///< in the parameters, counterclockwise positive
+  bool meets_pole = false;       ///< the course jumps from one meridian to another, so winding and area mean nothing
 };
 
 double spread(const Handle(Geom_Surface) & surface, const PoledSurface& poled, double along) {
@@ -186,6 +189,7 @@ bool follow(Hole& hole, const PoledSurface& poled, FaceReader& reader) {
     uv = surface->ValueOfUV(point, Precision::Confusion());
     double step = around_of(uv) - around;
     step -= poled.period * std::round(step / poled.period);
+    hole.meets_pole = hole.meets_pole || std::abs(step) > k_largest_step * poled.period;
     around += step;
     const gp_Pnt2d here = poled.is_u ? gp_Pnt2d(around, uv.Y()) : gp_Pnt2d(uv.X(), around);
     hole.area += 0.5 * (before.X() * here.Y() - here.X() * before.Y());
@@ -328,6 +332,8 @@ class SeamGiver {
     if (std::any_of(holes.begin(), holes.end(), [](const Hole& hole) { return std::abs(hole.winding) > 0.5; })) return Outcome::untouched;
     const auto is_hole = [&](const Hole& hole) { return (hole.area < 0.0) == (hole.orientation == face->SameSense()); };
     if (!is_natural && !std::all_of(holes.begin(), holes.end(), is_hole)) return Outcome::untouched;
+    // A border through a pole, such as the great circle of a half sphere, is the outer border of the face.
+    if (!is_natural && std::any_of(holes.begin(), holes.end(), [](const Hole& hole) { return hole.meets_pole; })) return Outcome::untouched;
     const std::optional<double> angle = free_angle(holes, *poled);
     const Handle(Geom_Surface) result = angle ? turned(*poled, *angle) : Handle(Geom_Surface)();
     if (result.IsNull()) return Outcome::failed;

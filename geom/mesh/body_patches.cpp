@@ -98,12 +98,15 @@ std::vector<std::uint8_t> outer_walls(const HybridMesh& mesh) {
     area[patch.index()] += norm(vector);
     if (most <= k_behind * (most - least)) outer_area[patch.index()] += norm(vector);
   });
-  bool is_any_within = false;
+  Box outer, within;
   for (const PatchId p : mesh.patches.ids()) {
     is_outer[p.index()] = is_candidate[p.index()] != 0 && outer_area[p.index()] > 0.5 * area[p.index()] ? 1 : 0;
-    is_any_within = is_any_within || (mesh.patches[p].kind == PatchKind::wall && !boxes[p.index()].empty() && is_outer[p.index()] == 0);
+    if (mesh.patches[p].kind != PatchKind::wall || boxes[p.index()].empty()) continue;
+    Box& box = is_outer[p.index()] != 0 ? outer : within;
+    box.add(boxes[p.index()].min);
+    box.add(boxes[p.index()].max);
   }
-  if (!is_any_within) std::ranges::fill(is_outer, std::uint8_t{0});
+  if (within.empty() || !is_within(within, outer)) std::ranges::fill(is_outer, std::uint8_t{0});  // a floor with a step encloses nothing
   return is_outer;
 }
 

@@ -11,8 +11,8 @@
 namespace sterna {
 
 /// One flag for each patch: whether it is a wall that encloses the fluid from outside, as a tunnel's do, beside walls of bodies within. Most of the area of
-/// such a patch has all of the boundary on its fluid side, and its box is a good part of that of the boundary. No flags where all walls are such: of a duct
-/// they are what there is to see.
+/// such a patch has all of the boundary on its fluid side, and its box is a good part of that of the boundary; the box of all outer walls contains the other
+/// walls. No flags where all walls are outer walls: in a duct nothing else can be seen.
 std::vector<std::uint8_t> outer_walls(const HybridMesh& mesh);
 
 /// One flag for each patch: walls, and faces through which fluid enters or leaves that belong to a body (fan faces, nozzles): within the box of all walls, and

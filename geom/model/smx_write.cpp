@@ -130,7 +130,7 @@ void add_body(Node& root, const Body& body) {
     refuse_smx("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
   if (body.tangents == BodyTangents::monotone && body.frames.size() > 2)
     refuse_smx("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do",
-               "make it with along = \"smooth\" or \"akima\", which .smx has, or write the model as STEP");
+               "make it with fuselage{ along = \"smooth\" } or \"akima\", which .smx has, or write the model as STEP");
   if (body.has_mirror_image)
     refuse_smx("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
   Node node = root.append_child("BodySkeleton");

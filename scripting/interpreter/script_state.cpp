@@ -282,10 +282,12 @@ void run_protected(lua_State* state, Source source, std::string& traceback, std:
 }  // namespace
 
 void ScriptState::run(const std::string& text, const std::string& name) {
+  session().declared = {};  // each text is a script of its own
   run_protected(lua(), {.text = &text, .chunk_name = &name}, parts_->traceback, parts_->memory.limit);
 }
 
 void ScriptState::run_and_print(const std::string& text, const std::string& name) {
+  session().declared = {};
   run_protected(lua(), {.text = &text, .chunk_name = &name, .is_printed = true}, parts_->traceback, parts_->memory.limit);
 }
 

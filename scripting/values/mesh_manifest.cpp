@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -114,7 +115,7 @@ void add_periodic_sides(HybridMesh& mesh, const Json& json, const InputPath& fil
   }
 }
 
-/// The smallest first height and the largest growth that were requested, where they are numbers.
+/// The smallest first height and the largest growth that were requested, where they are numbers: of a member of a family h0/f and r^(1/f) (layer_choice.h).
 void add_request(HybridMesh& mesh, const Json& json) {
   if (mesh.request.is_known() || json.contains("first_heights")) return;
   const auto number = [](const Json& from, const char* place) -> std::optional<double> {
@@ -129,6 +130,11 @@ void add_request(HybridMesh& mesh, const Json& json) {
     if (const auto of_patch = number(rule, "/first_height"); of_patch && *of_patch > 0.0)
       mesh.request.first_height = std::min(mesh.request.first_height, *of_patch);
     if (const auto of_patch = number(rule, "/max_growth")) mesh.request.max_growth = std::max(mesh.request.max_growth, *of_patch);
+  }
+  const double refinement = number(json, "/options/family/refinement").value_or(1.0);
+  if (refinement > 0.0 && refinement != 1.0) {
+    mesh.request.first_height /= refinement;
+    mesh.request.max_growth = std::pow(mesh.request.max_growth, 1.0 / refinement);
   }
 }
 

@@ -124,6 +124,7 @@ std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const 
   for (const volmesh::PlacedPart& part : wall.parts) {
     const double thickness = volmesh::k_default_thickness_share * body_length(*part.own);
     for (const Patch& patch : part.own->patches) {
+      if (patch.kind != PatchKind::wall) continue;  // only walls carry layers
       const auto known = std::ranges::find_if(rules, [&](const volmesh::PatchRule& rule) { return rule.names == patch.name; });
       if (known == rules.end()) rules.push_back({.names = patch.name, .max_thickness = thickness});
       else known->max_thickness = std::max(known->max_thickness, thickness);

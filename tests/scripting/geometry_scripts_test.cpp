@@ -165,7 +165,8 @@ TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
 
 TEST_F(GeometryScripts, WingsFromFewNumbers) {
   const std::string plain = "wing{ name='w', symmetric=true, sections={ {y=0, chord=2, airfoil='naca0012'}, {y=4, chord=1, sweep=30*deg, dihedral=5*deg} } }";
-  EXPECT_NEAR(number(plain + ".area"), 12.0 / std::cos(5.0 * k_pi / 180.0), 1e-3);  // dihedral is unrolled
+  EXPECT_NEAR(number(plain + ".area"), 12.0, 1e-3);  // of the planform seen from above
+  EXPECT_NEAR(number(plain + ".unrolled_area"), 12.0 / std::cos(5.0 * k_pi / 180.0), 1e-3);
   EXPECT_NEAR(number(plain + ".projected_area"), 12.0, 1e-3);
   // The quarter chord line is swept by 30 degrees over the panel's own length.
   EXPECT_NEAR(number(plain + ":at(1, 0.25)[1]"), 0.5 + 4.0 / std::cos(5.0 * k_pi / 180.0) * std::tan(k_pi / 6.0), 1e-6);

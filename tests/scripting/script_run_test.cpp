@@ -173,13 +173,13 @@ TEST(ScriptRun, ActuatorDiscsAreCheckedWhereTheyAreMade) {
 TEST(ScriptRun, OverridesOfTheCommandLineWin) {
   EXPECT_EQ(run_text("print(read_surface{ 'box.stl', unit = mm }.length)", {}, {{"surface.unit", "2"}}), "2.0\n");
   EXPECT_EQ(error_of("print 'started'", {}, {{"surface.unti", "2"}}).code(), ErrorCode::unknown_option);
-  EXPECT_EQ(error_of("print 'started'", {}, {{"envelope.layers", "0"}}).code(), ErrorCode::bad_argument);
+  EXPECT_EQ(error_of("print 'started'", {}, {{"envelope.layers", "-1"}}).code(), ErrorCode::bad_argument);
 }
 
 TEST(ScriptRun, HelpNamesEveryOptionWithItsRange) {
   const std::string text = run_text("help(volume_mesh) help() help 'mesh:check' help(read_surface) help(sphere)");
   for (const char* part :
-       {"layers = 30  (1 .. 1000)", "first_height = required [m]", "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
+       {"layers = 30  (0 .. 1000)", "first_height = required [m]", "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(error_of("help(3)").code(), ErrorCode::bad_argument);
 }

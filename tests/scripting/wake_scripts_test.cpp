@@ -28,7 +28,7 @@ class WakeScripts : public ScriptFixture {
   }
 };
 
-TEST_F(WakeScripts, FiveSheetsOfAnAircraftDoNotLeaveFlatTetrahedra) {  // with this farfield our own refinement gets stuck below the wing's sheet
+TEST_F(WakeScripts, FiveSheetsOfAnAircraftDoNotLeaveFlatTetrahedra) {  // with this farfield our own refinement got stuck below the wing's sheet
   const std::string told = run(
       aircraft() +
           "local mesh = volume_mesh{ wall, layers = 20, first_height = 1e-5, farfield = sphere{ radius = 200 }, wakes = 'auto', improve = { improve_rounds = 0 "
@@ -36,8 +36,7 @@ TEST_F(WakeScripts, FiveSheetsOfAnAircraftDoNotLeaveFlatTetrahedra) {  // with t
           "} mesh:check{ cell_centred = false }",
       {}, 2);
   EXPECT_THAT(log_, HasSubstr("wake sheets behind 5 trailing edges"));
-  // Where this is not told any more, the case has lost its point: find another, or test that refinement gets through.
-  EXPECT_THAT(log_, HasSubstr("refinement got stuck on the tops of wake sheets"));
+  EXPECT_THAT(log_, Not(HasSubstr("refinement got stuck")));  // it did, before cavities that would fall apart grew
   EXPECT_THAT(told, HasSubstr("VALID, quality FAIL: "));
   EXPECT_THAT(told, Not(HasSubstr("INVALID")));
   EXPECT_THAT(failed(told) + " ", Not(HasSubstr("G5 ")));  // of the nodes on the tetrahedra over the sheets: 0.6 degrees, where they are flat

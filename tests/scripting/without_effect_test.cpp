@@ -17,7 +17,7 @@ class WithoutEffect : public ScriptFixture {
   WithoutEffect() {
     std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl");
     run("box{ {0, -0.1, 0}, {1, 0.2, 0.3} }:write(" + out("box.step") + ")");
-    run("body_of_revolution{ name = 'b', profile = { {0,0}, {1,0.3}, {2,0} } }:model():write(" + out("b.smx") + ")");
+    run("fuselage{ name = 'b', along = 'smooth', frames = { {x=0,diameter=0.6}, {x=2,diameter=1.2}, {x=6,diameter=1} } }:model():write(" + out("b.smx") + ")");
   }
   test::ProcessResult sterna(const std::vector<std::string>& arguments) const { return test::run_process(test::sterna_program(), arguments, folder_); }
 };
@@ -42,7 +42,7 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
       {with(mesh_stl, {"--cache-limit", "1e9"}), "--cache"},
       {with(mesh_stl, {"--patch", "nothing*:layers=3"}), "nothing*"},
       {{"surface", "box.stl", "--auto", "-o", "a.stl", "--max-edge", "0.1"}, "no effect on a triangulation, which box.stl is: max_edge"},
-      {{"surface", "box.stl", "--auto", "-o", "a.stl", "--source", "point 0 0 0 size=0.1 radius=1"}, "--source"},
+      {{"surface", "box.stl", "--auto", "-o", "a.stl", "--source", "point 0 0 0 size=0.1"}, "no effect on a triangulation, which box.stl is: --source"},
       {{"surface", "b.smx", "-o", "a.stl", "--unit", "mm"}, "option read_cad.unit has no effect"},
       {{"info", "b.smx", "--unit", "mm"}, "option read_cad.unit has no effect"},
       {{"check", "box.step", "--strict"}, "--strict has no effect"},
@@ -71,10 +71,10 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
 TEST_F(WithoutEffect, TheUnitOfAModelCounts) {
   const std::string as_it_is = sterna({"info", "box.step"}).output, in_metres = sterna({"info", "box.step", "--unit", "1"}).output,
                     in_mm = sterna({"info", "box.step", "--unit", "1mm"}).output;
-  EXPECT_NE(as_it_is, in_metres);  // our STEP files are in millimetres
-  EXPECT_THAT(in_metres, HasSubstr("1000"));
-  EXPECT_EQ(as_it_is, in_mm);
-  EXPECT_THAT(sterna({"info", "box.step", "--unit", "1", "--json"}).output, HasSubstr("1000.0"));
+  EXPECT_EQ(as_it_is, in_metres);  // our STEP files are in metres
+  EXPECT_NE(as_it_is, in_mm);
+  EXPECT_THAT(in_mm, HasSubstr("0.001 x 0.0003 x 0.0003 m"));
+  EXPECT_THAT(sterna({"info", "box.step", "--unit", "1000", "--json"}).output, HasSubstr("1000.0"));
 }
 
 TEST_F(WithoutEffect, UnknownExtensionsListWhatIsAskedFor) {

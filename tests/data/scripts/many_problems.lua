@@ -1,9 +1,9 @@
 -- expect bad_argument many_problems.lua:5: volume_mesh: 6 problems in this table
 -- expect unknown key "envelope.max_grwoth", did you mean "max_growth"?
--- expect layers: 0 is not allowed, expected a whole number in 1 .. 1000
+-- expect layers: -1 is not allowed, expected a whole number in 0 .. 1000
 -- expect first_height: "thin" is not allowed, expected a number
 volume_mesh{ read_surface "box.stl",
-  layers = 0,
+  layers = -1,
   first_height = "thin",
   feature_angle = 35,
   envelope = { max_grwoth = 1.2 },

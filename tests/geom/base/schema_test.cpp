@@ -40,7 +40,7 @@ TEST(Schema, MisspeltNameGetsASuggestion) {
 TEST(Schema, ValueOutsideItsRangeNamesValueAndLimit) {
   EnvelopeOptions options;
   const OptionTable table = options_of(options);
-  for (const char* text : {"0", "-3", "1001", "2.5", "many"}) {
+  for (const char* text : {"-1", "-3", "1001", "2.5", "many"}) {
     try {
       set_option_from_text(find_option(table, "layers", "test"), text);
       FAIL() << text;

@@ -32,7 +32,7 @@ using testing::HasSubstr;
 
 constexpr double k_degree = std::numbers::pi / 180.0;
 
-/// An option of a command's help: "--alpha NUMBER[deg]   ...; 0 deg; -91.7 .. 91.7 deg".
+/// An option of a command's help: "--alpha NUMBER[deg]   ...; 0 deg; -91.7 deg .. 91.7 deg".
 struct HelpedOption {
   std::string name, unit;
   double value = 0.0;  ///< within its range
@@ -40,9 +40,13 @@ struct HelpedOption {
 
 double value_in_range(const std::string& line) {
   std::smatch match;
-  static const std::regex both("; (-?[0-9.e+-]+) \\.\\. (-?[0-9.e+-]+) (?:deg|m|K|s|B)"), least("; x >= (-?[0-9.e+-]+)");
-  if (std::regex_search(line, match, both)) return 0.75 * std::stod(match[1]) + 0.25 * std::stod(match[2]);
-  return std::regex_search(line, match, least) ? std::stod(match[1]) + 3.5 : 3.5;
+  static const std::regex both("; (-?[0-9.e+-]+)(?: [a-zA-Z]+)? \\.\\. (-?[0-9.e+-]+) (?:deg|m|K|s|B)"), least("; x >= (-?[0-9.e+-]+)");
+  constexpr double usual = 3.5;
+  if (std::regex_search(line, match, both)) {
+    const double min = std::stod(match[1]), max = std::stod(match[2]);
+    return min <= usual && usual <= max ? usual : 0.75 * min + 0.25 * max;
+  }
+  return std::regex_search(line, match, least) ? std::stod(match[1]) + usual : usual;
 }
 
 std::vector<HelpedOption> options_with_units(const std::string& help) {
@@ -128,10 +132,18 @@ TEST_F(Units, EveryOptionOfEveryCommandCountsInTheUnitOfItsHelp) {
     ASSERT_EQ(as_unit.status, k_exit_success) << as_unit.errors;
     EXPECT_EQ(as_bare.output, as_unit.output);
     std::vector<std::string> by_set = command;
-    for (const auto& [stage, entries] : nlohmann::json::parse(as_bare.output).items())
+    const nlohmann::json shown = nlohmann::json::parse(as_bare.output);
+    const auto arrived_elsewhere = [&](const std::string& here, const std::string& name) {
+      for (const auto& [stage, entries] : shown.items())
+        if (stage != here && entries.contains(name) && entries[name] == nlohmann::json(wanted.at(name))) return true;
+      return false;
+    };
+    for (const auto& [stage, entries] : shown.items())
       for (const auto& [name, value] : entries.items()) {
         const auto found = wanted.find(name);
         if (found == wanted.end()) continue;
+        // time_limit of read_cad has the name of one of the tetrahedra, which is the one that the command line means.
+        if (value != nlohmann::json(found->second) && arrived_elsewhere(stage, name)) continue;
         EXPECT_EQ(value, nlohmann::json(found->second)) << stage << "." << name;
         ++n;
         const auto option = std::ranges::find_if(options, [&](const HelpedOption& o) { return std::regex_replace(o.name, std::regex("-"), "_") == name; });
