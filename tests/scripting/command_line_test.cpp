@@ -93,8 +93,8 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
   const ProcessResult result = sterna({"mesh", "box.stl", "-o", "m.su2", "--layers", "-1", "--split-angle", "400", "--set", "envelope.max_grwoth=2"});
   EXPECT_EQ(result.status, k_exit_usage);
-  for (const char* part :
-       {"error: ", "4 problems", "envelope.layers: -1 is not allowed", "(400 deg) is not allowed", "did you mean \"envelope.max_growth\"?", "needs first_height"})
+  for (const char* part : {"error: ", "4 problems", "envelope.layers: -1 is not allowed", "(400 deg) is not allowed", "did you mean \"envelope.max_growth\"?",
+                           "needs first_height"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
   EXPECT_EQ(result.output, "");
 }

@@ -58,7 +58,8 @@ TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
   EXPECT_EQ(kind_of_floor("walls = 'slip'"), "slip");
   EXPECT_EQ(kind_of_floor("walls = 'slip', floor = { layers = 4, first_height = 1e-3 }"), "wall");
   EXPECT_EQ(kind_of_floor("walls = { layers = 4 }, floor = 'slip'"), "slip");
-  EXPECT_THAT(text_of("t.su2.json"), AllOf(HasSubstr("\"names\": \"tunnel_left\",\n      \"layers\""), testing::Not(HasSubstr("\"names\": \"tunnel_floor\",\n      \"layers\""))));
+  EXPECT_THAT(text_of("t.su2.json"),
+              AllOf(HasSubstr("\"names\": \"tunnel_left\",\n      \"layers\""), testing::Not(HasSubstr("\"names\": \"tunnel_floor\",\n      \"layers\""))));
   EXPECT_THAT((kind_of_floor("walls = { total_height = 0.1 }"), text_of("t.su2.json")), HasSubstr("\"total_height\": 0.1"));  // it was dropped
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = { kind = 'slip', layers = 4 } }"),
               HasSubstr("floor: only walls carry layers, and its kind is slip"));
