@@ -8,6 +8,7 @@
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
+#include "geom/boolean/union_patches.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
@@ -37,20 +38,6 @@ void require_closed(const TriMesh& mesh, const Topology& topology, const std::st
     info.geometry.edges.push_back({n, n + 1});
   }
   throw Error(std::move(info));
-}
-
-/// Patch names as they will be in the result: a name that several parts use gets the part's in front.
-std::vector<std::vector<Patch>> result_patches(const std::vector<UnionPart>& parts) {
-  std::map<std::string, std::size_t> n_users;
-  for (const UnionPart& part : parts)
-    for (const Patch& patch : part.mesh.patches) ++n_users[patch.name];
-  std::vector<std::vector<Patch>> patches(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (Patch patch : parts[i].mesh.patches) {
-      if (n_users[patch.name] > 1 && !parts[i].name.empty() && parts[i].name != patch.name) patch.name = parts[i].name + "_" + patch.name;
-      patches[i].push_back(std::move(patch));
-    }
-  return patches;
 }
 
 LocalLength length_of(const std::array<Point, 3>& c) {
@@ -143,6 +130,19 @@ void find_groups(SolidParts& all) {
 std::string short_name(const SolidParts& parts, std::uint32_t solid) { return parts.names[solid].substr(0, parts.names[solid].find(" (")); }
 
 }  // namespace
+
+std::vector<std::vector<Patch>> result_patches(const std::vector<UnionPart>& parts) {
+  std::map<std::string, std::size_t> n_users;
+  for (const UnionPart& part : parts)
+    for (const Patch& patch : part.mesh.patches) ++n_users[patch.name];
+  std::vector<std::vector<Patch>> patches(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (Patch patch : parts[i].mesh.patches) {
+      if (n_users[patch.name] > 1 && !parts[i].name.empty() && parts[i].name != patch.name) patch.name = parts[i].name + "_" + patch.name;
+      patches[i].push_back(std::move(patch));
+    }
+  return patches;
+}
 
 double volume_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   CompensatedSum volume;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/surface_soup.h"
 #include "geom/mesh/tri_mesh.h"

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "geom/base/error.h"
+#include "geom/boolean/union_patches.h"
 #include "io/file/format_table.h"
 #include "io/file/input_hash.h"
 #include "io/file/surface_file.h"
@@ -138,7 +139,12 @@ SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const
   result.report.n_components = united.report.n_components;
   result.report.messages = std::move(united.report.messages);
   TriMesh whole;
-  for (const UnionPart& part : parts) append(whole, part.mesh);
+  const std::vector<std::vector<Patch>> names = result_patches(parts);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    TriMesh part = parts[i].mesh;
+    part.patches = Column<PatchId, Patch>(names[i]);
+    append(whole, part);
+  }
   note_change(result, compare_geometry(whole, result.mesh, "union", context), context, GeometryChangeUse::unites_bodies);
   return result;
 }

@@ -136,7 +136,7 @@ double volume_of_union(const std::vector<Triangles>& solids) {
     }
     parts.push_back({"part" + std::to_string(parts.size()), surfmesh::stitch_surface({soup}, {}, RunContext()).mesh});
   }
-  return volume_of(unite_meshes(parts, {}, RunContext()).mesh);
+  return volume_of(unite_meshes(parts, {.remesh = false}, RunContext()).mesh);  // strips with new triangles are not exact
 }
 
 TEST_F(GeometryKept, TeeOfPipesIsTheUnionOfTheirInsides) {
