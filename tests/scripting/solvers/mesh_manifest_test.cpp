@@ -134,9 +134,9 @@ TEST_F(MeshManifest, OfSomebodyElseIsLeftAlone) {
 
 /// Surfaces: what a wall knows goes along when it is cut, converted or joined.
 TEST_F(MeshManifest, OfSurfacesGoesAlong) {
-  run("surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.5, patches = { ['*'] = { kind = 'slip' } } }:write(" + out("box.stl") + ")");
-  ASSERT_TRUE(std::filesystem::exists(folder_ / "box.stl.json"));
-  ASSERT_EQ(sterna({"convert", "box.stl", "box.obj"}).status, k_exit_success);
+  run("surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.5, patches = { ['*'] = { kind = 'slip' } } }:write(" + out("box.su2") + ")");
+  ASSERT_TRUE(std::filesystem::exists(folder_ / "box.su2.json"));
+  ASSERT_EQ(sterna({"convert", "box.su2", "box.obj"}).status, k_exit_success);
   EXPECT_THAT(sterna({"info", "box.obj"}).output, HasSubstr(", slip"));
   const test::ProcessResult half = sterna({"half", "box.obj", "-o", "half.obj", "--at", "0.5"});
   ASSERT_EQ(half.status, k_exit_success) << half.errors;
