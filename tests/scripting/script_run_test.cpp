@@ -192,7 +192,7 @@ TEST(ScriptRun, DeepRecursionAndWrongErrorValuesAreErrorsOfTheScript) {
 }
 
 TEST(ScriptRun, ScriptOfEveryOptionNamesEveryOption) {
-  std::ifstream file(std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "02_every_option.lua");
+  std::ifstream file(test::source_folder() / "scripts" / "02_every_option.lua");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/data.h"
 
 namespace sterna::scripting {
 namespace {
@@ -17,7 +18,7 @@ class WakeScripts : public ScriptFixture {
  protected:
   /// The wall of scripts/07.
   static std::string aircraft() {
-    std::ifstream file(std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "07_aircraft_to_mesh.lua");
+    std::ifstream file(test::source_folder() / "scripts" / "07_aircraft_to_mesh.lua");
     const std::string text(std::istreambuf_iterator<char>(file), {});
     return text.substr(0, text.find("local mesh ="));
   }

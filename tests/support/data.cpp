@@ -5,8 +5,10 @@
 
 namespace sterna::test {
 
-std::filesystem::path corpus() { return std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data"; }
-std::filesystem::path shared_data() { return std::filesystem::path(STERNA_BINARY_DIR) / "test_data"; }
+std::filesystem::path source_folder() { return STERNA_SOURCE_DIR; }
+std::filesystem::path build_folder() { return STERNA_BINARY_DIR; }
+std::filesystem::path corpus() { return source_folder() / "tests" / "data"; }
+std::filesystem::path shared_data() { return build_folder() / "test_data"; }
 bool has_shared_data() { return std::filesystem::is_directory(shared_data() / "surfaces"); }
 
 bool is_all_required() {
@@ -19,7 +21,7 @@ std::filesystem::path scratch() {
   std::string name = std::string(info->test_suite_name()) + "." + info->name();
   for (char& c : name)
     if (c == '/') c = '_';
-  const std::filesystem::path folder = std::filesystem::path(STERNA_BINARY_DIR) / "scratch" / name;
+  const std::filesystem::path folder = build_folder() / "scratch" / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -1,4 +1,4 @@
-// Where test inputs live: small cases in tests/data; real ones in ../shared/data, whose tests are skipped with a message where it is absent.
+// Where test inputs live: small cases in tests/data; real ones, which are packed in tests/data/shared, where the build unpacks them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,10 +7,15 @@
 
 namespace sterna::test {
 
+/// The top folder of the repository.
+std::filesystem::path source_folder();
+/// The folder of the build, which has the programs.
+std::filesystem::path build_folder();
 /// tests/data of the repository.
 std::filesystem::path corpus();
-/// ../shared/data beside the repository; may not exist.
+/// The real inputs (unpacked tests/data/shared), by their paths in ../shared/data.
 std::filesystem::path shared_data();
+/// False where the build could not unpack the real inputs.
 bool has_shared_data();
 /// A fresh empty folder for the running test.
 std::filesystem::path scratch();
@@ -30,5 +35,5 @@ bool is_all_required();
     }                                                                                                       \
   } while (false)
 
-/// First line of every test that reads ../shared/data.
-#define STERNA_NEEDS_SHARED_DATA() STERNA_NEEDS(sterna::test::has_shared_data(), "../shared/data")
+/// First line of every test that reads shared_data().
+#define STERNA_NEEDS_SHARED_DATA() STERNA_NEEDS(sterna::test::has_shared_data(), "the folder of real inputs, which the build unpacks from tests/data/shared,")

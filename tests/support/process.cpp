@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/data.h"
+
 namespace sterna::test {
 namespace {
 
@@ -127,7 +129,7 @@ std::vector<pid_t> children_of(pid_t process) {
   return pids;
 }
 
-std::filesystem::path sterna_program() { return std::filesystem::path(STERNA_BINARY_DIR) / "sterna"; }
+std::filesystem::path sterna_program() { return build_folder() / "sterna"; }
 
 pid_t first_child() {
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {

@@ -19,8 +19,8 @@ namespace {
 
 /// A line of read_with_gmsh.py; nothing without that Python module.
 std::optional<std::string> read_with_gmsh(const std::filesystem::path& file) {
-  const std::string command =
-      "/usr/bin/python3 '" STERNA_SOURCE_DIR "/tests/geom/cad/read_with_gmsh.py' '" + file.string() + "' 2>&1";  // Debian's own: another on PATH lacks gmsh
+  const std::string command = "/usr/bin/python3 '" + test::source_folder().string() + "/tests/geom/cad/read_with_gmsh.py' '" + file.string() +
+                              "' 2>&1";  // Debian's own: another on PATH lacks gmsh
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   std::string output;
   char piece[4096];

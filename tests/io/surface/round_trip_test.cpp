@@ -222,7 +222,8 @@ TEST(SurfaceRoundTrip, WhatCannotBeWrittenIsRefusedAndTheOldFileStays) {
 
 /// "key value" lines of tests/tools/verify_surface.py; empty without that Python module.
 std::map<std::string, std::string> verify(const std::string& reader, const std::filesystem::path& file) {
-  const std::string command = "/usr/bin/python3 '" STERNA_SOURCE_DIR "/tests/tools/verify_surface.py' " + reader + " '" + file.string() + "' 2>&1";
+  const std::string command =
+      "/usr/bin/python3 '" + test::source_folder().string() + "/tests/tools/verify_surface.py' " + reader + " '" + file.string() + "' 2>&1";
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   std::string output;
   char piece[4096];

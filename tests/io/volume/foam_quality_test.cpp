@@ -103,7 +103,7 @@ TEST(FoamQuality, OfACoarseLayerAreCheckMeshs) {
 
 /// Columns that end on a symmetry plane: quadrilaterals on the boundary.
 TEST(FoamQuality, OfAHalfAircraftAreCheckMeshs) {
-  const std::string wall = (std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "data" / "cessna.msh.gz").string();
+  const std::string wall = (test::source_folder() / "scripts" / "data" / "cessna.msh.gz").string();
   expect_same_figures("local wall = half{ read_surface{ \"" + wall + "\", unit = ft, split_angle = 60*deg } }\n" +
                           "volume_mesh{ wall, layers = 8, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } "
                           "}:write(\"case.bin.foam\", \"case.sterna\")\n",

@@ -99,7 +99,8 @@ TEST(HalfMesh, OtherProgramsAcceptIt) {
   write(half_mesh(), folder / "all.sterna");
   write(test::half_sphere_shell(6, {.shell = {.n_layers = 4}}), folder / "half.sterna");
   for (const std::string name : {"all.sterna", "half.sterna"}) {
-    const test::ProcessResult result = test::run_process(STERNA_SOURCE_DIR "/tools/accept_mesh", {name, "--sterna", test::sterna_program().string()}, folder);
+    const test::ProcessResult result =
+        test::run_process((test::source_folder() / "tools/accept_mesh").string(), {name, "--sterna", test::sterna_program().string()}, folder);
     constexpr int k_not_installed = 77;
     STERNA_NEEDS((result.status == k_not_installed ? std::optional<int>() : std::optional<int>(result.status)),
                  "the Debian packages openfoam and cgns-convert");

@@ -61,7 +61,8 @@ double IndependentReport::number(const std::string& key) const {
 }
 
 std::optional<IndependentReport> read_independently(const std::string& reader, const std::filesystem::path& file) {
-  const std::string command = "/usr/bin/python3 '" STERNA_SOURCE_DIR "/tests/tools/verify_mesh.py' " + reader + " '" + file.string() + "' 2>&1";
+  const std::string command =
+      "/usr/bin/python3 '" + test::source_folder().string() + "/tests/tools/verify_mesh.py' " + reader + " '" + file.string() + "' 2>&1";
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   IndependentReport report;
   char piece[4096];

@@ -18,7 +18,8 @@ constexpr int k_not_installed = 77;
 void expect_agreement(const std::string& mesh, const std::filesystem::path& folder, const std::string& cells, std::int64_t at_least) {
   const test::ProcessResult check = test::run_process(test::sterna_program(), {"--quiet", "check", mesh, "--no-intersections", "--cells", "cells.vtu"}, folder);
   ASSERT_EQ(check.status, 0) << check.output << check.errors;
-  const test::ProcessResult compared = test::run_process("/usr/bin/python3", {STERNA_SOURCE_DIR "/tests/tools/vtk_quality.py", "cells.vtu"}, folder);
+  const test::ProcessResult compared =
+      test::run_process("/usr/bin/python3", {(test::source_folder() / "tests/tools/vtk_quality.py").string(), "cells.vtu"}, folder);
   STERNA_NEEDS(compared.status != k_not_installed, "the Debian package python3-vtk9");
   ASSERT_EQ(compared.status, 0) << compared.output << compared.errors;
   const nlohmann::json result = nlohmann::json::parse(compared.output);

@@ -22,7 +22,7 @@ constexpr const char* k_sizes_vtu =
 )";
 
 TEST(Manual, IsWhatTheProgramPrints) {
-  std::ifstream file(std::filesystem::path(STERNA_SOURCE_DIR) / "docs" / "lua.md");
+  std::ifstream file(test::source_folder() / "docs" / "lua.md");
   const std::string kept{std::istreambuf_iterator<char>(file), {}};
   const test::ProcessResult printed = test::run_process(test::sterna_program(), {"manual"}, test::scratch());
   ASSERT_EQ(printed.status, 0) << printed.errors;
@@ -44,7 +44,7 @@ TEST(Manual, EveryExampleRuns) {
   const InFolder in(folder);
   std::ofstream("sizes.vtu") << k_sizes_vtu;
   for (const char* name : {"wall.stl", "torn.stl", "tail.stl"})
-    if (!std::filesystem::exists(name)) std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", name);
+    if (!std::filesystem::exists(name)) std::filesystem::copy(test::source_folder() / "tests" / "data" / "scripts" / "box.stl", name);
   const bool has_cpacs = std::filesystem::exists(test::shared_data() / "cpacs" / "simpletest-flaps.cpacs.xml");
   if (has_cpacs) std::filesystem::copy(test::shared_data() / "cpacs" / "simpletest-flaps.cpacs.xml", "d150.xml");
   ScriptState state({.script = folder / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}}, RunContext({.threads = 2}));

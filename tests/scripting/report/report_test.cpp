@@ -11,6 +11,7 @@
 #include "scripting/report/thin_surface.h"
 #include "tests/scripting/report/page_json.h"
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/data.h"
 #include "tests/support/shapes.h"
 
 namespace sterna::scripting {
@@ -22,7 +23,7 @@ class Report : public ScriptFixture {
  protected:
   void SetUp() override { STERNA_NEEDS(!report_page().empty(), "the report page (npm or its registry, when this was built)"); }
   static std::string mesh_script() {
-    return std::string("local wall = read_surface{ '") + STERNA_SOURCE_DIR + "/tests/data/scripts/box.stl' }\n" +
+    return "local wall = read_surface{ '" + test::source_folder().string() + "/tests/data/scripts/box.stl' }\n" +
            "local mesh = volume_mesh{ wall, layers = 5, first_height = 1e-3 * wall.length, farfield = sphere{ radius = 10 * wall.length } }\n";
   }
 };
@@ -78,7 +79,7 @@ TEST_F(Report, OfASurfaceAndThinned) {
 }
 
 TEST_F(Report, TellsWhatWasChangedOnTheSurface) {
-  run(std::string("local whole = read_surface '") + STERNA_SOURCE_DIR + "/tests/data/scripts/box.stl'\n" + "whole:write(" + out("whole.off") + ")");
+  run("local whole = read_surface '" + test::source_folder().string() + "/tests/data/scripts/box.stl'\n" + "whole:write(" + out("whole.off") + ")");
   std::string text = text_of("whole.off");
   text.erase(text.find_last_of('\n', text.size() - 2) + 1);  // without its last facet
   const std::size_t counts = text.find('\n') + 1;
@@ -108,8 +109,8 @@ TEST_F(Report, RefusesWhatItCannotShow) {
 
 TEST_F(Report, OfFiles) {
   run(mesh_script() + "mesh:write(" + out("box.su2") + ")");
-  run("report{ " + out("box.su2") + ", " + out("box.html") + ", cuts = {} } report{ '" STERNA_SOURCE_DIR "/tests/data/scripts/box.stl', " + out("wall.html") +
-      " }");
+  run("report{ " + out("box.su2") + ", " + out("box.html") + ", cuts = {} } report{ '" + test::source_folder().string() + "/tests/data/scripts/box.stl', " +
+      out("wall.html") + " }");
   EXPECT_EQ(test::page_json(folder_ / "box.html")["title"], "box.su2");
   EXPECT_EQ(test::page_json(folder_ / "wall.html")["kind"], "surface");
 }

@@ -66,7 +66,7 @@ TEST(DiscFiles, OtherProgramsAcceptAFanBetweenHubAndDuct) {
   const auto folder = test::scratch();
   io::write_volume_file(volume_mesh(wall, options, context).mesh, folder / "fan.sterna", context);
   const test::ProcessResult result =
-      test::run_process(STERNA_SOURCE_DIR "/tools/accept_mesh", {"fan.sterna", "--sterna", test::sterna_program().string()}, folder);
+      test::run_process((test::source_folder() / "tools/accept_mesh").string(), {"fan.sterna", "--sterna", test::sterna_program().string()}, folder);
   constexpr int k_not_installed = 77;
   STERNA_NEEDS((result.status == k_not_installed ? std::optional<int>() : std::optional<int>(result.status)), "the Debian packages openfoam and cgns-convert");
   EXPECT_EQ(result.status, 0) << result.output << result.errors;
