@@ -117,7 +117,7 @@ void flatten_rims(const Topology& topology, TriMesh& mesh, const RunContext& con
       moved.push_back(mesh.points[v]);
       const double off = std::abs(moved.back()[*axis] - at);
       farthest = std::max(farthest, off);
-      n_off += off > k_rim_tolerance * length ? 1 : 0;
+      n_off += off > 0.0 ? 1 : 0;
       moved.back()[*axis] = at;
     }
     if (turns_over(beside[r], moved, rim, mesh)) continue;

@@ -13,6 +13,7 @@ namespace sterna::scripting {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -215,7 +216,9 @@ TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
   file.close();
   const test::ProcessResult result = sterna(mesh("half.off", "half.su2", {"--auto"}));
   ASSERT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(result.output + result.errors, HasSubstr("half model"));
+  // Rims that reading finds flat are an open domain from the beginning; others are found to be a half model's.
+  EXPECT_THAT(result.output + result.errors,
+              AnyOf(HasSubstr("half model"), HasSubstr(std::string("all of its rims lie in the plane ") + "xyz"[axis] + " = 0 m")));
   EXPECT_THAT(result.output + result.errors, HasSubstr("VALID"));
   EXPECT_THAT(text_of("half.su2"), HasSubstr("MARKER_TAG= symmetry"));
 }

@@ -267,7 +267,11 @@ TEST_F(GeometryKept, OpenSheetIsWarnedOf) {
 }
 
 TEST_F(GeometryKept, PatchLostInReadingIsWarnedOf) {
-  Triangles sheet{{Vec3{2, 0, 0}, Vec3{3, 0, 0}, Vec3{2, 1, 0}}, {Vec3{2, 0, 0}, Vec3{2, 1, 0}, Vec3{3, 0, 0}}};  // both sides: no thickness
+  // Closed, and without thickness: its two sides have different diagonals.
+  Triangles sheet{{Vec3{2, 0, 0}, Vec3{3, 0, 0}, Vec3{3, 1, 0}},
+                  {Vec3{2, 0, 0}, Vec3{3, 1, 0}, Vec3{2, 1, 0}},
+                  {Vec3{2, 0, 0}, Vec3{2, 1, 0}, Vec3{3, 0, 0}},
+                  {Vec3{3, 0, 0}, Vec3{2, 1, 0}, Vec3{3, 1, 0}}};
   write({{"box", block({0, 0, 0}, {1, 1, 1})}, {"sheet", sheet}});
   run("read_surface(" + out("in.stl") + ")");
   EXPECT_THAT(log_, HasSubstr("warning: reading: the result has no patch \"sheet\""));
