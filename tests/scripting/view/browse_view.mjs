@@ -290,7 +290,7 @@ async function use_airliner(context) {
   let state = await wait_for(page, (s) => s.run.status === "done" && s.shown.some((x) => x.key === "model" && x.is_quick === false), null, "the united airliner");
   times.airliner_united = Math.round(performance.now() - begin);
   require_near(state.shown[0].box[1].map((x, c) => x - state.shown[0].box[0][c]).slice(1, 2), [34], 0.3, "span") // with the round tips;
-  require_equal(state.parameters.map((p) => p.name), ["aileron", "dihedral", "span", "sweep"], "arguments");
+  require_equal(state.parameters.map((p) => p.name), ["span", "sweep", "dihedral", "aileron"], "arguments, in the order of the script");
   await settled(page, "the airliner");
   await shot(page, "airliner");
   await use_toolbar(page);
