@@ -27,13 +27,16 @@ class Corners {
     });
   }
 
-  /// Patches without layers that have a sharp edge at a rim.
+  /// Patches without layers that have a sharp edge at a rim, or at an edge that they share with another patch on which layers end: it is divided anew as a
+  /// whole.
   std::vector<std::uint8_t> patches_with_corners() const {
     std::vector<std::uint8_t> has_corner(boundary_.patches.size(), 0);
+    const Column<VertexId, std::uint8_t> is_shared = vertices_between_ends();
     for_each_edge([&](HalfedgeId h, TriangleId t, TriangleId beyond) {
       const PatchId patch = boundary_.triangle_patch[t];
       if (is_layered(t) || patch != boundary_.triangle_patch[beyond] || !is_sharp(t, beyond)) return;
-      if (is_on_rim_[topology_.from(h)] || is_on_rim_[topology_.to(h)]) has_corner[patch.index()] = 1;
+      for (const VertexId v : {topology_.from(h), topology_.to(h)})
+        if (is_on_rim_[v] || is_shared[v]) has_corner[patch.index()] = 1;
     });
     return has_corner;
   }
@@ -58,6 +61,19 @@ class Corners {
   }
 
  private:
+  /// Whether two patches on which layers end share an edge at the vertex.
+  Column<VertexId, std::uint8_t> vertices_between_ends() const {
+    std::vector<std::uint8_t> is_end(boundary_.patches.size(), 0);
+    for_each_edge([&](HalfedgeId, TriangleId t, TriangleId beyond) {
+      if (!is_layered(t) && is_layered(beyond)) is_end[boundary_.triangle_patch[t].index()] = 1;
+    });
+    Column<VertexId, std::uint8_t> is_shared(boundary_.n_vertices(), 0);
+    for_each_edge([&](HalfedgeId h, TriangleId t, TriangleId beyond) {
+      const PatchId patch = boundary_.triangle_patch[t], other = boundary_.triangle_patch[beyond];
+      if (patch != other && is_end[patch.index()] && is_end[other.index()]) is_shared[topology_.from(h)] = is_shared[topology_.to(h)] = 1;
+    });
+    return is_shared;
+  }
   bool is_layered(TriangleId t) const { return has_layer_[boundary_.triangle_patch[t]] != 0; }
   bool is_sharp(TriangleId t, TriangleId beyond) const {
     const auto normal = [&](TriangleId of) {

@@ -117,6 +117,21 @@ TEST(BarePlanes, AGroundPlaneHasLayersAndItsOwnEdges) {
   }
 }
 
+TEST(BarePlanes, AGroundPlaneBetweenAnInflowAndAnOutflow) {
+  // What is left of the box is one patch of two sides and the lid, none of whose corners is at the ground.
+  MeshCase options = case_of(6, "box");
+  options.farfield.farfield_from_x = options.farfield.farfield_from_y = -8.0;
+  options.farfield.farfield_to_x = options.farfield.farfield_to_y = options.farfield.farfield_to_z = 8.0;
+  options.farfield.farfield_edge = 2.0;
+  options.farfield.farfield_sides = "symmetry=wall,name:ground,edge:0.7 x_min=inflow x_max=outflow";
+  const VolumeMeshResult result = meshed_half(options, nullptr, 2);
+  EXPECT_EQ(result.mesh.patches.size(), 5u);
+  std::map<std::string, std::size_t> rims = rim_edges(result);
+  EXPECT_EQ(rims.size(), 3u);
+  EXPECT_GT(rims["farfield"], 20u);
+  EXPECT_GT(result.layer.coverage, 0.95);
+}
+
 TEST(BarePlanes, EdgesOfASymmetryPlaneAreTheUsers) {
   MeshCase options = case_of(6);
   const double usual = edges_of(meshed_half(options).mesh, "symmetry").longest;
