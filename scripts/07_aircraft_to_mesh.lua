@@ -17,10 +17,11 @@ local model = aircraft{ body, main_wing, tailplane, fin }
 print(model)
 
 -- Without numbers edges are 8 % of the bodies' circumference and 15 % of the wings' chord, shorter where the surface is curved. Patches are the components.
+-- A min_edge above the radius of a leading edge would make an edge of it, which layers take for one: noses of the tails' tips have radii of 7 mm.
 local wall = surface_mesh{ model,
   curvature_angle = 18*deg,
   min_edge = 15*mm,
-  patches = { ["wing*"] = { max_edge = 0.15 }, fin = { max_edge = 0.12 } } }
+  patches = { ["wing*"] = { max_edge = 0.15 }, fin = { max_edge = 0.12, min_edge = 8*mm }, tailplane = { min_edge = 6*mm } } }
 print(wall, table.concat(wall.patches, " "))
 assert(wall.is_closed and wall.crossings == 0)
 

@@ -27,7 +27,7 @@ for _, alpha in ipairs{ -4, 12 } do
     local turned = mounted:rotate{ about = { 0.8, 0, 0 }, pitch = alpha*deg, yaw = beta*deg }
     -- The fluid: the test section less the model. Edges are short where the sting leaves the tunnel and grow from there.
     local wall = surface_mesh{ turned, tunnel, curvature_angle = 20*deg, growth = 1.3,
-      patches = { ["body*"] = { max_edge = 0.04 }, ["wing*"] = { max_edge = 0.03, min_edge = 0.004 }, ["sting*"] = { max_edge = 0.05 } } }
+      patches = { ["body*"] = { max_edge = 0.04 }, ["wing*"] = { max_edge = 0.03, min_edge = 0.0015 }, ["sting*"] = { max_edge = 0.05 } } }
     assert(wall.is_closed and wall.crossings == 0)
     print(string.format("pitch %3d, yaw %d: %s triangles", alpha, beta, wall.triangles))
     local mesh = volume_mesh{ wall, layers = 28, first_height = 3e-6 }   -- of the model; the walls' own came with the test section

@@ -16,7 +16,7 @@ local right = half(whole)                                            -- the side
 print(right, right.report)
 assert(not right.is_closed and right.min[2] > -1e-6)                -- boxes of exact geometry are a little loose; its rim is exact
 
-local sizes = { curvature_angle = 20*deg, min_edge = 20*mm, patches = { ["wing*"] = { max_edge = 0.2 }, fin = { max_edge = 0.2 } } }
+local sizes = { curvature_angle = 20*deg, min_edge = 12*mm, patches = { ["wing*"] = { max_edge = 0.2 }, fin = { max_edge = 0.2, min_edge = 8*mm } } }
 local function mesh_of(model)
   sizes[1] = model
   return surface_mesh(sizes)

@@ -26,7 +26,7 @@ local polar = series{ "polar",
     local bent = model:deform{ function(x, y, z) return 0, 0, p.bend*(y/half_span)^2 end, tolerance = 1e-5 }       -- elastic deformation
     local m = assembly{ bent, sting }:rotate{ about = {0.8, 0, 0}, pitch = p.alpha*deg, yaw = p.beta*deg }
     local wall = surface_mesh{ m, tunnel, curvature_angle = 20*deg, growth = 1.3,
-      patches = { ["body*"] = { max_edge = 0.04 }, ["wing*"] = { max_edge = 0.03, min_edge = 0.004 }, ["sting*"] = { max_edge = 0.05 } } }
+      patches = { ["body*"] = { max_edge = 0.04 }, ["wing*"] = { max_edge = 0.03, min_edge = 0.0015 }, ["sting*"] = { max_edge = 0.05 } } }
     return volume_mesh{ wall, layers = 18, first_height = 30e-6 }:write(p.name .. ".cgns")
   end }
 

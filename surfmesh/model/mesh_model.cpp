@@ -294,9 +294,9 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   const SmoothAngle smooth = measure_smooth_angle(model, meshing.faces, context);
   mesh.report.max_smooth_angle = smooth.angle;
   mesh.report.smooth_angle_place = smooth.place;
-  if (smooth.angle > k_largest_smooth_turn)
-    context.warn("the mesh turns by " + number_text(std::round(smooth.angle * 180.0 / std::numbers::pi), k_digits) + " degrees at " +
-                 format_point(smooth.place) +
+  if (smooth.angle_outside_spots > k_largest_smooth_turn)
+    context.warn("the mesh turns by " + number_text(std::round(smooth.angle_outside_spots * 180.0 / std::numbers::pi), k_digits) + " degrees at " +
+                 format_point(smooth.place_outside_spots) +
                  ", where the model is smooth: layers will take it for an edge (shorter edges there: max_edge, min_edge, curvature_angle; or the model folds)");
   return mesh;
 }

@@ -31,6 +31,9 @@ constexpr double k_least_narrow = 1e-4;
 constexpr double k_most_turn = 30.0 * std::numbers::pi / 180.0;
 /// Of the automatic min_edge: it gives way so far and no farther, since pointed tips and thin round trailing edges would ask for most of all triangles.
 constexpr double k_least_of_min = 0.5;
+/// The same on wings: their min_edge is that of the mean chord, and noses of thin tapered wings are rounder than half of that at the tip. Longer edges turn by
+/// 80 degrees along a leading edge, which is a line and no spot.
+constexpr double k_least_of_min_on_wings = 0.25;
 
 double longest_side(const Box& box) { return box.empty() ? 0.0 : box.longest_side(); }
 
@@ -122,7 +125,7 @@ void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& 
                .hint = "a larger chord_error, or a min_edge, where it ends; are the model's units right?"});
 }
 
-FaceSizes resolve(const std::string& name, double automatic_max, double automatic_least, const SurfaceMeshOptions& options,
+FaceSizes resolve(const std::string& name, double automatic_max, double automatic_least, double least_of_min, const SurfaceMeshOptions& options,
                   std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
   double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
@@ -146,7 +149,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
   // A min_edge that nobody gave ends neither a chord error, nor may the mesh turn sharply for it where the model is smooth.
   if (is_automatic(min_edge)) {
     sizes.limits.most_turn = std::max(angle, k_most_turn);
-    sizes.limits.least_edge = std::max(k_least_of_min * sizes.limits.min_edge, std::min(sizes.max_edge, automatic_least));
+    sizes.limits.least_edge = std::max(least_of_min * sizes.limits.min_edge, std::min(sizes.max_edge, automatic_least));
   } else {
     sizes.limits.least_edge = sizes.limits.error_edge = sizes.limits.min_edge;
   }
@@ -319,7 +322,8 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     const double length = of_model / k_of_longest_side;
     if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0)
       by_default = std::min(by_default, std::max(k_of_face * side, k_least_max_edge * length));
-    sizes.faces[f] = resolve(face.name, by_default, k_least_min_edge * length, options, patches);
+    const bool is_wing = face.component.is_valid() && model.components[face.component].kind == ComponentKind::wing;
+    sizes.faces[f] = resolve(face.name, by_default, k_least_min_edge * length, is_wing ? k_least_of_min_on_wings : k_least_of_min, options, patches);
     sizes.faces[f].curvature = std::move(curvature);
     sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
   }

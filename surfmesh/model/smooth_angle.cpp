@@ -1,10 +1,12 @@
 // Each face measures its inner edges and lists those of its border with the exact normals at their ends; lists are sorted together, and edges of two triangles
-// whose normals agree on both sides are measured, too.
+// whose normals agree on both sides are measured, too. Edges that turn far are joined to groups, and groups that are spots are told from those that are not.
 #include "surfmesh/model/smooth_angle.h"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
@@ -14,6 +16,15 @@ namespace {
 
 /// Faces that join at less than this have no crease: CAD systems take faces for tangent within about a degree, fitted surfaces miss it by a few.
 constexpr double k_tangent = 5.0 * std::numbers::pi / 180.0;
+
+/// Edges that turn by more than this belong to the group of their neighbours: about where layers begin to take a smooth place for an edge.
+constexpr double k_sharp = 45.0 * std::numbers::pi / 180.0;
+/// Of the longest edge of a group: what extends no farther is a spot. A cone of half angle a is thinner than its edges are long for 1 / tan(a) edges from its
+/// point, for 21 where the round tip of a wing of 4 % thickness ends at its trailing edge.
+constexpr double k_spot = 25.0;
+/// A triangle follows the surface when its normal is within this of the exact ones at two of its vertices (at the third, a point of a cone, there is none).
+/// Two triangles around a half circle are 45 degrees off, folds 90 and more.
+constexpr double k_follows = 75.0 * std::numbers::pi / 180.0;
 
 struct LocalEdge {
   std::uint32_t low, high;
@@ -28,19 +39,47 @@ struct BorderEdge {
   std::uint32_t triangle = 0;
   std::array<Vec3, 2> exact;  ///< outward normals of the surface at low and high; zero where it has none
   Vec3 normal;                ///< of the triangle
-  Point middle;
+  std::array<Point, 2> ends;  ///< low and high
+  bool follows = true;        ///< the triangle follows the surface
+  Point middle() const { return 0.5 * (ends[0] + ends[1]); }
   bool before(const BorderEdge& other) const {
     return std::array{low, high, face.value(), triangle} < std::array{other.low, other.high, other.face.value(), other.triangle};
   }
 };
 
+/// A vertex of all faces: of a border by its number there, of the inside by its face.
+struct VertexKey {
+  FaceId face;  ///< none for vertices of borders
+  std::uint32_t vertex = 0;
+  bool operator==(const VertexKey&) const = default;
+  bool operator<(const VertexKey& other) const { return std::pair(face.value(), vertex) < std::pair(other.face.value(), other.vertex); }
+};
+
+/// An edge that turns by more than k_sharp.
+struct SharpEdge {
+  double angle = 0.0;
+  std::array<VertexKey, 2> keys;
+  std::array<Point, 2> ends;
+  bool follow = true;  ///< both triangles follow the surface
+  FaceId face;         ///< one of those beside it
+};
+
 struct FaceAngles {
   SmoothAngle inner;
+  std::vector<SharpEdge> sharp;
   std::vector<BorderEdge> border;
 };
 
 void keep_larger(SmoothAngle& best, double angle, const Point& place) {
-  if (angle > best.angle) best = {angle, place};
+  if (angle <= best.angle) return;
+  best.angle = angle;
+  best.place = place;
+}
+
+void keep_larger_outside_spots(SmoothAngle& best, double angle, const Point& place) {
+  if (angle <= best.angle_outside_spots) return;
+  best.angle_outside_spots = angle;
+  best.place_outside_spots = place;
 }
 
 FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace& face) {
@@ -64,10 +103,21 @@ FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace&
     const SurfaceDerivatives d = model_face.surface->derivatives(mesh.uv[v]);
     return side * cross(d.du, d.dv);
   };
+  const auto follows = [&](std::uint32_t t) {
+    int n = 0;
+    for (const auto v : mesh.triangles[t]) n += angle_between(normal(t), exact_normal(v.value())) <= k_follows ? 1 : 0;
+    return n >= 2;
+  };
+  const auto key = [&](std::uint32_t v) { return v < mesh.n_border ? VertexKey{{}, face.border_ids[v].value()} : VertexKey{f, v}; };
   for (std::size_t i = 0; i < edges.size();) {
     const LocalEdge& e = edges[i];
     if (i + 1 < edges.size() && edges[i + 1].low == e.low && edges[i + 1].high == e.high) {
-      keep_larger(result.inner, angle_between(normal(e.triangle), normal(edges[i + 1].triangle)), 0.5 * (mesh.points[e.low] + mesh.points[e.high]));
+      const std::uint32_t other = edges[i + 1].triangle;
+      const double angle = angle_between(normal(e.triangle), normal(other));
+      const Point &a = mesh.points[e.low], &b = mesh.points[e.high];
+      keep_larger(result.inner, angle, 0.5 * (a + b));
+      if (angle > k_sharp) result.sharp.push_back({angle, {key(e.low), key(e.high)}, {a, b}, follows(e.triangle) && follows(other), f});
+      else keep_larger_outside_spots(result.inner, angle, 0.5 * (a + b));
       i += 2;
       continue;
     }
@@ -77,12 +127,14 @@ FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace&
                     .triangle = e.triangle,
                     .exact = {exact_normal(e.low), exact_normal(e.high)},
                     .normal = normal(e.triangle),
-                    .middle = 0.5 * (mesh.points[e.low] + mesh.points[e.high])};
+                    .ends = {mesh.points[e.low], mesh.points[e.high]},
+                    .follows = follows(e.triangle)};
     edge.low = face.border_ids[e.low].value();
     edge.high = face.border_ids[e.high].value();
     if (edge.low > edge.high) {
       std::swap(edge.low, edge.high);
       std::swap(edge.exact[0], edge.exact[1]);
+      std::swap(edge.ends[0], edge.ends[1]);
     }
     result.border.push_back(edge);
   }
@@ -93,6 +145,45 @@ bool is_tangent(const BorderEdge& a, const BorderEdge& b) {
   for (std::size_t k = 0; k < 2; ++k)
     if (norm(a.exact[k]) > 0.0 && norm(b.exact[k]) > 0.0 && angle_between(a.exact[k], b.exact[k]) > k_tangent) return false;
   return true;
+}
+
+/// Groups of sharp edges that share vertices; those that are no spots count, and all where a face has more than spots at its two ends.
+void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, SmoothAngle& best) {
+  std::vector<VertexKey> keys;
+  for (const SharpEdge& e : edges) keys.insert(keys.end(), e.keys.begin(), e.keys.end());
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  const auto index = [&](const VertexKey& key) { return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin()); };
+  std::vector<std::size_t> parent(keys.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const SharpEdge& e : edges) parent[root(index(e.keys[0]))] = root(index(e.keys[1]));
+  struct Group {
+    Box box;
+    double longest = 0.0;
+    bool follow = true;
+    FaceId face;
+    double extent() const { return norm(box.max - box.min) / longest; }  ///< in edges
+  };
+  std::vector<Group> groups(keys.size());
+  for (const SharpEdge& e : edges) {
+    Group& group = groups[root(index(e.keys[0]))];
+    for (const Point& p : e.ends) group.box.add(p);
+    group.longest = std::max(group.longest, distance(e.ends[0], e.ends[1]));
+    group.follow = group.follow && e.follow;
+    group.face = e.face;
+  }
+  Column<FaceId, double> extents(n_faces, 0.0);
+  for (const Group& group : groups)
+    if (group.longest > 0.0) extents[group.face] += group.extent();
+  for (const SharpEdge& e : edges) {
+    const Group& group = groups[root(index(e.keys[0]))];
+    if (group.follow && group.extent() <= k_spot && extents[group.face] <= 2.0 * k_spot) continue;
+    keep_larger_outside_spots(best, e.angle, 0.5 * (e.ends[0] + e.ends[1]));
+  }
 }
 
 }  // namespace
@@ -108,16 +199,23 @@ SmoothAngle measure_smooth_angle(const Model& model, const Column<FaceId, Meshed
       1);
   SmoothAngle best;
   std::vector<BorderEdge> border;
+  std::vector<SharpEdge> sharp;
   for (const FaceAngles& face : angles) {
     keep_larger(best, face.inner.angle, face.inner.place);
+    keep_larger_outside_spots(best, face.inner.angle_outside_spots, face.inner.place_outside_spots);
+    sharp.insert(sharp.end(), face.sharp.begin(), face.sharp.end());
     border.insert(border.end(), face.border.begin(), face.border.end());
   }
   std::sort(border.begin(), border.end(), [](const BorderEdge& a, const BorderEdge& b) { return a.before(b); });
   for (std::size_t i = 0; i + 1 < border.size(); ++i) {
     const BorderEdge &a = border[i], &b = border[i + 1];
     if (a.low != b.low || a.high != b.high || !is_tangent(a, b)) continue;
-    keep_larger(best, angle_between(a.normal, b.normal), a.middle);
+    const double angle = angle_between(a.normal, b.normal);
+    keep_larger(best, angle, a.middle());
+    if (angle > k_sharp) sharp.push_back({angle, {VertexKey{{}, a.low}, VertexKey{{}, a.high}}, a.ends, a.follows && b.follows, a.face});
+    else keep_larger_outside_spots(best, angle, a.middle());
   }
+  add_groups(sharp, faces.size(), best);
   return best;
 }
 

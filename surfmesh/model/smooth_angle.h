@@ -10,6 +10,11 @@ namespace sterna::surfmesh {
 struct SmoothAngle {
   double angle = 0.0;  ///< rad
   Point place{};       ///< middle of that edge
+  /// The same without spots: connected edges that turn by more than 45 degrees within 25 edge lengths, whose triangles follow the surface. The model is
+  /// rounder there than its edges are short: the points of cones, round tips above thin trailing edges. Spots of a face that extend over more than 50 edges
+  /// count.
+  double angle_outside_spots = 0.0;  ///< rad
+  Point place_outside_spots{};
 };
 SmoothAngle measure_smooth_angle(const Model& model, const Column<FaceId, MeshedFace>& faces, const RunContext& context);
 

@@ -3,10 +3,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
+#include "geom/model/airfoil.h"
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/model_wall.h"
@@ -84,6 +88,51 @@ TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
     largest = std::max(largest, angle_between(normal(HalfedgeId(i)), normal(topology.twin(HalfedgeId(i)))));
   EXPECT_NEAR(surface.report.max_smooth_angle, largest, 1e-9);
   EXPECT_LT(largest, 40.0 * k_degree);
+}
+
+/// Warnings about sharp turns that meshing gives.
+std::string turn_warnings(const Model& model, const SurfaceMeshOptions& options = {}) {
+  std::string warnings;
+  const RunContext context({.threads = 2, .log = [&](LogLevel level, std::string_view line) {
+                              if (level == LogLevel::warning && line.find("where the model is smooth") != std::string_view::npos)
+                                warnings += std::string(line) + "\n";
+                            }});
+  (void)mesh_model(model, options, {}, context);
+  return warnings;
+}
+
+Wing tapered_wing(const char* airfoil, std::optional<double> trailing_edge, double tip_chord) {
+  Wing wing{.name = "W", .is_symmetric = true, .trailing_edge = trailing_edge};
+  wing.sections.push_back({.name = "tip", .leading_edge = {1.0, 3.0, 0.1}, .chord = tip_chord, .points = naca_airfoil(airfoil).points});
+  wing.sections.push_back({.name = "root", .leading_edge = {0.0, 0.0, 0.0}, .chord = 1.0, .points = naca_airfoil(airfoil).points});
+  return wing;
+}
+
+/// The round tip of a wing ends in a point at a sharp trailing edge, and in an arc of millimetres at a blunt one.
+TEST(SmoothAngle, RoundTipsGiveNoWarning) {
+  for (const std::optional<double> trailing_edge : {std::optional(0.001), std::optional<double>()})
+    for (const char* airfoil : {"0012", "23014"})
+      for (const double tip_chord : {0.3, 0.9}) {
+        Wing wing = tapered_wing(airfoil, trailing_edge, tip_chord);
+        wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
+        EXPECT_EQ(turn_warnings(make_wing(wing)), "") << airfoil << ", trailing edge " << trailing_edge.value_or(-1.0) << ", tip chord " << tip_chord;
+      }
+}
+
+/// The nose of a thin wing that tapers has a radius of 3 mm at the tip, and the mean chord asks for 12 mm at least.
+TEST(SmoothAngle, NosesOfThinTaperedWingsAreResolved) {
+  Wing wing = tapered_wing("0004", std::nullopt, 1.5);
+  wing.sections.front().leading_edge = {7.0, 4.9, 0.0};
+  wing.sections.back().chord = 9.0;
+  wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
+  EXPECT_EQ(turn_warnings(make_wing(wing)), "");
+}
+
+/// A rod with edges longer than its radius is a prism of few sides over all its length, which is no spot.
+TEST(SmoothAngle, LongPlacesThatTurnSharplyGiveAWarning) {
+  SurfaceMeshOptions options = edges_of(0.2, 90.0 * k_degree);
+  options.min_edge = 0.2;
+  EXPECT_NE(turn_warnings(make_cylinder("rod", {0, 0, 0}, {9, 0, 0}, 0.1), options), "");
 }
 
 }  // namespace
