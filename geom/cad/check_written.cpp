@@ -97,9 +97,11 @@ std::vector<std::string> differences_of_file(const Model& model, const std::stri
   const std::vector<WrittenBody> before = bodies_of(model, context);
   std::vector<WrittenBody> after = bodies_of(file.model, context);
   const double size = diagonal_of(model);
+  // Solids around the fluid have normals inwards; STEP and IGES do not store that.
+  const auto volume_of = [&](const WrittenBody& body) { return format == CadFormat::brep ? body.volume : std::abs(body.volume); };
   const auto is_same = [&](const WrittenBody& a, const WrittenBody& b) {
     return a.is_closed == b.is_closed && (a.n_faces == b.n_faces || !a.is_closed) && std::abs(a.area - b.area) <= k_same_written * a.area + a.slack &&
-           std::abs(a.volume - b.volume) <= k_same_written * std::abs(a.volume) + a.slack * size;
+           std::abs(volume_of(a) - volume_of(b)) <= k_same_written * std::abs(a.volume) + a.slack * size;
   };
   std::vector<std::string> differences;
   for (const WrittenBody& body : before) {
@@ -109,6 +111,13 @@ std::vector<std::string> differences_of_file(const Model& model, const std::stri
   }
   for (const WrittenBody& body : after) differences.push_back("the file holds \"" + body.name + "\" (" + figures(body) + ") instead");
   return differences;
+}
+
+std::vector<std::string> solids_around_fluid(const Model& model, const RunContext& context) {
+  std::vector<std::string> names;
+  for (const WrittenBody& body : bodies_of(model, context))
+    if (body.is_closed && body.volume < 0.0) names.push_back(body.name);
+  return names;
 }
 
 }  // namespace sterna::cad

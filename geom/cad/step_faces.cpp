@@ -44,6 +44,7 @@
 #include <gp_Pnt2d.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -68,6 +69,8 @@ struct PoledSurface {
   Handle(Geom_Surface) surface;
   bool is_u = true;                 ///< closed in u, poles at the ends of v
   double from = 0.0, period = 0.0;  ///< of the closed direction
+  std::array<gp_Pnt, 2> poles;
+  double pole_size = 0.0;  ///< nearer places are a pole, where the parameter around means nothing
   gp_Pnt2d at(double around, double along) const { return is_u ? gp_Pnt2d(around, along) : gp_Pnt2d(along, around); }
 };
 
@@ -99,7 +102,7 @@ std::optional<PoledSurface> poled_surface(const Handle(Geom_Surface) & surface) 
   for (const double bound : {u1, u2, v1, v2})
     if (Precision::IsInfinite(bound)) return std::nullopt;
   for (const bool is_u : {true, false}) {
-    const PoledSurface poled{surface, is_u, is_u ? u1 : v1, is_u ? u2 - u1 : v2 - v1};
+    const PoledSurface poled{surface, is_u, is_u ? u1 : v1, is_u ? u2 - u1 : v2 - v1, {}};
     const double first = is_u ? v1 : u1, last = is_u ? v2 : u2;
     double size = 0.0, gap = 0.0;
     for (const double share : {0.25, 0.5, 0.75}) {
@@ -109,7 +112,12 @@ std::optional<PoledSurface> poled_surface(const Handle(Geom_Surface) & surface) 
       gap = std::max(gap, surface->Value(a.X(), a.Y()).Distance(surface->Value(b.X(), b.Y())));
     }
     const double tolerance = k_pole_share * size;
-    if (size > 0.0 && gap <= tolerance && spread(surface, poled, first) <= tolerance && spread(surface, poled, last) <= tolerance) return poled;
+    if (!(size > 0.0) || gap > tolerance || spread(surface, poled, first) > tolerance || spread(surface, poled, last) > tolerance) continue;
+    PoledSurface result = poled;
+    const gp_Pnt2d a = poled.at(poled.from, first), b = poled.at(poled.from, last);
+    result.poles = {surface->Value(a.X(), a.Y()), surface->Value(b.X(), b.Y())};
+    result.pole_size = 2.0 * tolerance;
+    return result;
   }
   return std::nullopt;
 }
@@ -189,7 +197,9 @@ bool follow(Hole& hole, const PoledSurface& poled, FaceReader& reader) {
     uv = surface->ValueOfUV(point, Precision::Confusion());
     double step = around_of(uv) - around;
     step -= poled.period * std::round(step / poled.period);
-    hole.meets_pole = hole.meets_pole || std::abs(step) > k_largest_step * poled.period;
+    // At the pole itself the parameter is any: two small steps may stand for the jump.
+    hole.meets_pole = hole.meets_pole || std::abs(step) > k_largest_step * poled.period || point.Distance(poled.poles[0]) <= poled.pole_size ||
+                      point.Distance(poled.poles[1]) <= poled.pole_size;
     around += step;
     const gp_Pnt2d here = poled.is_u ? gp_Pnt2d(around, uv.Y()) : gp_Pnt2d(uv.X(), around);
     hole.area += 0.5 * (before.X() * here.Y() - here.X() * before.Y());

@@ -213,6 +213,10 @@ std::string cad_bytes(const Model& original, CadFormat format, const std::string
   const bool is_refitted = !original.shape && needs_refit(original);
   const Model model = is_refitted ? exact_for_export(original, name, options, context) : original;
   std::string bytes = bytes_of(model, format, name, options, context);
+  if (format != CadFormat::brep)
+    for (const std::string& solid : solids_around_fluid(model, context))
+      context.warn("writing " + name + ": \"" + solid +
+                   "\" encloses the fluid, but STEP and IGES store every solid as a body; read the file with fluid = \"inside\"");
   const std::vector<std::string> differences = differences_of_file(model, bytes, format, name, context);
   if (differences.empty()) return bytes;
   if (const std::optional<Model> split = split_closed_faces(model, context)) {

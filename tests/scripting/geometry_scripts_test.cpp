@@ -342,5 +342,88 @@ TEST_F(GeometryScripts, AllProblemsOfATableAreToldTogether) {
               AllOf(HasSubstr("twist: 5 rad (286.479 deg) is not allowed"), HasSubstr("write degrees as 40*deg")));
 }
 
+/// Before a script: components and solids that it makes are noted, and it ends where they are united or meshed.
+constexpr const char* k_noting = R"(
+local made = {}
+local function noting(verb) return function(...) local thing = verb(...) made[#made + 1] = thing return thing end end
+fuselage, wing, nacelle, pylon, boom, fairing = noting(fuselage), noting(wing), noting(nacelle), noting(pylon), noting(boom), noting(fairing)
+body_of_revolution, sting, box, cylinder = noting(body_of_revolution), noting(sting), noting(box), noting(cylinder)
+local function stop() error("all components are made", 0) end
+local whole = aircraft
+aircraft = function(t) return t.unite == false and whole(t) or stop() end
+surface_mesh, volume_mesh, series = stop, stop, stop
+local ok, problem = pcall(function()
+)";
+/// After it: each is written, read again and measured.
+constexpr const char* k_compare = R"(
+end)
+if not ok and problem ~= "all components are made" then error(problem, 0) end
+for i, thing in ipairs(made) do
+  local is_component, model = pcall(function() return thing:model() end)
+  if not is_component then model = thing end
+  local before = model:measures()
+  model:write "component.step"
+  local after = read_cad("component.step"):measures()
+  if not (math.abs(after.volume - before.volume) <= 1e-6 * before.volume) then
+    error(string.format("thing %d: %.9g m3 became %.9g m3", i, before.volume, after.volume), 0)
+  end
+end
+print(#made)
+)";
+
+TEST_F(GeometryScripts, StepHoldsTheComponentsOfAllScripts) {
+  const std::filesystem::path scripts = std::filesystem::path(STERNA_SOURCE_DIR) / "scripts";
+  std::filesystem::copy(scripts / "data", folder_ / "data", std::filesystem::copy_options::recursive);
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  int n_components = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scripts)) {
+    if (entry.path().extension() != ".lua") continue;
+    SCOPED_TRACE(entry.path().filename());
+    std::ifstream file(entry.path());
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (entry.path().filename() == "02_every_option.lua") {  // geometry comes behind meshes there
+      const std::size_t from = text.find("local section = airfoil"), to = text.find("local sheet = surface");
+      ASSERT_TRUE(from < to && to != std::string::npos);
+      text = text.substr(from, to - from);
+    }
+    std::string printed;
+    ASSERT_NO_THROW(printed = run(k_noting + text + k_compare)) << error(k_noting + text + k_compare);
+    const std::size_t last = printed.find_last_of('\n', printed.size() - 2);
+    n_components += std::stoi(printed.substr(last == std::string::npos ? 0 : last + 1));
+  }
+  std::filesystem::current_path(before);
+  EXPECT_GE(n_components, 40);
+}
+
+/// The parameter around a pole is any there: halves of a bulge lost their outer border by the place where they stand.
+TEST_F(GeometryScripts, StepHoldsBulgesAnywhere) {
+  for (const char* const place : {"0, 0, 0", "2.6, 0, 0.45", "-3, 0.2, 1"})
+    for (const char* const exponent : {"2", "2.5", "4"}) {
+      const std::string bulge = std::string("fairing{ name = 'canopy', position = { ") + place +
+                                " }, length = 3.6, width = 0.85, height = 1.05, exponent = " + exponent + " }:model()";
+      EXPECT_EQ(run("local m = " + bulge + " m:write " + out("c.step") + " print(math.abs(read_cad(" + out("c.step") +
+                    "):measures().volume / m:measures().volume - 1) < 1e-6)"),
+                "true\n")
+          << place << ", exponent " << exponent;
+    }
+}
+
+/// A body of revolution with a wing through it and a strut on it (step_centre_body of the trial) lost its body.
+TEST_F(GeometryScripts, StepHoldsACentreBodyWithStruts) {
+  EXPECT_EQ(run("local body = body_of_revolution{ name = 'bor', profile = { {0,0}, {0.3,0.25}, {0.9,0.33}, {1.8,0.33}, {2.6,0.22}, {3.3,0} } } "
+                "local strut = wing{ name = 'strut', position = {1,0,0.2}, sections = { {chord=0.5, airfoil='naca0015'}, {z=0.7} } } "
+                "local pair = wing{ name = 'w', symmetric = true, position = {1,0,0}, sections = { {y=0, chord=0.5, airfoil='naca0015'}, {y=0.9} } } "
+                "local m = aircraft{ body, pair, strut } m:write " +
+                out("b.step") + " local r = read_cad " + out("b.step") + " print(#r.solids, math.abs(r:measures().volume / m:measures().volume - 1) < 1e-6)"),
+            "1\ttrue\n");
+}
+
+TEST_F(GeometryScripts, StepOfATunnelIsWrittenWithAWarning) {
+  run("test_section{ length = 6, width = 2, height = 1.5 }:write(" + out("t.step") + ")");
+  EXPECT_THAT(log_, HasSubstr("encloses the fluid, but STEP and IGES store every solid as a body; read the file with fluid = \"inside\""));
+  EXPECT_NEAR(number("-read_cad{ " + out("t.step") + ", fluid = 'inside' }:measures().volume"), 18.0, 18.0 * k_exact);
+}
+
 }  // namespace
 }  // namespace sterna::scripting
