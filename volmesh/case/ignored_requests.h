@@ -1,4 +1,4 @@
-// Requests in rules of patches that have no effect on this model: errors instead of silence.
+// Requests that have no effect on this model: errors and warnings instead of silence.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +18,17 @@ namespace sterna::volmesh {
 /// \throws Error(bad_argument) with all rules in question, the kinds of their patches, and the remedy
 void require_used_requests(const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, const MeshCase& options,
                            const RunContext& context);
+
+/// Checks that all options of the farfield belong to its shape: a radius to a sphere or cylinder, a centre to a sphere, corners to a box or cylinder.
+/// \param options with the shape that is made
+/// \throws Error(bad_argument) with the options that the shape does not have, and the shapes that have them
+void require_used_farfield(const FarfieldOptions& options);
+
+/// Warns of sources that lie wholly outside of the fluid. A source inside of a body is not reported where it refines edges near its surface.
+/// \param boundary closed boundary of the fluid, normals into the fluid
+void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, const RunContext& context);
+
+/// Warns of options of adjacent patches (ends_growth, ...) that were given, where the model has no patch that is triangulated by them.
+void warn_of_unused_ends(const EndOptions& given, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -10,6 +10,7 @@
 #include "geom/mesh/bvh.h"
 #include "geom/mesh/half.h"
 #include "geom/mesh/topology.h"
+#include "volmesh/case/ignored_requests.h"
 #include "volmesh/domain/end_planes.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/domain/flatten_rims.h"
@@ -325,6 +326,7 @@ TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, c
   OuterOptions outer = options;
   if (!is_enclosed && outer.farfield.farfield_shape == "automatic" && has_periodic_planes(ends, options.periodic))
     choose_box(mesh, ends, outer.farfield, context);
+  require_used_farfield(outer.farfield);
   const bool is_box = outer.farfield.farfield_shape == "box", has_sides = is_box || outer.farfield.farfield_shape == "cylinder";
   std::vector<SideRule> rules = parse_sides(outer.farfield.farfield_sides);
   if (is_box) {

@@ -16,6 +16,7 @@
 #include "volmesh/case/growth_law.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/envelope/envelope.h"
+#include "volmesh/envelope/unused_blends.h"
 #include "volmesh/envelope/wall_distance.h"
 
 namespace sterna::volmesh {
@@ -352,6 +353,46 @@ LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std
   blender.log();
   for_each_column([&](auto& column) { take_least_of_groups(base.groups, column); }, demand);
   return demand;
+}
+
+void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+                           const RunContext& context) {
+  if (std::ranges::none_of(rules, [](const PatchRule& rule) { return !is_automatic(rule.blend); })) return;
+  const Column<PatchId, Patch>& patches = base.wall.patches;
+  const Column<PatchId, PatchLayers> asked = layers_of_patches(patches, options, rules);
+  const auto group_of = [&](PatchId p) {
+    const PatchLayers& layers = asked[p];
+    return Group{layers.first_height,
+                 layers.max_growth,
+                 thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
+                 layers.has_own_first_height ? nullptr : by_place,
+                 layers.blend,
+                 layers.total_height};
+  };
+  // Patches that meet a patch with other layers.
+  Column<PatchId, std::uint8_t> differs(patches.size(), 0), is_there(patches.size(), 0);
+  for (const VertexId v : base.wall.points.ids()) {
+    std::set<PatchId> here;
+    for (const HalfedgeId h : base.topology.outgoing(v))
+      if (const PatchId p = base.wall.triangle_patch[triangle_of(h)]; asked[p].carries_layers()) here.insert(p);
+    for (const PatchId p : here) {
+      is_there[p] = 1;
+      if (std::ranges::any_of(here, [&](PatchId other) { return other != p && !group_of(p).asks_as(group_of(other)); })) differs[p] = 1;
+    }
+  }
+  for (const PatchRule& rule : rules) {
+    if (is_automatic(rule.blend)) continue;
+    std::string names;
+    bool is_used = false;
+    for (const PatchId p : patches.ids()) {
+      if (is_there[p] == 0 || asked[p].blend != rule.blend || !matches_glob(patches[p].name, rule.names)) continue;
+      is_used = is_used || differs[p] != 0;
+      names += (names.empty() ? "\"" : ", \"") + patches[p].name + "\"";
+    }
+    if (is_used || names.empty()) continue;  // without layers it is an error already (ignored_requests.h)
+    context.warn("blend = " + in_metres(rule.blend, k_length_digits) + " of patches[\"" + rule.names + "\"] has no effect: no wall that meets " + names +
+                 " has layers of another first height, growth, height or thickness. Leave blend out, or give the neighbours other layers");
+  }
 }
 
 Column<PatchId, std::uint8_t> patches_with_open_ridges(const Column<PatchId, Patch>& patches, bool of_all, std::span<const PatchRule> rules) {

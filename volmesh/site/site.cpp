@@ -25,6 +25,7 @@
 #include "volmesh/envelope/patch_layers.h"
 #include "volmesh/envelope/periodic.h"
 #include "volmesh/envelope/sheet_heights.h"
+#include "volmesh/envelope/unused_blends.h"
 #include "volmesh/rims/bare_planes.h"
 #include "volmesh/rims/slits.h"
 
@@ -159,9 +160,8 @@ void warn_of_cavities(const Domain& domain, const RunContext& context) {
   if (!domain.cavities.empty()) context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
 }
 
-}  // namespace
-
-Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed) {
+/// \param given_ends as the user gave them, to warn where no patch is triangulated by them; null: no warning
+Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed, const EndOptions* given_ends) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
   std::vector<PatchRule> of_given;  // the others are meant for what is added
@@ -173,6 +173,7 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   TriMesh& boundary = whole.mesh;
   Column<PatchId, std::uint8_t>& has_layer = whole.has_layer;
   require_used_requests(boundary.patches, has_layer, options, context);
+  if (closed.empty()) warn_of_sources_outside(boundary, options, context);  // else warned of already
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
@@ -207,6 +208,7 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
     domain.links.surface.resize(domain.outer.n_triangles(), -1);
   }
   add_slits(boundary, cuts, options.discs, options.size.size_growth, context, domain);
+  if (given_ends && closed.empty() && whole.planes.empty() && domain.ends.empty() && domain.slits.empty()) warn_of_unused_ends(*given_ends, context);
   if (!periodic.sources.empty())
     for (TriangleId& t : domain.wall2surface) t = periodic.sources[t];
   if (!cuts.sources.empty())
@@ -225,6 +227,12 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   return domain;
 }
 
+}  // namespace
+
+Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed) {
+  return make_domain(surface, options, context, closed, nullptr);
+}
+
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context) {
   LayerBase base(domain.wall, context, domain.constraints, &domain.ridges);
   if (domain.wall.n_triangles() == 0) base.body_length = body_length(domain.bodies.n_triangles() > 0 ? domain.bodies : domain.outer);
@@ -241,10 +249,12 @@ LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContex
 MeshingSite::MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context, std::span<const VertexId> closed)
     : options(validated(surface, user_options, context)),
       given_envelope(options.envelope),
-      domain(domain_around(surface, options, context, closed)),
+      domain(make_domain(surface, options, context, closed, &user_options.ends)),
       base([&] {
         const StageTimer timer(context, "topology");
-        return base_of(domain, options, context);
+        LayerBase of_domain = base_of(domain, options, context);
+        if (closed.empty()) warn_of_unused_blends(of_domain, options.envelope, options.patches, options.first_heights.get(), context);
+        return of_domain;
       }()),
       collider([&] {
         options.envelope.feature_angle = decide_feature_angle(base, options.envelope, options.smooth_angle, context);

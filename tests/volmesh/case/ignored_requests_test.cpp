@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "tests/support/shapes.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -88,6 +89,72 @@ TEST(IgnoredRequests, OptionsOfAllWallsThatNoneUsesAreWarnings) {
   all.first_height = 1e-3;
   EXPECT_THAT(outcome_of({{.names = "wing", .first_height = 1e-4}}, all).log, HasSubstr("first_height = 0.001 of all walls has no effect"));
   EXPECT_THAT(outcome_of({{.names = "wing", .layers = 5}}, all).log, IsEmpty());
+}
+
+std::string error_of_farfield(const FarfieldOptions& options) {
+  try {
+    require_used_farfield(options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(IgnoredRequests, FarfieldOptionsBelongToTheShape) {
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "box", .farfield_radius = 50}),
+              AllOf(HasSubstr("the shape \"box\" does not have farfield_radius = 50"), HasSubstr("sphere, cylinder")));
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "sphere", .farfield_from_x = -3}), HasSubstr("farfield_from_x = -3 (of the shapes box, cylinder)"));
+  EXPECT_THAT(error_of_farfield({.farfield_to_z = 4}), HasSubstr("\"automatic\", a sphere,"));
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "cylinder", .farfield_center_y = 1}), HasSubstr("farfield_center_y = 1"));
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "none", .farfield_radius = 9, .farfield_edge = 1}),
+              AllOf(HasSubstr("farfield_radius = 9"), HasSubstr("farfield_edge = 1")));
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "surface", .farfield_edge = 1}), HasSubstr("farfield_edge = 1"));
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "sphere", .farfield_surface = "far.stl"}), HasSubstr("far.stl"));
+  EXPECT_THAT(error_of_farfield({.farfield_radius = 50, .farfield_edge = 10, .farfield_center_x = 1}), IsEmpty());
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "box", .farfield_edge = -0.5, .farfield_from_x = -3, .farfield_to_x = 3}), IsEmpty());
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "cylinder", .farfield_radius = 50, .farfield_from_x = -3, .farfield_to_x = 3}), IsEmpty());
+  EXPECT_THAT(error_of_farfield({.farfield_shape = "surface", .farfield_edge = -0.5, .farfield_surface = "far.stl"}), IsEmpty());
+}
+
+/// A cube of 1 m with edges of 0.25 m in a box from -10 to 10 m with edges of 4 m.
+std::string log_of_source(const SizeSource& source) {
+  TriMesh boundary = test::cube(4), far = test::cube(5);
+  boundary.patches.raw().front() = {"body", PatchKind::wall};
+  for (Point& p : far.points) p = 20.0 * p - Vec3{10, 10, 10};
+  for (TriangleVertices& t : far.triangles) std::swap(t[1], t[2]);  // normals into the fluid
+  far.patches.raw().front() = {"farfield", PatchKind::farfield};
+  append(boundary, far);
+  MeshCase options;
+  options.sources = {source};
+  std::string log;
+  warn_of_sources_outside(boundary, options, RunContext({.threads = 1, .log = [&](LogLevel, std::string_view line) { log += std::string(line) + "\n"; }}));
+  return log;
+}
+
+TEST(IgnoredRequests, SourcesOutsideOfTheFluidAreWarnings) {
+  EXPECT_THAT(log_of_source({.kind = SourceKind::sphere, .from = {1000, 0, 0}, .radius = 5, .size = 0.1}),
+              AllOf(HasSubstr("source 1 (sphere about (1000, 0, 0), size 0.1 m) lies wholly outside of the fluid and has no effect"), HasSubstr("985 m away"),
+                    HasSubstr("\"farfield\""), HasSubstr("leave it out")));
+  EXPECT_THAT(log_of_source({.kind = SourceKind::box, .from = {11, -1, -1}, .to = {15, 1, 1}, .size = 0.1}), HasSubstr("box about (13, 0, 0)"));
+  EXPECT_THAT(log_of_source({.kind = SourceKind::line, .from = {0, 0, 20}, .to = {5, 0, 20}, .size = 0.1}), HasSubstr("line"));
+  EXPECT_THAT(
+      log_of_source({.kind = SourceKind::wake, .from = {-12, 0, 0}, .to = {-12, 1, 0}, .direction = {-1, 0, 0}, .length = 3, .height = 0.1, .size = 0.1}),
+      HasSubstr("wake"));
+  EXPECT_THAT(log_of_source({.kind = SourceKind::samples, .points = {{40, 0, 0}, {50, 0, 0}}, .sizes = {0.1, 0.1}}), HasSubstr("samples"));
+  // Within the cube: edges longer than those of the farfield have no effect.
+  EXPECT_THAT(log_of_source({.kind = SourceKind::sphere, .from = {0.5, 0.5, 0.5}, .radius = 0.1, .size = 30}), HasSubstr("no effect"));
+}
+
+TEST(IgnoredRequests, SourcesWithAnEffectPass) {
+  const std::vector<SizeSource> sources = {
+      {.kind = SourceKind::sphere, .from = {3, 0, 0}, .radius = 0.5, .size = 0.1},
+      {.kind = SourceKind::sphere, .from = {0.5, 0.5, 0.5}, .radius = 0.1, .size = 0.1},        // in the body, refines beside it
+      {.kind = SourceKind::box, .from = {-100, -100, -100}, .to = {100, 100, 100}, .size = 9},  // around everything
+      {.kind = SourceKind::box, .from = {9, -1, -1}, .to = {30, 1, 1}, .size = 0.1},            // across the farfield
+      {.kind = SourceKind::wake, .from = {1, 0, 0.5}, .to = {1, 1, 0.5}, .length = 30, .height = 0.2, .spread = 0.1, .size = 0.1},
+      {.kind = SourceKind::samples, .points = {{40, 0, 0}, {5, 0, 0}}, .sizes = {0.1, 0.1}},
+  };
+  for (const SizeSource& source : sources) EXPECT_THAT(log_of_source(source), IsEmpty()) << to_string(source.kind);
 }
 
 }  // namespace

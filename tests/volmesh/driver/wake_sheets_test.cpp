@@ -285,7 +285,7 @@ TEST(WakeSheets, FromPeriodicSideToPeriodicSideTheyMatch) {
       for (const bool has_given_sides : {false, true}) {
         TriMesh wall = wing_from_side_to_side(20.0, bend);
         MeshCase mesh_case = wake_case({{.length = 1.0}});
-        mesh_case.farfield.farfield_shape = "box";
+        mesh_case.farfield = {.farfield_shape = "box"};
         mesh_case.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
         mesh_case.prisms.truncate = truncate;
         if (has_given_sides) {
@@ -311,7 +311,7 @@ TEST(WakeSheets, FromPeriodicSideToPeriodicSideTheyMatch) {
 
 TEST(WakeSheets, BetweenPeriodicSidesThereMayBeOtherWings) {
   MeshCase mesh_case = wake_case({{}});
-  mesh_case.farfield.farfield_shape = "box";
+  mesh_case.farfield = {.farfield_shape = "box"};
   mesh_case.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
   TriMesh wall = wing_from_side_to_side(20.0, 0.0);
   // Another wing ends between the sides: its sheet has rims.

@@ -1,0 +1,19 @@
+// Requests for blends of layers that have no effect on this model.
+#pragma once
+
+#include <span>
+
+#include "geom/base/run_context.h"
+#include "volmesh/case/envelope_options.h"
+#include "volmesh/case/first_heights.h"
+#include "volmesh/case/patch_rule.h"
+#include "volmesh/envelope/layer_base.h"
+
+namespace sterna::volmesh {
+
+/// Warns of each rule whose `blend` has no effect: no patch of the rule meets a patch whose layers differ in first height, growth, height or thickness.
+/// \pre as demand_of
+void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+                           const RunContext& context);
+
+}  // namespace sterna::volmesh
