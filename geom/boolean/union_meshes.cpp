@@ -18,6 +18,7 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
+#include "geom/mesh/compare_geometry.h"
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 
@@ -27,6 +28,8 @@ namespace {
 constexpr std::string_view k_attempted = "uniting surfaces";
 /// Shares of the progress, from Martlet2 (19 solids, 12 k triangles).
 constexpr double k_find_end = 0.15, k_unite_end = 0.5, k_remesh_end = 0.85;
+/// Share of the permitted distance that is recommended where the geometry changes by more than k_reported_change.
+constexpr double k_closer = 0.1;
 
 TriMesh tri_mesh_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   TriMesh mesh;
@@ -277,6 +280,46 @@ std::string strip_text(const UnionReport& report) {
          "; at most " + short_number(report.max_deviation) + " m from the exact union";
 }
 
+/// Area and enclosed volume of a closed surface.
+struct Extent {
+  double area = 0.0, volume = 0.0;
+};
+
+Extent extent_of(const TriMesh& mesh) {
+  CompensatedSum area, volume;
+  const Vec3 origin = bounding_box(mesh).center();
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto c = corners(mesh, t);
+    area.add(triangle_area(c[0], c[1], c[2]));
+    volume.add(tet_volume(origin, c[0], c[1], c[2]));
+  }
+  return {area.value(), volume.value()};
+}
+
+double relative_change(double before, double after) { return before != 0.0 ? (after - before) / std::abs(before) : 0.0; }
+
+double largest_change(const Extent& before, const Extent& after) {
+  return std::max(std::abs(relative_change(before.area, after.area)), std::abs(relative_change(before.volume, after.volume)));
+}
+
+/// "enclosed volume 0.32 -> 0.318 m3 (-0.6 %), area ..."
+std::string change_text(const Extent& before, const Extent& after) {
+  const auto text = [](double a, double b, const char* unit) {
+    return short_number(a) + " -> " + short_number(b) + " " + unit + " (" + short_number(100.0 * relative_change(a, b)) + " %)";
+  };
+  return "enclosed volume " + text(before.volume, after.volume, "m3") + ", area " + text(before.area, after.area, "m2");
+}
+
+/// On coarse curved surfaces the permitted distance from the input is a noticeable part of the volume.
+void warn_of_changed_geometry(const TriMesh& exact, const TriMesh& remeshed, const UnionOptions& options, const RunContext& context) {
+  const Extent before = extent_of(exact), after = extent_of(remeshed);
+  if (largest_change(before, after) <= k_reported_change) return;
+  context.warn("union: better triangles along the curves change the geometry: " + change_text(before, after) + ". They may lie up to " +
+               short_number(options.deviation) +
+               " local edge lengths from the input (deviation), which is much where the input is coarse. A smaller deviation, such as " +
+               short_number(k_closer * options.deviation) + ", changes less and leaves more slivers; remesh = false keeps the exact union");
+}
+
 }  // namespace
 
 UnionResult unite_meshes(const std::vector<UnionPart>& parts, const UnionOptions& options, const RunContext& context) {
@@ -292,6 +335,7 @@ UnionResult unite_meshes(const std::vector<UnionPart>& parts, const UnionOptions
     const TriMesh exact = assemble(strip.points, strip.triangles, solids);
     const StripOutput remeshed = remesh_strip(std::move(strip), options, report, context.part("remesh", k_unite_end, k_remesh_end));
     result.mesh = assemble(remeshed.points, remeshed.triangles, solids);
+    warn_of_changed_geometry(exact, result.mesh, options, context);
     report.max_deviation = std::max(farthest_from(TriangleTree(exact, context), samples_of(result.mesh), context),
                                     farthest_from(TriangleTree(result.mesh, context), samples_of(exact), context));
     report.messages.push_back(strip_text(report));

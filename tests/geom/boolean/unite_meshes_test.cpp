@@ -147,6 +147,26 @@ TEST(UniteMeshes, LengthsAreGradedFromASmallBodyToALargeFace) {
   }
 }
 
+/// Strips of coarse pipes lose 1 % of the volume within the permitted distance.
+TEST(UniteMeshes, StripsThatChangeTheGeometryAreAWarning) {
+  const TriMesh main_pipe = named(cylinder(0.2, 2.0, 48, 4), "main"),
+                branch = named(shifted(turned(cylinder(0.12, 1.0, 48, 4), 1.57, 0.0), {1.0, 0, 0}), "branch");
+  std::string warnings;
+  const RunContext context({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
+                              if (level == LogLevel::warning) warnings += std::string(line) + "\n";
+                            }});
+  const auto volume_of = [&](const UnionOptions& options) {
+    warnings.clear();
+    return volume(unite_meshes({{"a", main_pipe}, {"b", branch}}, options, context).mesh);
+  };
+  const double exact = volume_of({.remesh = false});
+  EXPECT_EQ(warnings, "");
+  EXPECT_GT(std::abs(volume_of({}) / exact - 1.0), 1e-3);
+  EXPECT_THAT(warnings, testing::AllOf(HasSubstr("change the geometry: enclosed volume"), HasSubstr("0.01 local edge lengths"), HasSubstr("such as 0.001")));
+  EXPECT_NEAR(volume_of({.deviation = 0.001}), exact, 1e-3 * exact);
+  EXPECT_EQ(warnings, "");
+}
+
 TEST(UniteMeshes, HollowsAreDroppedUnlessTheyAreKept) {
   // Six plates around the cube [0, 1]^3.
   std::vector<TriMesh> plates;
