@@ -55,6 +55,32 @@ SurfaceSoup read_surface_file(const std::filesystem::path& path, const RunContex
   return soup;
 }
 
+namespace {
+
+constexpr std::size_t k_named_patches = 4;  ///< in messages
+
+/// Patches and their kinds that the format does not store. The default STL is binary where there is one patch, so it stores no name then.
+void warn_of_lost_patches(const TriMesh& mesh, const std::filesystem::path& path, const Format& format, const RunContext& context) {
+  const bool is_binary_stl = format.name == "STL" && mesh.patches.size() <= 1;
+  if (format.carries_patch_names && !is_binary_stl) return;
+  std::string kinds;
+  std::size_t n_kinds = 0;
+  for (const Patch& patch : mesh.patches)
+    if (patch.kind != PatchKind::wall && ++n_kinds <= k_named_patches)
+      kinds += (kinds.empty() ? "\"" : ", \"") + patch.name + "\" (" + std::string(to_string(patch.kind)) + ")";
+  if (n_kinds > k_named_patches) kinds += " and " + std::to_string(n_kinds - k_named_patches) + " more";
+  std::string lost;
+  if (mesh.patches.size() > 1) lost = "the " + std::to_string(mesh.patches.size()) + " of the surface become one";
+  if (n_kinds > 0) lost += (lost.empty() ? "" : ", and ") + std::string("the kinds of ") + kinds + " are lost, because manifests hold kinds by name";
+  if (lost.empty()) return;
+  std::string others;
+  for (const Format& other : formats())
+    if (other.write_surface && other.carries_patch_names && other.name != "STL") others += (others.empty() ? "" : ", ") + std::string(other.name);
+  context.warn(path.string() + ": " + std::string(is_binary_stl ? "binary STL" : format.name) + " has no patches: " + lost + ". Formats with names: " + others);
+}
+
+}  // namespace
+
 void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name) {
   const Format& format = format_to_write(path, FormatUse::write_surface, format_name);
   for (const PatchId patch : mesh.triangle_patch)
@@ -65,9 +91,7 @@ void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, 
       throw Error({.code = ErrorCode::mesh_invalid,
                    .attempted = "writing " + path.string(),
                    .problem = "the coordinates of vertex " + std::to_string(v.value()) + " are not finite"});
-  if (!format.carries_patch_names && mesh.patches.size() > 1)
-    context.warn(path.string() + ": " + std::string(format.name) + " has no patches: the " + std::to_string(mesh.patches.size()) +
-                 " of the surface become one");
+  warn_of_lost_patches(mesh, path, format, context);
   const StageTimer timer(context, "write");
   format.write_surface(mesh, path, context);
 }

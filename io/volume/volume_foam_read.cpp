@@ -1,5 +1,6 @@
 // polyMesh reader: points, faces, their cells, patches; the cells are rebuilt from the faces.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <system_error>
 
@@ -122,6 +123,60 @@ void find_periodic(const std::vector<std::string>& neighbours, HybridMesh& mesh,
   }
 }
 
+/// The zone that `sterna` itself writes of its layers.
+constexpr const char* k_layer_zone = "layers";
+constexpr std::size_t k_named_zones = 4;  ///< in messages
+
+/// Names of the zones in the text of a file: the words before "{ type cellZone". Their lists may be binary.
+std::vector<std::string> zone_names(std::string_view text, const std::string& type) {
+  std::vector<std::string> names;
+  const auto before = [&](std::size_t at) {  // the end of what precedes a place and its blanks
+    while (at > 0 && std::isspace(static_cast<unsigned char>(text[at - 1])) != 0) --at;
+    return at;
+  };
+  for (std::size_t at = text.find(type); at != std::string_view::npos; at = text.find(type, at + type.size())) {
+    const std::size_t key = before(at);
+    if (key < 4 || text.substr(key - 4, 4) != "type") continue;
+    const std::size_t brace = before(key - 4);
+    if (brace == 0 || text[brace - 1] != '{') continue;
+    const std::size_t end = before(brace - 1);
+    std::size_t begin = end;
+    while (begin > 0 && std::isspace(static_cast<unsigned char>(text[begin - 1])) == 0 && text[begin - 1] != '(' && text[begin - 1] != '}') --begin;
+    names.emplace_back(text.substr(begin, end - begin));
+  }
+  return names;
+}
+
+/// Zones are sets of cells, faces or points beside the patches; a mesh here has none.
+void warn_of_zones(const std::filesystem::path& folder, const RunContext& context) {
+  constexpr std::array<std::array<const char*, 3>, 3> k_files = {
+      {{"cellZones", "cellZone", "cells"}, {"faceZones", "faceZone", "faces"}, {"pointZones", "pointZone", "points"}}};
+  for (const auto& [name, type, items] : k_files) {
+    const std::filesystem::path path = packed_or_plain(folder / name);
+    std::error_code status;  // what cannot be looked at is not read
+    if (!std::filesystem::is_regular_file(path, status)) continue;
+    std::vector<std::string> zones;
+    try {
+      const FileBuffer buffer = load_file(path, context);
+      zones = zone_names(buffer.text(), type);
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled) throw;
+      context.warn(path.string() + " is left out, because it cannot be read: " + error.info().problem);
+    }
+    if (const auto own = std::ranges::find(zones, k_layer_zone); own != zones.end() && std::string_view(name) == "cellZones") {
+      zones.erase(own);
+      context.info(path.string() + ": the zone \"" + std::string(k_layer_zone) + "\" of cells is left out");
+    }
+    if (zones.empty()) continue;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(zones.size(), k_named_zones); ++i) text += (i == 0 ? "" : ", ") + quoted_excerpt(zones[i]);
+    if (zones.size() > k_named_zones) text += " and " + std::to_string(zones.size() - k_named_zones) + " more";
+    context.warn(path.string() + ": " + std::to_string(zones.size()) + (zones.size() == 1 ? " zone" : " zones") + " of " + items + " (" + text + ") " +
+                 (zones.size() == 1 ? "is" : "are") +
+                 " left out: sterna stores no zones. Patches are kept; make the zones again with topoSet after writing OpenFOAM");
+  }
+}
+
 }  // namespace
 
 std::filesystem::path polymesh_folder(const std::filesystem::path& path) {
@@ -179,6 +234,7 @@ HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext&
   context.progress(0.9);
   orient_mesh(mesh, context);
   find_periodic(cyclic, mesh, context);
+  warn_of_zones(folder, context);
   return mesh;
 }
 

@@ -47,6 +47,27 @@ TEST(Foam, SamplesByteForByte) {
   }
 }
 
+TEST(Foam, ZonesThatAreLeftOutAreNamed) {
+  const auto folder = test::scratch();
+  write(test::six_patch_mesh(), folder / "out.text.foam");
+  const auto header = [](const std::string& name) {
+    return "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class regIOobject;\n    object " + name + ";\n}\n";
+  };
+  std::ofstream(folder / "constant" / "polyMesh" / "cellZones")
+      << header("cellZones")
+      << "2\n(\nlayers\n{\n    type cellZone;\n    cellLabels List<label> 1(0);\n}\nrotor\n{\n    type cellZone;\n    cellLabels List<label> "
+         "1(0);\n}\n)\n";
+  std::ofstream(folder / "constant" / "polyMesh" / "faceZones")
+      << header("faceZones") << "1(fan{type faceZone; faceLabels List<label> 1(0); flipMap List<bool> 1(0);})\n";
+  std::string warnings;
+  const RunContext context({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
+                              if (level == LogLevel::warning) warnings += std::string(line) + "\n";
+                            }});
+  read_volume_file(folder / "out.text.foam", context);
+  EXPECT_THAT(warnings, testing::AllOf(testing::HasSubstr("cellZones: 1 zone of cells (\"rotor\") is left out"),
+                                       testing::HasSubstr("faceZones: 1 zone of faces (\"fan\") is left out"), testing::Not(testing::HasSubstr("layers"))));
+}
+
 TEST(Foam, CheckMeshFindsNothing) {
   const auto folder = test::scratch();
   const HybridMesh mesh = test::six_patch_mesh();
