@@ -213,9 +213,14 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   OptionTable of_triangulations = sterna::options_of(surface), of_both = volmesh::options_of(volume);
+  ReadCadOptions reading;
+  OptionTable of_models = sterna::options_of(reading);
+  const std::string unit_help = "metres for 1 unit of the file's numbers (of models: " + std::ranges::find(of_models, "unit", &Option::name)->range_text() +
+                                ", in place of the unit that their header states)";
   for (const char* const name : {"fluid", "unit"}) {  // which reading a model knows, too
     const auto shared = std::ranges::find(of_triangulations, name, &Option::name);
     of_both.insert(of_both.begin(), *shared);
+    if (shared->name == "unit") of_both.front().help = unit_help;
     of_triangulations.erase(shared);
   }
   add_schema_options(*command, of_triangulations, mesh.options, "of triangulations only");
@@ -230,6 +235,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
                    "what `sterna surface "
                    "--patch` takes: max_edge ...; may be given several times");
   command->footer(
+      "--time-limit holds for the engines of tetrahedra and, of models, for reading them as well (read_cad.time_limit). "
       "Numbers take units: 0.5mm, 35deg, --unit inch; without one they are metres, degrees, kelvin. Heights may be found from the flow: --first-height "
       "\"y_plus 1 mach=0.78 altitude=11000 "
       "length=4.2\", --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"; `sterna run` a script with help(y_plus). Of models, options of their "

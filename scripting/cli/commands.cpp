@@ -366,7 +366,11 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   add_preparation(command, asked, table);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
   AutoSurface unused;
-  set_options(table, command.options, context, elsewhere_of(command, true, unused));
+  OptionOverrides given = command.options;
+  const auto named = [&](std::string_view name) { return std::ranges::find(command.options, name, [](const auto& option) { return option.first; }); };
+  if (const auto limit = named("time_limit"); limit != command.options.end() && named("read_cad.time_limit") == command.options.end())
+    given.emplace_back("read_cad.time_limit", limit->second);  // one limit means reading, too
+  set_options(table, given, context, elsewhere_of(command, true, unused));
   if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
     recipe.options.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
@@ -435,7 +439,8 @@ CaseAddress case_of_text(const std::string& text) {
 /// All of the command line that can change what a script does: a worker gets the same.
 std::vector<std::string> worker_words(const RunCommand& command, const RunContext& run) {
   std::vector<std::string> words;
-  for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
+  for (const auto& [name, value] : command.overrides)
+    if (name != "retry" && name != "series.retry") words.push_back("--set=" + name + "=" + value);  // which cases run again is no matter of a case
   words.push_back("--seed=" + std::to_string(run.seed()));
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
   if (!command.input_folder.empty()) words.push_back("--look-in=" + command.input_folder.string());

@@ -17,6 +17,8 @@
 #include "scripting/lua/script_sandbox.h"
 #include "scripting/lua/script_unknowns.h"
 #include "scripting/lua/script_watch.h"
+#include "scripting/series/series_plan.h"
+#include "scripting/series/series_verbs.h"
 #include "scripting/values/cached_model.h"
 #include "scripting/values/script_key.h"
 #include "scripting/values/typed_number.h"
@@ -174,8 +176,10 @@ void check_overrides(const OptionOverrides& overrides) {
   surfmesh::SurfaceMeshOptions surface_mesh;
   surfmesh::RepairOptions repair;
   surfmesh::WrapOptions wrap;
+  SeriesOptions series;
   OptionTable table = all_options(surface, volume);
-  for (OptionTable more : {sterna::options_of(unite), sterna::options_of(surface_mesh), sterna::options_of(repair), sterna::options_of(wrap)})
+  for (OptionTable more :
+       {sterna::options_of(unite), sterna::options_of(surface_mesh), sterna::options_of(repair), sterna::options_of(wrap), options_of_series(series)})
     for (Option& option : more) table.push_back(std::move(option));
   for (const auto& [name, text] : overrides) set_option_as_typed(find_option(table, name, "--set " + name), text);
 }

@@ -230,6 +230,12 @@ void read_cache(TableReader& reader, SeriesPlan& plan) {
   else reader.add_problem("cache: expected true, false or the name of a folder, not " + std::string(type_text(*value)));
 }
 
+}  // namespace
+
+OptionTable options_of_series(SeriesOptions& options) { return sterna::options_of(options); }
+
+namespace {
+
 ScriptValue series_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_series_usage);
   SeriesPlan plan;
@@ -244,8 +250,10 @@ ScriptValue series_verb(const ScriptCall& call) {
   if (const ScriptValue* value = reader.field("case"); value && std::holds_alternative<FunctionHandle>(*value))
     plan.function = std::get<FunctionHandle>(*value);
   else reader.add_problem(value ? "case: expected a function, not " + std::string(type_text(*value)) : "case is missing: case = function(p) ... end");
-  reader.read_options(sterna::options_of(plan.options));
+  const OptionTable schema = options_of_series(plan.options);
+  reader.read_options(schema);
   reader.finish();
+  apply_overrides(call, schema);
   if (const std::filesystem::path& program = call.session.series.settings.program; !program.empty()) plan.program_hash = hash_file(program);
   return run_series(call, plan);
 }

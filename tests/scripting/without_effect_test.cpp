@@ -68,6 +68,60 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
   }
 }
 
+TEST_F(WithoutEffect, FarfieldOptionsOfOtherShapesAreErrors) {
+  const auto mesh = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"mesh", "box.stl", "-o", "m.su2", "--first-height", "1e-3", "--layers", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return sterna(words);
+  };
+  const test::ProcessResult box = mesh({"--farfield-shape", "box", "--farfield-radius", "50"}), sphere = mesh({"--farfield-from-x", "-3"});
+  EXPECT_EQ(box.status, k_exit_usage);
+  EXPECT_THAT(box.errors, HasSubstr("the shape \"box\" does not have farfield_radius = 50"));
+  EXPECT_EQ(sphere.status, k_exit_usage);
+  EXPECT_THAT(sphere.errors, HasSubstr("does not have farfield_from_x = -3"));
+}
+
+TEST_F(WithoutEffect, RequestsWithoutEffectOnThisModelAreWarnings) {
+  const test::ProcessResult made = sterna({"mesh", "box.stl", "-o", "m.su2", "--first-height", "5e-3", "--layers", "2", "--farfield-radius", "4",
+                                           "--ends-growth", "1.4", "--patch", "*:blend=0.05", "--source", "sphere 300 0 0 radius=50 size=20"});
+  EXPECT_EQ(made.status, k_exit_success) << made.errors;
+  EXPECT_THAT(made.errors, AllOf(HasSubstr("ends_growth = 1.4 has no effect"), HasSubstr("blend = 0.05 m of patches[\"*\"] has no effect"),
+                                 HasSubstr("source 1 (sphere about (300, 0, 0), size 20 m) lies wholly outside of the fluid")));
+}
+
+TEST_F(WithoutEffect, BlendsBetweenDifferentLayersAreNotReported) {
+  const test::ProcessResult made = sterna({"mesh", "box.stl", "-o", "m.su2", "--first-height", "5e-3", "--layers", "2", "--farfield-radius", "4",
+                                           "--split-angle", "40", "--patch", "*:blend=0.05", "--patch", "*_1:first_height=2e-3"});
+  EXPECT_EQ(made.status, k_exit_success) << made.errors;
+  EXPECT_THAT(made.errors, Not(HasSubstr("has no effect")));
+}
+
+TEST_F(WithoutEffect, TheTimeLimitHoldsForReadingModels) {
+  const std::string shown = sterna({"--show-options", "mesh", "box.step", "-o", "m.su2", "--first-height", "1e-3", "--time-limit", "61"}).output;
+  std::size_t n = 0;
+  for (std::size_t at = shown.find("time_limit"); at != std::string::npos; at = shown.find("time_limit", at + 1))
+    n += shown.substr(at, shown.find('\n', at) - at).find("61") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(n, 2u) << shown;  // engines and reading
+  const std::string help = sterna({"mesh", "--help"}).output;
+  EXPECT_THAT(help, HasSubstr("read_cad.time_limit"));
+  EXPECT_THAT(help, HasSubstr("of models: 1e-09 .. 1e+06 m"));
+}
+
+TEST_F(WithoutEffect, RetryOfSeriesMayBeSet) {
+  std::ofstream(folder_ / "s.lua") << "series{ 's', over = { a = {1, 2} }, case = function(p) if p.a == 2 then error('no') end return { value = p.a } end }";
+  EXPECT_THAT(sterna({"run", "s.lua", "--set", "series.retry=true"}).errors, Not(HasSubstr("unknown option")));
+  EXPECT_THAT(sterna({"run", "s.lua", "--set", "series.retri=true"}).errors, HasSubstr("retri"));
+}
+
+TEST_F(WithoutEffect, NamesAndKindsThatAFormatDoesNotStoreAreWarnings) {
+  const std::string kinds = "surface_mesh{ box{ name = 'floor', {0, 0, 0}, {1, 1, 1} }:kinds{ ['*'] = 'slip' } }";
+  run(kinds + ":write(" + out("k.stl") + ")");
+  EXPECT_THAT(log_, AllOf(HasSubstr("binary STL has no patches: the kinds of"), HasSubstr("(slip) are lost"), HasSubstr("Formats with names: STL text, OBJ")));
+  log_.clear();
+  run(kinds + ":write(" + out("k.obj") + ")");
+  EXPECT_THAT(log_, Not(HasSubstr("are lost")));
+}
+
 TEST_F(WithoutEffect, TheUnitOfAModelCounts) {
   const std::string as_it_is = sterna({"info", "box.step"}).output, in_metres = sterna({"info", "box.step", "--unit", "1"}).output,
                     in_mm = sterna({"info", "box.step", "--unit", "1mm"}).output;
