@@ -224,6 +224,21 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
   }
 }
 
+/// Moves one fan of facets at a vertex to a place; a copy of the vertex where another fan keeps it.
+void move_fan(const std::vector<std::uint32_t>& fan, std::uint32_t v, const Vec3& to, bool is_copy, RepairState& state) {
+  std::uint32_t own = v;
+  if (is_copy) {
+    own = static_cast<std::uint32_t>(state.points.size());
+    state.points.push_back(to);
+  } else {
+    state.points[v] = to;
+  }
+  for (const std::uint32_t h : fan) {
+    state.facets[h / 3][h % 3] = own;
+    state.info[h / 3].is_touched = true;
+  }
+}
+
 /// Joins bodies over the crevice at these edges: facets on the two sides of one wedge of the fluid stay together, and the vertices move into that wedge.
 void join_over(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact) {
   const std::vector<std::uint32_t> twin = wedge_twins(state, edges, is_contact);
@@ -259,18 +274,8 @@ void join_over(RepairState& state, const EdgeTable& edges, const std::vector<cha
       const double by = norm(way) > 0.0 ? std::min(k_join_share * state.length, k_apart_of_edge * shortest) : 0.0;
       const Vec3 to = by > 0.0 ? before[v] + by * normalized(way) : before[v];
       farthest = std::max(farthest, by);
-      std::uint32_t copy = v;
-      if (i > 0) {
-        copy = static_cast<std::uint32_t>(state.points.size());
-        state.points.push_back(to);
-      } else {
-        state.points[v] = to;
-      }
-      for (const std::uint32_t h : fans[i]) {
-        state.facets[h / 3][h % 3] = copy;
-        state.info[h / 3].is_touched = true;
-        concerned.push_back(h / 3);
-      }
+      move_fan(fans[i], v, to, i > 0, state);
+      for (const std::uint32_t h : fans[i]) concerned.push_back(h / 3);
     }
     state.note(RepairKind::joined, concerned, farthest);
   }
@@ -342,18 +347,8 @@ void open_contacts(RepairState& state, const std::vector<std::uint32_t>& twin) {
       const double by = std::min(k_apart_share * state.length, k_apart_of_edge * shortest);
       const Vec3 to = before[v] - by * normalized(normal);
       farthest = std::max(farthest, distance(to, before[v]));
-      std::uint32_t copy = v;
-      if (i > 0) {
-        copy = static_cast<std::uint32_t>(state.points.size());
-        state.points.push_back(to);
-      } else {
-        state.points[v] = to;
-      }
-      for (const std::uint32_t h : fans[i]) {
-        state.facets[h / 3][h % 3] = copy;
-        state.info[h / 3].is_touched = true;
-        concerned.push_back(h / 3);
-      }
+      move_fan(fans[i], v, to, i > 0, state);
+      for (const std::uint32_t h : fans[i]) concerned.push_back(h / 3);
     }
     state.note(RepairKind::separated, concerned, farthest);
   }
