@@ -372,7 +372,7 @@ print(#made)
 )";
 
 TEST_F(GeometryScripts, StepHoldsTheComponentsOfAllScripts) {
-  const std::filesystem::path scripts = std::filesystem::path(STERNA_SOURCE_DIR) / "scripts";
+  const std::filesystem::path scripts = test::corpus().parent_path().parent_path() / "scripts";
   std::filesystem::copy(scripts / "data", folder_ / "data", std::filesystem::copy_options::recursive);
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder_);
