@@ -156,6 +156,7 @@ local mesh = volume_mesh{ wall,
     to_x = "automatic",
     to_y = "automatic",
     to_z = "automatic",
+    floor = "",                     -- patches of an open sheet (terrain): the box gets sides from its rim upwards, and a lid
     sides = "",                     -- "x_min=inflow x_max=outflow,name:exit,edge:0.5 symmetry=slip"
     surface = "",                   -- file of the closed surface, for the shape "surface"
   },

@@ -327,7 +327,7 @@ SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& i
 MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
                const CommandContext& context) {
   const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
-  if (command.is_auto) wall = as_body(wall, options.farfield.farfield_shape != "none", part);
+  if (command.is_auto && options.farfield.farfield_floor.empty()) wall = as_body(wall, options.farfield.farfield_shape != "none", part);
   if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;
@@ -409,6 +409,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   volume_options.discs = discs_of(command);
   volume_options.wakes = sheets_of(command);
   volume_options.periodic = periodic_of(command);
+  if (!volume_options.farfield.farfield_floor.empty()) asked.stitching.allow_open = true;
   SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);

@@ -21,6 +21,7 @@
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_items.h"
 #include "scripting/values/wall_files.h"
+#include "surfmesh/remesh/remesh_forecast.h"
 
 namespace sterna::scripting {
 namespace {
@@ -35,6 +36,8 @@ using PlainJson = nlohmann::json;
 constexpr double k_joined = 0.3;     ///< of the progress: files read and joined
 constexpr double k_inspected = 0.9;  ///< the rest is what has to be done to it
 constexpr double k_percent = 100.0;
+constexpr double k_many_triangles = 1e6;          ///< above it the cause is reported
+constexpr double k_read = 0.3, k_foretold = 0.4;  ///< of the progress of models: files read, triangles predicted
 
 FindingKind kind_of(ErrorCode code) {
   switch (code) {
@@ -132,6 +135,48 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
   volmesh::add_finding(report, std::move(finding), {});
 }
 
+std::string count_text_of(double n) {
+  return count_text(static_cast<std::int64_t>(n < 1e4 ? std::round(n) : n < 1e6 ? 100.0 * std::round(n / 100.0) : 1e4 * std::round(n / 1e4)));
+}
+
+/// Which faces take most of a model's triangles, which rule asks for them, and what helps. Nothing where there are not many.
+std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& forecast, const InspectRequest& request) {
+  if (forecast.n_triangles <= k_many_triangles || forecast.largest.empty()) return std::nullopt;
+  const surfmesh::FaceForecast& most = forecast.largest.front();
+  Finding finding{.kind = FindingKind::many_triangles, .severity = Severity::warn, .count = 1, .value = forecast.n_triangles, .limit = k_many_triangles};
+  finding.text =
+      fmt::format("the sizes ask for about {} triangles of the surface; face \"{}\" takes {:.0f} % of them, with edges down to {:.3g} m, because of {}",
+                  count_text_of(forecast.n_triangles), most.name, k_percent * most.n_triangles / forecast.n_triangles, most.least_edge, most.rule);
+  finding.advice = most.advice + " (--set surface_mesh.min_edge=LENGTH and so on, or for this face alone --patch \"" + most.name + ":...\")";
+  for (std::size_t i = 0; i < std::min(forecast.largest.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
+    const surfmesh::FaceForecast& face = forecast.largest[i];
+    finding.places.push_back({face.place, face.name, face.n_triangles,
+                              fmt::format("about {} triangles, edges down to {:.3g} m: {}", count_text_of(face.n_triangles), face.least_edge, face.rule)});
+  }
+  return finding;
+}
+
+/// What remesh would make, where it is advised. A surface that remesh refuses is not its matter.
+void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspection& report, const RunContext& context) {
+  if (!report.preparation.is_remesh_advised || report.find(FindingKind::crossing) != nullptr || report.find(FindingKind::non_manifold) != nullptr) return;
+  surfmesh::RemeshForecast forecast;
+  try {
+    forecast = surfmesh::forecast_remesh(wall, {}, {}, {}, context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    return;
+  }
+  report.remeshed_triangles = forecast.n_triangles;
+  if (forecast.n_triangles <= k_many_triangles) return;
+  Finding finding{.kind = FindingKind::many_triangles, .severity = Severity::warn, .count = 1, .value = forecast.n_triangles, .limit = k_many_triangles};
+  finding.text = fmt::format("remesh would make about {} triangles; patch \"{}\" takes {:.0f} % of them, with edges down to {:.3g} m, because of {}",
+                             count_text_of(forecast.n_triangles), forecast.patch, k_percent * forecast.of_patch / forecast.n_triangles, forecast.least_edge,
+                             forecast.is_by_longest ? "max_edge" : "curvature or narrow places");
+  finding.advice = forecast.is_by_longest ? "a larger max_edge of remesh" : "a larger curvature_angle or min_edge of remesh";
+  if (request.limits.max_places > 0) finding.places.push_back({forecast.place, forecast.patch, forecast.least_edge, "the shortest edges"});
+  replace_finding(report, std::move(finding));
+}
+
 }  // namespace
 
 Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context,
@@ -166,6 +211,7 @@ Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::Stit
   asked.stitching = files.wall.options;
   report.preparation =
       foresee_preparation(files.soups, report, asked, needle_limit_of(request), names_of(inputs), false, context.part("foresee", k_inspected, 1.0));
+  if (wall) foresee_remesh(wall->mesh, request, report, context.part("remesh", 1.0, 1.0));
   return report;
 }
 
@@ -181,6 +227,7 @@ Inspection inspect_joined(const SurfaceValue& surface, InspectRequest request, b
   asked.stitching.fluid = surface.options.fluid;
   report.preparation = foresee_preparation(read_items(items, asked.stitching, context).soups, report, asked, needle_limit_of(request), {}, must_close,
                                            context.part("foresee", k_inspected, 1.0));
+  if (!surface.model_wall) foresee_remesh(surface.mesh, request, report, context.part("remesh", 1.0, 1.0));
   return report;
 }
 
@@ -194,17 +241,38 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
                           const RunContext& context, const SurfaceChange& cut) {
   std::optional<Error> refusal;
   SurfaceValue surface;
+  ModelsOfFiles models = read_model_files(files, reading, recipe, context.part("read", 0.0, k_joined * k_read));
+  std::optional<double> expected;
+  std::optional<Finding> many;
   try {
-    surface = mesh_model_files(files, reading, recipe, context.part("surface", 0.0, k_joined));
+    const surfmesh::SurfaceForecast forecast =
+        forecast_models(models.models, models.recipe, context.part("forecast", k_joined * k_read, k_joined * k_foretold));
+    expected = forecast.n_triangles;
+    many = many_triangles_of(forecast, request);
   } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    context.debug("the number of triangles is not predicted: " + error.info().problem);  // meshing says what is wrong
+  }
+  if (many) context.warn(many->text + "; try " + many->advice);
+  const RunContext meshing = context.part("surface", k_joined * k_foretold, k_joined);
+  try {
+    surface = mesh_model_files(models, meshing);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::overflow && many) {
+      Inspection report;
+      report.expected_triangles = expected;
+      replace_finding(report, std::move(*many));
+      replace_finding(report, finding_of(error, request));
+      report.preparation = {.needed = Strength::beyond, .is_model = true, .reason = "it has too many triangles: " + error.info().problem};
+      return report;
+    }
     if (!is_about_surface(error)) throw;
     refusal = error;
   }
   if (refusal) {
-    SurfaceRecipe lenient = recipe;
-    lenient.options.crossings = "ignore";
+    models.recipe.options.crossings = "ignore";
     try {
-      surface = mesh_model_files(files, reading, lenient, context.part("triangles", 0.0, k_joined));
+      surface = mesh_model_files(models, meshing);
     } catch (const Error& error) {
       if (!is_about_surface(error)) throw;
       Inspection report;
@@ -215,6 +283,8 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
   }
   if (cut) surface = cut(surface, context.part("half", k_joined, k_joined));
   Inspection report = inspect_joined(surface, request, !cut, context.part("inspect", k_joined, 1.0));
+  report.expected_triangles = expected;
+  if (many) replace_finding(report, std::move(*many));
   if (refusal) replace_finding(report, finding_of(*refusal, request));
   complete_for_model(report.preparation, static_cast<std::int64_t>(surface.mesh.n_triangles()), surface.changes, names_of(files));
   return report;
@@ -247,6 +317,10 @@ std::string text_of(const Inspection& report, const std::string& name) {
   std::string text = fmt::format("inspect {}: {} {}, {}, {} {}, {:.4g} m long\n", name, count_text(static_cast<std::int64_t>(report.mesh.n_triangles())),
                                  report.mesh.n_triangles() == 1 ? "triangle" : "triangles", report.is_closed ? "closed" : "not closed", report.n_bodies,
                                  report.n_bodies == 1 ? "part" : "parts", report.length);
+  if (report.expected_triangles)
+    text += fmt::format("  sizes {:<13} about {} triangles of the surface were predicted\n", "of the model", count_text_of(*report.expected_triangles));
+  if (report.remeshed_triangles)
+    text += fmt::format("  sizes {:<13} about {} triangles are predicted\n", "of remesh", count_text_of(*report.remeshed_triangles));
   for (const Finding& finding : report.findings) {
     text += fmt::format("  {:<5} {:<13} {}\n", to_string(finding.severity), to_string(finding.kind), finding.text);
     for (const volmesh::FindingPlace& place : finding.places)
@@ -271,6 +345,8 @@ std::string json_of(const Inspection& report, const std::string& name) {
                     {"errors", report.count(Severity::error)},
                     {"warnings", report.count(Severity::warn)},
                     {"notes", report.count(Severity::note)}};
+  if (report.expected_triangles) json["expected_triangles"] = number(*report.expected_triangles);
+  if (report.remeshed_triangles) json["remeshed_triangles"] = number(*report.remeshed_triangles);
   json["preparation"] = PlainJson::parse(json_of(report.preparation));
   json["findings"] = PlainJson::array();
   for (const Finding& finding : report.findings) {

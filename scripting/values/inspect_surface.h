@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,6 +17,8 @@ namespace sterna::scripting {
 /// What volume_mesh will make of it, and what it needs before.
 struct Inspection : volmesh::InspectReport {
   Preparation preparation;
+  std::optional<double> expected_triangles;  ///< of the model's surface, predicted before it was meshed
+  std::optional<double> remeshed_triangles;  ///< of the new triangles where remesh is advised, predicted
 };
 
 using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunContext&)>;

@@ -228,14 +228,19 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
   }
 }
 
+/// What models and their descriptions say of sizes.
+void add_rules(const std::vector<ModelHandle>& models, const ModelValue& all, SurfaceRecipe& recipe) {
+  put_first(present(all.sizes, all.model), recipe);
+  for (const ModelHandle& model : models)
+    if (model->description) put_first(rules_of(*model->description, all.model), recipe);
+}
+
 SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
                        const RunContext& context, const Reuse& reuse) {
   const ModelValue all = fluid_of(assemble(models, context), context);
   doubt_size(all.model, context);
   SurfaceRecipe recipe = asked;
-  put_first(present(all.sizes, all.model), recipe);
-  for (const ModelHandle& model : models)
-    if (model->description) put_first(rules_of(*model->description, all.model), recipe);
+  add_rules(models, all, recipe);
   PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context,
                               reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
   SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
@@ -359,8 +364,8 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
   return cached_surface(models, asked, size, make, all, reuse, context);
 }
 
-SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse, std::span<const volmesh::PeriodicNames> periodic) {
+ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
+                               std::span<const volmesh::PeriodicNames> periodic) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
       throw Error(
@@ -368,8 +373,8 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
            .attempted = "meshing the surface of " + file.name,
            .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
            .hint = "new triangles for a triangulation: sterna remesh " + file.name + " -o wall.stl; a volume mesh on it as it is: sterna mesh " + file.name});
-  std::vector<ModelHandle> models;
-  SurfaceRecipe with_files = recipe;
+  ModelsOfFiles result{.models = {}, .recipe = recipe};
+  std::vector<ModelHandle>& models = result.models;
   const double n = static_cast<double>(files.size());
   for (const InputPath& file : files) {
     const double i = static_cast<double>(models.size());
@@ -379,12 +384,28 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
       const std::optional<ContentKey> of_file = model->provenance.key();
       *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_model_file_end, k_unite_end));
       model->provenance = KeyMaker("united").add(*of_file).key();
-      if (description) put_first(rules_of(*description, model->model), with_files);
+      if (description) put_first(rules_of(*description, model->model), result.recipe);
     }
     models.push_back(std::move(model));
   }
-  add_periodic_faces(models, periodic, with_files);
-  return mesh_or_unite(models, with_files, context.part("surface_mesh", k_unite_end, 1.0), reuse);
+  add_periodic_faces(models, periodic, result.recipe);
+  return result;
+}
+
+SurfaceValue mesh_model_files(const ModelsOfFiles& files, const RunContext& context, const Reuse& reuse) {
+  return mesh_or_unite(files.models, files.recipe, context.part("surface_mesh", k_unite_end, 1.0), reuse);
+}
+
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
+                              const Reuse& reuse, std::span<const volmesh::PeriodicNames> periodic) {
+  return mesh_model_files(read_model_files(files, reading, recipe, context, periodic), context, reuse);
+}
+
+surfmesh::SurfaceForecast forecast_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const RunContext& context) {
+  const ModelValue all = fluid_of(assemble(models, context), context);
+  SurfaceRecipe recipe = asked;
+  add_rules(models, all, recipe);
+  return surfmesh::forecast_surface(all.model, recipe.options, recipe.patches, space_sizes(recipe, {}), context);
 }
 
 }  // namespace sterna::scripting

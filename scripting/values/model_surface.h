@@ -13,6 +13,7 @@
 #include "scripting/cache/reuse.h"
 #include "scripting/values/models.h"
 #include "scripting/values/verbs.h"
+#include "surfmesh/model/surface_forecast.h"
 
 namespace sterna::scripting {
 
@@ -29,6 +30,21 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
                               const Reuse& reuse = {}, std::span<const volmesh::PeriodicNames> periodic = {});
+
+/// Models as files have them, before their surface is meshed.
+struct ModelsOfFiles {
+  std::vector<ModelHandle> models;
+  SurfaceRecipe recipe;  ///< with what the files say
+};
+/// The first half of mesh_model_files().
+ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
+                               std::span<const volmesh::PeriodicNames> periodic = {});
+/// The second half.
+SurfaceValue mesh_model_files(const ModelsOfFiles& files, const RunContext& context, const Reuse& reuse = {});
+
+/// The number of triangles that their surface will have, all models where they are.
+/// \throws Error of surfmesh::forecast_surface
+surfmesh::SurfaceForecast forecast_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context);
 
 /// Several lines: the report of the mesher with the places where the surface is open and what was absorbed.
 /// \pre surface.mesh_report

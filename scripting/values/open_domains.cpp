@@ -99,8 +99,36 @@ std::optional<std::string> is_open_sheet(const TriMesh& mesh, const RunContext& 
   const Box& box = boxes[largest];
   return fmt::format(
       "the surface is an open sheet of {:.4g} m2 from {} to {}, without sides and a lid: the fluid has no boundary there. Wrapped, it becomes a closed body "
-      "with fluid on both sides. For flow on one side (terrain, a floor) give sides and a lid, and --fluid inside",
+      "with fluid on both sides. For flow on one side (terrain, a floor) --farfield \"box floor=PATCH\" adds sides and a lid; or give sides and a lid, and "
+      "--fluid inside",
       area[largest], format_point(box.min), format_point(box.max));
+}
+
+SurfaceValue with_floor_upwards(const SurfaceValue& wall, const std::string& floor, const RunContext& context) {
+  const Topology topology(wall.mesh, context);
+  const Components components = connected_components(wall.mesh, topology);
+  std::vector<char> is_open(components.count, 0);
+  Vec3 sum;
+  for (const TriangleId t : wall.mesh.triangles.ids())
+    for (int side = 0; side < 3; ++side) is_open[components.component[t]] |= static_cast<char>(topology.is_boundary(halfedge(t, side)));
+  for (const TriangleId t : wall.mesh.triangles.ids()) {
+    const auto k = corners(wall.mesh, t);
+    if (is_open[components.component[t]] != 0) sum += area_vector(k[0], k[1], k[2]);
+  }
+  const std::array along = {sum.x, sum.y, sum.z};
+  const double most = *std::ranges::max_element(along, {}, [](double x) { return std::abs(x); });
+  if (most >= 0.0) return wall;
+  SurfaceValue turned = wall;
+  for (const TriangleId t : wall.mesh.triangles.ids())
+    if (is_open[components.component[t]] != 0) std::swap(turned.mesh.triangles[t][1], turned.mesh.triangles[t][2]);
+  turned.model_wall.reset();  // its triangles have another sense
+  turned.model_wall_key.reset();
+  turned.parts.clear();
+  const std::string text = "the floor \"" + floor + "\" had its normals downwards: it is turned, as the fluid is above it";
+  context.info("surface: " + text);
+  turned.report.messages.push_back(text);
+  turned.changes.push_back("turned: " + text);
+  return turned;
 }
 
 SurfaceValue as_body(const SurfaceValue& wall, bool has_farfield, const RunContext& context) {

@@ -16,6 +16,9 @@ std::optional<std::string> ends_in_planes(const TriMesh& mesh, const RunContext&
 /// One sentence where the largest open part of the surface is a sheet: as large as its opening, with its normals to one side, as terrain.
 std::optional<std::string> is_open_sheet(const TriMesh& mesh, const RunContext& context);
 
+/// The surface with the normals of its open parts upwards, along the axis in which most of their area points: the fluid is above the floor (farfield_floor).
+SurfaceValue with_floor_upwards(const SurfaceValue& wall, const std::string& floor, const RunContext& context);
+
 /// The surface as a body, where it is open, has its normals inwards, and a farfield is given: a farfield is around bodies. Says so.
 /// \param has_farfield it is given, or is the default
 SurfaceValue as_body(const SurfaceValue& wall, bool has_farfield, const RunContext& context);

@@ -483,7 +483,8 @@ void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, 
 
 MeshValue make_volume_mesh(const SurfaceValue& given, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
-  const SurfaceValue wall = as_body(given, volmesh::is_farfield_given(options.farfield), context);
+  const std::string& floor = options.farfield.farfield_floor;
+  const SurfaceValue wall = floor.empty() ? as_body(given, volmesh::is_farfield_given(options.farfield), context) : with_floor_upwards(given, floor, context);
   warn_of_other_member(wall, options, context);
   hint_at_wake(wall, options, context);
   hint_at_layers(wall, options, context);

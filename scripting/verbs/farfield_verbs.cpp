@@ -18,11 +18,13 @@ namespace {
 constexpr std::string_view k_farfield_sphere_usage =
     "sphere{ radius = 100, edge = 20, center = {0, 0, 0} }  or, as a source,  sphere{ {0, 0, 0}, radius = 1, size = 0.1 }";
 constexpr std::string_view k_box_usage =
-    "box{ {-10, -5, -5}, {20, 5, 5}, edge = 2, sides = { x_min = \"inflow\", x_max = { kind = \"outflow\", edge = 0.5 } } }";
+    "box{ {-10, -5, -5}, {20, 5, 5}, edge = 2, sides = { x_min = \"inflow\", x_max = { kind = \"outflow\", edge = 0.5 } } }  or, "
+    "above an open sheet,  box{ floor = \"terrain\" }";
 constexpr std::string_view k_cylinder_usage =
     "cylinder{ {-10, 0, 0}, {20, 0, 0}, radius = 5, edge = 1, sides = { start = \"inflow\", [\"end\"] = \"outflow\" } }";
 constexpr std::string_view k_text_usage =
-    "\"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow\", \"cylinder -10 0 0 20 0 0 radius=5 edge=1\", \"none\" or the name of a file";
+    "\"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow\", \"box floor=terrain\", \"cylinder -10 0 0 20 0 0 radius=5 edge=1\", \"none\" "
+    "or the name of a file";
 constexpr std::string_view k_prefix = "farfield_";
 
 /// Options of the stage by the names that their own table takes. `options` must outlive the table.
@@ -83,9 +85,12 @@ void put_point(ScriptTable& shape, const std::string& name, const Vec3& p) {
   for (std::size_t k = 0; k < 3; ++k) shape.fields[name + "_" + "xyz"[k]] = p[k];
 }
 
-void put_numbers(ScriptTable& shape, const OptionTable& schema) {
-  for (const Option& option : schema)
-    if (const double value = std::get<double>(option.get()); !is_automatic(value)) shape.fields[std::string(option.name)] = value;
+void put_values(ScriptTable& shape, const OptionTable& schema) {
+  for (const Option& option : schema) {
+    const OptionValue value = option.get();
+    if (const auto* number = std::get_if<double>(&value); number && !is_automatic(*number)) shape.fields[std::string(option.name)] = *number;
+    if (const auto* text = std::get_if<std::string>(&value); text && !text->empty()) shape.fields[std::string(option.name)] = *text;
+  }
 }
 
 /// The value of a verb: a table for the stage "farfield".
@@ -108,7 +113,7 @@ ScriptValue make_shape(const ScriptCall& call, std::string_view shape_name, std:
   if (const std::string sides = read_sides(reader); !sides.empty()) shape.fields["sides"] = sides;
   reader.read_options(schema);
   reader.finish();
-  put_numbers(shape, schema);
+  put_values(shape, schema);
   return std::make_shared<const ScriptTable>(std::move(shape));
 }
 
@@ -119,12 +124,13 @@ ScriptValue make_sphere(const ScriptCall& call) {
   if (!table.items.empty() || table.fields.contains("size")) return make_sphere_source(call);
   return make_shape(call, "sphere", k_farfield_sphere_usage, {"radius", "edge"});
 }
-ScriptValue make_farfield_box(const ScriptCall& call) { return make_shape(call, "box", k_box_usage, {"edge"}); }
+ScriptValue make_farfield_box(const ScriptCall& call) { return make_shape(call, "box", k_box_usage, {"edge", "floor"}); }
 ScriptValue make_farfield_cylinder(const ScriptCall& call) { return make_shape(call, "cylinder", k_cylinder_usage, {"radius", "edge"}); }
 
 bool is_farfield(const ScriptCall& call) {
   const auto* table = call.arguments.empty() ? nullptr : std::get_if<TableHandle>(&call.arguments.front());
-  return table && !(*table)->fields.contains("size") && ((*table)->fields.contains("edge") || (*table)->fields.contains("sides"));
+  return table && !(*table)->fields.contains("size") &&
+         std::ranges::any_of(std::array{"edge", "sides", "floor"}, [&](const char* name) { return (*table)->fields.contains(name); });
 }
 
 std::string sphere_help() {
@@ -222,7 +228,7 @@ OptionOverrides farfield_of_text(const std::string& text) {
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) numbers.push_back(word);
-    else if (const std::string name = word.substr(0, equals); name == "radius" || name == "edge")
+    else if (const std::string name = word.substr(0, equals); name == "radius" || name == "edge" || name == "floor")
       options.emplace_back(std::string(k_prefix) + name, word.substr(equals + 1));
     else sides += (sides.empty() ? "" : " ") + word;
   }

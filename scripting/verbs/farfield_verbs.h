@@ -17,7 +17,7 @@ ScriptValue make_sphere(const ScriptCall& call);
 /// box{ {-10, -5, -5}, {20, 5, 5}, edge = 2, sides = { x_min = "inflow" } } and cylinder{ {-10, 0, 0}, {20, 0, 0}, radius = 5, edge = 1 }: such tables, too.
 ScriptValue make_farfield_box(const ScriptCall& call);
 ScriptValue make_farfield_cylinder(const ScriptCall& call);
-/// box{} and cylinder{} are farfields with `edge` or `sides`, sources with `size`, else solids.
+/// box{} and cylinder{} are farfields with `edge`, `sides` or `floor`, sources with `size`, else solids.
 bool is_farfield(const ScriptCall& call);
 std::string sphere_help();
 

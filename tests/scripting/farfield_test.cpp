@@ -1,6 +1,8 @@
 // Outer boundaries and half models in scripts and on the command line.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "geom/base/error.h"
@@ -88,6 +90,7 @@ TEST_F(Farfield, TextsAreOptions) {
   EXPECT_EQ(of("sphere 1 2 3mm radius=100 edge=20"),
             "farfield_shape=sphere;farfield_radius=100;farfield_edge=20;farfield_center_x=1;farfield_center_y=2;farfield_center_z=3mm;");
   EXPECT_EQ(of("tunnel.stl inlet=inflow"), "farfield_shape=surface;farfield_surface=tunnel.stl;farfield_sides=inlet=inflow;");
+  EXPECT_EQ(of("box floor=terrain*"), "farfield_shape=box;farfield_floor=terrain*;");
   const auto refused = [](const std::string& text, const std::string& problem) {
     test::expect_error(ErrorCode::bad_argument, problem, [&] { (void)farfield_of_text(text); });
   };
@@ -96,6 +99,52 @@ TEST_F(Farfield, TextsAreOptions) {
   refused("box 1 2 3", "3 coordinates, expected 6 or none");
   refused("sphere 1", "1 coordinates, expected 3 or none");
   refused("box -1 -1 -1 1 1 1 x_min=inlet", "\"inlet\" is no kind of a patch");
+}
+
+/// Hills of 6 x 5 m as an STL file; its normals up or down.
+void write_terrain(const std::filesystem::path& path, bool is_down) {
+  std::ofstream file(path);
+  file << "solid terrain\n";
+  const auto vertex = [&](int i, int j) { file << "vertex " << 0.5 * i << " " << 0.5 * j << " " << 0.3 * std::sin(0.7 * i) * std::cos(0.6 * j) << "\n"; };
+  const auto facet = [&](int i, int j, int k, int l, int m, int n) {
+    file << "facet normal 0 0 0\nouter loop\n";
+    vertex(i, j);
+    vertex(is_down ? m : k, is_down ? n : l);
+    vertex(is_down ? k : m, is_down ? l : n);
+    file << "endloop\nendfacet\n";
+  };
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 10; ++j) {
+      facet(i, j, i + 1, j, i + 1, j + 1);
+      facet(i, j, i + 1, j + 1, i, j + 1);
+    }
+  file << "endsolid terrain\n";
+}
+
+TEST_F(Farfield, BoxAboveAnOpenSheet) {
+  write_terrain(folder / "up.stl", false);
+  write_terrain(folder / "down.stl", true);
+  const std::string printed = run_text(
+      "for _, name in ipairs{ 'up.stl', 'down.stl' } do\n"
+      "  local m = mesh(read_surface{ name, allow_open = true }, box{ {0, 0, -1}, {6, 5, 3}, floor = 'terrain', sides = { x_min = 'inflow' } })\n"
+      "  m:check() print(table.concat(m.patches, ' '))\nend\n"
+      "print(pcall(mesh, read_surface{ 'up.stl', allow_open = true }, box{ {-1, 0, -1}, {6, 5, 3}, floor = 'terrain' }))\n");
+  EXPECT_EQ(std::ranges::count(printed, '\n') > 2, true) << printed;
+  EXPECT_THAT(printed, HasSubstr("VALID"));
+  EXPECT_THAT(printed, testing::Not(HasSubstr("INVALID")));
+  EXPECT_THAT(printed, HasSubstr("terrain"));
+  EXPECT_THAT(printed, HasSubstr("inflow"));
+  EXPECT_THAT(printed, HasSubstr("lie in none of the box's vertical sides"));
+  EXPECT_THAT(printed, HasSubstr("x_min at x = -1 m"));
+  for (const bool is_auto : {false, true}) {
+    std::vector<std::string> words = {"mesh", "down.stl",   "--layers", "4", "--first-height", "1e-3", "--farfield", "box floor=terrain x_max=outflow",
+                                      "-o",   "terrain.su2"};
+    if (is_auto) words.push_back("--auto");
+    const test::ProcessResult made = test::run_process(test::sterna_program(), words, folder);
+    EXPECT_EQ(made.status, k_exit_success) << made.errors;
+    const test::ProcessResult info = test::run_process(test::sterna_program(), {"info", "terrain.su2"}, folder);
+    for (const char* part : {"terrain", "outflow", "farfield"}) EXPECT_THAT(info.output, HasSubstr(part)) << is_auto;
+  }
 }
 
 TEST_F(Farfield, OnTheCommandLine) {

@@ -23,6 +23,7 @@ struct FarfieldOptions {
   double farfield_to_x = k_automatic;
   double farfield_to_y = k_automatic;
   double farfield_to_z = k_automatic;
+  std::string farfield_floor;
   std::string farfield_sides;
   std::string farfield_surface;
 };
@@ -118,6 +119,11 @@ struct Schema<volmesh::FarfieldOptions> {
                .unit = Unit::metre,
                .help = "upper corner of the box, or centre of the cylinder's second end",
                .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{
+          .name = "farfield_floor",
+          .member = &O::farfield_floor,
+          .help =
+              "name or pattern of the patches of an open sheet (terrain): the box gets sides from the sheet's rim upwards, and a lid; empty: no such sheet"},
       Field<O>{.name = "farfield_sides",
                .member = &O::farfield_sides,
                .help = "kinds, names and edge lengths of its sides (box: x_min .. z_max; cylinder: start, end, side; else patches) and of a half model's plane "

@@ -14,6 +14,7 @@
 #include "volmesh/domain/end_planes.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/domain/flatten_rims.h"
+#include "volmesh/domain/floor.h"
 #include "volmesh/domain/shape_sizes.h"
 
 namespace sterna::volmesh {
@@ -311,11 +312,48 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
                  .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
 }
 
+/// Patch of a box's side: what the rules say of it, else farfield.
+Patch patch_of_side(std::span<const SideRule> rules, const std::string& side) {
+  const auto rule = std::ranges::find(rules, side, &SideRule::side);
+  if (rule == rules.end() || (!rule->has_kind && rule->name.empty())) return {"farfield", PatchKind::farfield};
+  return {rule->name.empty() ? std::string(to_string(rule->kind)) : rule->name, rule->kind};
+}
+
+/// An open sheet gets a lid, and sides between its rim and the lid.
+TriMesh complete_over_floor(const TriMesh& surface, const Topology& topology, const FarfieldOptions& options, const RunContext& context,
+                            std::vector<AddedPlane>* planes) {
+  TriMesh mesh = surface;
+  const FloorBox floor = fit_floor(topology, options, mesh);
+  const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
+  const std::size_t lid_side = 2 * floor.up + 1;
+  TriMesh lid = box_side(floor.box, floor.edges, lid_side, context);
+  std::vector<Patch> patches;
+  std::vector<Patch> known = {{k_box_sides[lid_side], PatchKind::farfield}};
+  std::vector<double> edges;
+  for (const EndPlane& side : floor.sides) {
+    const std::string name = side_of(side);
+    known.push_back({name, PatchKind::farfield});
+    patches.push_back(patch_of_side(rules, name));
+    edges.push_back(floor.edges[2 * side.axis + (side.inward > 0.0 ? 0 : 1)]);
+  }
+  check_rules(rules, nullptr, known, true);
+  lid.patches[PatchId(0)] = patch_of_side(rules, k_box_sides[lid_side]);
+  make_names_new(surface, lid.patches[PatchId(0)]);
+  for (Patch& patch : patches) make_names_new(surface, patch);
+  append(mesh, lid);
+  fill_ends(mesh, floor.sides, patches, edges, context);
+  check_bodies_above(floor, mesh, context);
+  if (planes)
+    for (std::size_t i = 0; i < floor.sides.size(); ++i) planes->push_back({floor.sides[i].axis, floor.sides[i].at, floor.sides[i].inward, edges[i]});
+  return mesh;
+}
+
 }  // namespace
 
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context, std::vector<AddedPlane>* planes) {
   if (surface.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = k_completing_attempt, .problem = "the surface has no triangles"});
   const Topology topology(surface, context);
+  if (!options.farfield.farfield_floor.empty()) return complete_over_floor(surface, topology, options.farfield, context, planes);
   TriMesh mesh = surface;
   flatten_rims(topology, mesh, context);
   const Constraints rims = constraints_of_rims(mesh, topology);

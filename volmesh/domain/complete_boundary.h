@@ -33,6 +33,8 @@ struct AddedPlane {
 /// another kind than farfield takes over its name and kind (the side wall of a tunnel that a wing stands on). Of a user's surface, normals are turned into the
 /// fluid; where it has walls alone and farfield_sides says nothing of them, they become farfield.
 /// Where two of the planes are periodic sides and no shape is given, the shape is a box, whose sides are images of each other there; a log line says so.
+/// With `farfield_floor` the surface is an open sheet, with bodies above it or none: it gets a lid, and sides from its rim upwards, patches as a box's sides
+/// (floor.h).
 /// `planes`, where it is not null, gets the planes that were added.
 /// \pre surface manifold, normals into the fluid
 /// \post closed (no boundary edges), manifold; body volumes positive, the outermost negative

@@ -1,6 +1,7 @@
 // The outer shapes that are made here, each about a wall: sphere, box, cylinder. Closed, normals INTO the fluid; to be cut where bodies end in planes.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -29,6 +30,13 @@ TriMesh farfield_sphere(const TriMesh& wall, const FarfieldOptions& options, con
 /// \throws Error(bad_argument) when it does not enclose the wall with a margin of 0.02 body lengths (but for sides beyond `ends`), or would have more than 20
 /// million triangles
 TriMesh farfield_box(const TriMesh& wall, const FarfieldOptions& options, std::span<const EndPlane> ends, const RunContext& context);
+
+/// Names of a box's sides: 2 * axis + (upper ? 1 : 0).
+inline constexpr std::array k_box_sides = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
+/// One side of the box with these edge lengths (m, of its six sides): open, one patch of kind farfield, normals into the box.
+/// \throws Error(bad_argument) when the box would have more than 20 million triangles
+TriMesh box_side(const Box& box, const std::array<double, 6>& edges, std::size_t side, const RunContext& context);
 
 /// Circular cylinder from farfield_from to farfield_to, along x through the centre of the wall's box by default; patches start, end, side of kind farfield. As
 /// farfield_box.

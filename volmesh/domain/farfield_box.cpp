@@ -15,9 +15,6 @@ namespace {
 
 constexpr const char* k_box_attempt = "making the farfield box";
 
-/// Side 2 * axis + (upper ? 1 : 0).
-constexpr std::array<const char*, 6> k_names = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
-
 struct BoxSize {
   Box box;
   std::array<double, 6> edge{};  ///< wanted, of each side
@@ -44,7 +41,7 @@ BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::sp
   }
   const double common = common_edge(options.farfield_edge, k_default_edge * 0.5 * size.box.longest_side());
   const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
-  for (std::size_t side = 0; side < 6; ++side) size.edge[side] = edge_of_side(rules, k_names[side], common);
+  for (std::size_t side = 0; side < 6; ++side) size.edge[side] = edge_of_side(rules, k_box_sides[side], common);
   return size;
 }
 
@@ -61,10 +58,10 @@ void check_encloses(const TriMesh& wall, const Box& box, std::span<const EndPlan
       return end.axis == k && (end.inward > 0.0) != is_upper && beyond({end.at, end.at, end.at}) <= k_coincident * box.longest_side();
     });
     if (is_end || beyond(farthest) + margin <= 0.0) continue;
-    info.problem += (info.problem.empty() ? "" : "; ") + std::string("its side ") + k_names[side] + " at " + in_metres(at) + " has the wall " +
+    info.problem += (info.problem.empty() ? "" : "; ") + std::string("its side ") + k_box_sides[side] + " at " + in_metres(at) + " has the wall " +
                     (beyond(farthest) > 0.0 ? "beyond it by " : "inside by ") + in_metres(std::abs(beyond(farthest))) + " only, needed are " +
                     in_metres(margin);
-    info.places.push_back({farthest, std::string("farthest point of the wall towards ") + k_names[side]});
+    info.places.push_back({farthest, std::string("farthest point of the wall towards ") + k_box_sides[side]});
   }
   if (!info.places.empty()) throw Error(std::move(info));
 }
@@ -132,7 +129,7 @@ class BoxMesh {
       p[v] = fill.points[i].y;
       loop.push_back(mesh_.points.push_back(p));
     }
-    add_patch(mesh_, k_names[side], fill.triangles, loop, side % 2 == 1);
+    add_patch(mesh_, k_box_sides[side], fill.triangles, loop, side % 2 == 1);
   }
 
   const BoxSize& size_;
@@ -140,11 +137,7 @@ class BoxMesh {
   std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< by axis and lower corner
 };
 
-}  // namespace
-
-TriMesh farfield_box(const TriMesh& wall, const FarfieldOptions& options, std::span<const EndPlane> ends, const RunContext& context) {
-  const BoxSize size = size_of_box(wall, options, ends);
-  check_encloses(wall, size.box, ends);
+TriMesh mesh_of_box(const BoxSize& size, const RunContext& context) {
   double n = 0.0;
   for (std::size_t side = 0; side < 6; ++side) {
     const std::size_t u = (side / 2 + 1) % 3, v = (side / 2 + 2) % 3;
@@ -152,6 +145,34 @@ TriMesh farfield_box(const TriMesh& wall, const FarfieldOptions& options, std::s
   }
   require_affordable(n, k_box_attempt);
   return BoxMesh(size, context).take();
+}
+
+}  // namespace
+
+TriMesh farfield_box(const TriMesh& wall, const FarfieldOptions& options, std::span<const EndPlane> ends, const RunContext& context) {
+  const BoxSize size = size_of_box(wall, options, ends);
+  check_encloses(wall, size.box, ends);
+  return mesh_of_box(size, context);
+}
+
+TriMesh box_side(const Box& box, const std::array<double, 6>& edges, std::size_t side, const RunContext& context) {
+  const TriMesh whole = mesh_of_box({box, edges}, context);
+  TriMesh mesh;
+  Column<VertexId, VertexId> old2new(whole.n_vertices(), VertexId{});
+  Column<VertexId, std::uint8_t> is_used(whole.n_vertices(), 0);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<VertexId> vertices;
+  for (const TriangleId t : whole.triangles.ids()) {
+    if (whole.triangle_patch[t].index() != side) continue;
+    for (const VertexId v : whole.triangles[t]) {
+      if (is_used[v] != 0) continue;
+      is_used[v] = 1;
+      vertices.push_back(old2new[v] = mesh.points.push_back(whole.points[v]));
+    }
+    triangles.push_back({old2new[whole.triangles[t][0]].value(), old2new[whole.triangles[t][1]].value(), old2new[whole.triangles[t][2]].value()});
+  }
+  add_patch(mesh, k_box_sides[side], triangles, vertices, false);
+  return mesh;
 }
 
 }  // namespace sterna::volmesh

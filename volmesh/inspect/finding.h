@@ -49,9 +49,10 @@ enum class FindingKind : std::uint8_t {
   thin_top,    ///< last layer thinner than the tetrahedra above it
   thick_top,   ///< thicker
   y_plus,
-  thin_base,      ///< blunt base much thinner than the layer on it
-  wake,           ///< nothing keeps edges short in what the body leaves behind
-  not_looked_at,  ///< what was left out, and why
+  thin_base,       ///< blunt base much thinner than the layer on it
+  wake,            ///< nothing keeps edges short in what the body leaves behind
+  not_looked_at,   ///< what was left out, and why
+  many_triangles,  ///< sizes ask for very many triangles of the surface
 };
 std::string_view to_string(FindingKind kind);
 

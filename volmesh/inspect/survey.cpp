@@ -9,10 +9,11 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::array<std::string_view, 3> k_severities = {"note", "warn", "error"};
-constexpr std::array<std::string_view, 30> k_kinds = {
-    "none",    "malformed",  "non_manifold", "open",       "not_orientable", "crossing",  "refused",    "turned",    "repaired", "unit",
-    "bodies",  "cavity",     "needle",       "fold",       "coarse",         "size_jump", "short_edge", "contact",   "hidden",   "visibility",
-    "lowered", "compressed", "collapsed",    "tall_first", "thin_top",       "thick_top", "y_plus",     "thin_base", "wake",     "not_looked_at"};
+constexpr std::array<std::string_view, 31> k_kinds = {"none",       "malformed",     "non_manifold",  "open",     "not_orientable", "crossing",   "refused",
+                                                      "turned",     "repaired",      "unit",          "bodies",   "cavity",         "needle",     "fold",
+                                                      "coarse",     "size_jump",     "short_edge",    "contact",  "hidden",         "visibility", "lowered",
+                                                      "compressed", "collapsed",     "tall_first",    "thin_top", "thick_top",      "y_plus",     "thin_base",
+                                                      "wake",       "not_looked_at", "many_triangles"};
 constexpr std::string_view k_finding_field = "finding";
 
 }  // namespace

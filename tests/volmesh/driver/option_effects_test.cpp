@@ -181,6 +181,7 @@ const std::map<std::string, std::string> k_elsewhere = {
     {"tetrahedra.repair_boundary", "graceful_test and driver/ladder_test: boundaries that no engine fills"},
     {"tetrahedra.fall_back_on_limits", "ladder_test: limits"},
     {"limits.force", "forecast_test: a mesh that is too large"},
+    {"farfield.farfield_floor", "floor_test: open sheets"},
     {"farfield.farfield_surface", "the file's name is for messages; continuation_test and farfield_test read it"},
 };
 

@@ -1,0 +1,209 @@
+// 1. The sizes of mesh_model, in the same order: of faces, of places, of edges, carried over the surface.
+// 2. of_face: areas of grid cells over the area of an equilateral triangle of the size there; a face has no fewer triangles than its border has edges, less
+// two.
+// 3. explain: the rule that asks for at least half of a face's triangles.
+#include "surfmesh/model/surface_forecast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "surfmesh/model/estimate.h"
+#include "surfmesh/model/proximity.h"
+#include "surfmesh/model/surface_sizes.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+const double k_triangle_of_edge = std::sqrt(3.0) / 4.0;  ///< area of an equilateral triangle by the square of its edge
+constexpr double k_rough = 2e7;                          ///< triangles: cells of sizes would take gigabytes
+/// Triangles made by those of the sizes: 1.05 to 1.16 on ten models of CAD, since edges are cut into whole numbers of segments.
+constexpr double k_made = 1.1;
+constexpr double k_cause = 0.5;  ///< of a face's triangles: a rule that asks for so many is the cause
+constexpr double k_same_size = 1.05;
+constexpr int k_cell_samples = 2;    ///< in each direction of a cell inside a face
+constexpr int k_border_samples = 6;  ///< of one that the border crosses
+constexpr int k_most_pieces = 64;    ///< of an edge between two samples
+constexpr double k_rad_to_degrees = 180.0 / std::numbers::pi;
+
+struct ForecastBasis {
+  const Model& model;
+  const SurfaceMeshOptions& options;
+  Column<EdgeId, EdgeSamples> edges;
+  ModelSizes sizes;
+  ModelTopology topology;
+};
+
+/// What is known of one face.
+struct FaceSum {
+  double n = 0.0, area = 0.0;
+};
+
+bool is_in_outline(const FaceOutline& outline, const Uv& at) {
+  bool inside = false;
+  for (const std::vector<Uv>& loop : outline.polygons)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Uv &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      if ((a.u <= at.u) != (b.u <= at.u) && a.v + (at.u - a.u) / (b.u - a.u) * (b.v - a.v) > at.v) inside = !inside;
+    }
+  return inside;
+}
+
+FaceSum sum_of_cells(const ForecastBasis& all, const SurfaceSizes& field, FaceId f) {
+  const FaceGrid& grid = field.grid(f);
+  FaceSum sum;
+  for (const FaceGridCell& cell : grid.cells()) {
+    if (!cell.is_used) continue;
+    std::array<const FaceGridNode*, 4> node{};
+    bool is_whole = true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      node[k] = &grid.nodes()[cell.nodes[k]];
+      is_whole = is_whole && node[k]->is_inside;
+    }
+    const double area = triangle_area(node[0]->point, node[1]->point, node[3]->point) + triangle_area(node[0]->point, node[3]->point, node[2]->point);
+    const int n = is_whole ? k_cell_samples : k_border_samples;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double s = (i + 0.5) / n, t = (j + 0.5) / n;
+        const std::array weight = {(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t};
+        Uv uv;
+        Point point;
+        for (std::size_t k = 0; k < 4; ++k) {
+          uv.u += weight[k] * node[k]->uv.u;
+          uv.v += weight[k] * node[k]->uv.v;
+          point += weight[k] * node[k]->point;
+        }
+        if (!is_whole && !is_in_outline(all.sizes.outlines[f], uv)) continue;
+        const double size = field.on_face(f, uv, point), share = area / (n * n);
+        sum.area += share;
+        sum.n += share / (k_triangle_of_edge * size * size);
+      }
+  }
+  return sum;
+}
+
+/// Segments that an edge will be cut into.
+double cuts_of(const ForecastBasis& all, const SurfaceSizes& field, EdgeId e) {
+  const std::vector<EdgeSample>& samples = all.edges[e].samples;
+  if (samples.empty() || all.topology.is_point[e] != 0) return 0.0;
+  double n = 0.0;
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const double length = distance(samples[i].point, samples[i + 1].point);
+    const double size = std::min(field.on_edge(e, samples[i].t), field.on_edge(e, samples[i + 1].t));
+    const int pieces = static_cast<int>(std::clamp(std::ceil(length / size), 1.0, static_cast<double>(k_most_pieces)));
+    for (int k = 0; k < pieces; ++k) n += length / pieces / field.on_edge(e, samples[i].t + (k + 0.5) / pieces * (samples[i + 1].t - samples[i].t));
+  }
+  return std::max(n, 1.0);
+}
+
+struct LeastEdge {
+  EdgeId edge;
+  double size = 1e300, curvature = 0.0, t = 0.0;
+  Point place;
+};
+
+LeastEdge least_edge_of(const ForecastBasis& all, FaceId f) {
+  LeastEdge least;
+  for (const Border& border : all.model.faces[f].borders)
+    for (const EdgeUse& use : border) {
+      if (all.sizes.edge_sizes.empty()) break;
+      const std::vector<double>& sizes = all.sizes.edge_sizes[use.edge];
+      for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const EdgeSample& sample = all.edges[use.edge].samples[i];
+        if (sizes[i] < least.size) least = {use.edge, sizes[i], sample.curvature, sample.t, sample.point};
+      }
+    }
+  return least;
+}
+
+std::string metres(double value) { return number_text(value, 3) + " m"; }
+
+void explain(const ForecastBasis& all, const FaceSum& sum, FaceForecast& forecast) {
+  const FaceSizes& wanted = all.sizes.faces[forecast.face];
+  const auto blame = [&](std::string rule, std::string advice) {
+    forecast.rule = std::move(rule);
+    forecast.advice = std::move(advice);
+  };
+  const double by_longest = sum.area / (k_triangle_of_edge * wanted.max_edge * wanted.max_edge), goal = k_cause * forecast.n_triangles;
+  forecast.least_edge = wanted.max_edge;
+  wanted.curvature->for_each_inside([&](const Point& p, double size) {
+    if (size >= forecast.least_edge && forecast.least_edge < wanted.max_edge) return;
+    if (size < forecast.least_edge) forecast.least_edge = size;
+    forecast.place = p;
+  });
+  const std::string curvature = "curvature: an edge spans at most " + number_text(wanted.limits.angle * k_rad_to_degrees, 3) + " degrees";
+  const std::string less_curvature = "a larger curvature_angle or min_edge";
+  if (by_longest >= goal) return blame("max_edge = " + metres(wanted.max_edge), "a larger max_edge");
+  if (estimated_triangles(all.sizes, forecast.face) >= goal) return blame(curvature, less_curvature);
+  const LeastEdge least = least_edge_of(all, forecast.face);
+  if (!(least.size < wanted.max_edge / k_same_size))
+    return blame("short edges beside it or sources, from which lengths grow by at most " + number_text(1.0 + all.sizes.growth, 3), "a larger growth");
+  forecast.place = least.place;
+  forecast.least_edge = std::min(forecast.least_edge, least.size);
+  if (all.edges[least.edge].length < wanted.max_edge && least.size * k_same_size >= all.edges[least.edge].length)
+    return blame("an edge of the face that is " + metres(all.edges[least.edge].length) + " long", "a larger min_edge");
+  double by_curvature = wanted.limits.size_of(least.curvature);
+  for (const Border& border : all.model.faces[forecast.face].borders)
+    for (const EdgeUse& use : border)
+      if (use.edge == least.edge)
+        by_curvature = std::min(by_curvature,
+                                wanted.limits.size_of(largest_curvature(all.model.faces[forecast.face].surface->derivatives(use.parameter->point(least.t)))));
+  if (by_curvature <= k_same_size * least.size) return blame(curvature, less_curvature);
+  return blame("narrow places: the face or the one beside it is about " + metres(least.size * all.options.refinement / all.options.narrow) + " wide there",
+               "a larger min_edge or narrow");
+}
+
+}  // namespace
+
+SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                                 const RunContext& context) {
+  ForecastBasis all{model, options, sample_edges(model, context), {}, {}};
+  all.sizes = sizes_of_faces(model, all.edges, options, patches, context);
+  add_place_sizes(model, all.edges, options, asked, all.sizes);
+  std::vector<FaceSum> sums(model.faces.size());
+  double rough = 0.0;
+  for (const FaceId f : model.faces.ids()) {
+    sums[f.index()] = {estimated_triangles(all.sizes, f), all.sizes.faces[f].curvature->area()};
+    rough += sums[f.index()].n;
+  }
+  if (rough < k_rough) {
+    std::vector<AbsorbedPart> absorbed;
+    all.topology = absorb_small_parts(model, all.edges, all.sizes, absorbed);
+    add_sources(model, all.edges, all.topology, options, all.sizes, context);
+    if (looks_for_gaps(options))
+      add_gap_sources(model, SurfaceSizes(model, all.edges, all.topology, all.sizes, {}, context, true), options, all.sizes, context);
+    const SurfaceSizes field(model, all.edges, all.topology, all.sizes, {}, context, true);
+    const auto of_face = [&](std::size_t i) {
+      const FaceId f(static_cast<std::uint64_t>(i));
+      if (all.topology.is_absorbed[f] != 0) {
+        sums[i] = {};
+        return;
+      }
+      sums[i] = sum_of_cells(all, field, f);
+      double cuts = -2.0;
+      for (const Border& border : model.faces[f].borders)
+        for (const EdgeUse& use : border) cuts += cuts_of(all, field, use.edge);
+      sums[i].n = std::max(k_made * sums[i].n, cuts);
+    };
+    parallel_for(context, sums.size(), of_face, 1);
+  }
+  SurfaceForecast forecast;
+  std::vector<FaceId> order;
+  for (const FaceId f : model.faces.ids()) {
+    forecast.n_triangles += sums[f.index()].n;
+    order.push_back(f);
+  }
+  std::ranges::stable_sort(order, [&](FaceId a, FaceId b) { return sums[a.index()].n > sums[b.index()].n; });
+  for (std::size_t i = 0; i < std::min(k_forecast_faces, order.size()); ++i) {
+    FaceForecast of_face{.face = order[i], .name = model.faces[order[i]].name, .n_triangles = sums[order[i].index()].n};
+    explain(all, sums[order[i].index()], of_face);
+    forecast.largest.push_back(std::move(of_face));
+  }
+  return forecast;
+}
+
+}  // namespace sterna::surfmesh

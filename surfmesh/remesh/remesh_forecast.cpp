@@ -1,0 +1,46 @@
+#include "surfmesh/remesh/remesh_forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "geom/math/measures.h"
+#include "surfmesh/remesh/reference.h"
+#include "surfmesh/remesh/remesh_sizes.h"
+
+namespace sterna::surfmesh {
+
+RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                               const RunContext& context) {
+  const double of_edge = std::sqrt(3.0) / 4.0;  // area of an equilateral triangle by the square of its edge
+  const Reference reference(wall, {options.feature_angle, least_edge(wall, options, patches, context), options.smooth, {}}, {}, {}, context);
+  const RemeshSizes sizes(reference, options, patches, asked, context);
+  const SurfaceLimitTable limits(wall, reference.topology, options, patches);
+  struct OfPatch {
+    double n = 0.0, by_longest = 0.0, least = 1e300;
+    Point place;
+  };
+  std::vector<OfPatch> of_patches(std::max<std::size_t>(1, wall.patches.size()));
+  RemeshForecast forecast;
+  for (const TriangleId t : wall.triangles.ids()) {
+    const auto [a, b, c] = corners(wall, t);
+    const Point middle = (a + b + c) / 3.0;
+    const double size = sizes(middle, t), area = triangle_area(a, b, c), longest = limits.of(t).max_edge;
+    OfPatch& patch = of_patches[wall.triangle_patch[t].index()];
+    patch.n += area / (of_edge * size * size);
+    patch.by_longest += area / (of_edge * longest * longest);
+    forecast.n_triangles += area / (of_edge * size * size);
+    if (size >= patch.least) continue;
+    patch.least = size;
+    patch.place = middle;
+  }
+  const auto most = std::ranges::max_element(of_patches, {}, &OfPatch::n);
+  if (wall.patches.size() > 0) forecast.patch = wall.patches[PatchId(static_cast<std::uint64_t>(most - of_patches.begin()))].name;
+  forecast.of_patch = most->n;
+  forecast.least_edge = most->least;
+  forecast.place = most->place;
+  forecast.is_by_longest = most->by_longest >= 0.5 * most->n;
+  return forecast;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,206 @@
+// Open terrain sheets: sides and a lid are added, layers grow on the sheet and end on the sides.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/topology.h"
+#include "tests/support/error_of.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/domain/room.h"
+#include "volmesh/domain/complete_boundary.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int k_cells_x = 24, k_cells_y = 18;
+constexpr double k_cell = 0.25;   ///< m
+constexpr double k_house = 0.75;  ///< m, height
+constexpr double k_lid = 4.0;     ///< m
+
+bool is_house(int i, int j) { return i >= 10 && i < 14 && j >= 8 && j < 11; }
+
+/// 6 x 4.5 m of hills, with the house as part of the sheet on a level place, or without it.
+TriMesh terrain(bool has_house) {
+  TriMesh mesh;
+  mesh.patches = Column<PatchId, Patch>{{"terrain", PatchKind::wall}, {"house", PatchKind::wall}};
+  std::map<std::array<int, 3>, VertexId> vertices;
+  const auto at = [&](int i, int j, int storey) {
+    const auto [found, is_new] = vertices.try_emplace({i, j, storey}, VertexId(0));
+    if (is_new) {
+      const double x = k_cell * i, y = k_cell * j, r = std::hypot(x - 3.0, y - 2.375);
+      const double hills = 0.3 * std::sin(1.3 * x) * std::cos(1.1 * y) * std::min(1.0, std::max(0.0, r - 0.9));
+      found->second = mesh.points.push_back({x, y, hills + k_house * storey});
+    }
+    return found->second;
+  };
+  const auto quad = [&](VertexId a, VertexId b, VertexId c, VertexId d, std::uint32_t patch) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+    mesh.triangle_patch.push_back(PatchId(patch));
+    mesh.triangle_patch.push_back(PatchId(patch));
+  };
+  const auto storey = [&](int i, int j) { return has_house && is_house(i, j) ? 1 : 0; };
+  // Walls of the house are three cells high.
+  const auto wall = [&](int i, int j, int k, int l) {
+    for (int level = 0; level < 3; ++level) {
+      const auto point = [&](int m, int n, int h) {
+        if (h == 0 || h == 3) return at(m, n, h / 3);
+        const auto [found, is_new] = vertices.try_emplace({m, n, 10 + h}, VertexId(0));
+        if (is_new) {
+          Point p = mesh.points[at(m, n, 0)];
+          p.z += k_house * h / 3.0;
+          found->second = mesh.points.push_back(p);
+        }
+        return found->second;
+      };
+      quad(point(i, j, level), point(k, l, level), point(k, l, level + 1), point(i, j, level + 1), 1);
+    }
+  };
+  for (int i = 0; i < k_cells_x; ++i)
+    for (int j = 0; j < k_cells_y; ++j) {
+      const int s = storey(i, j);
+      quad(at(i, j, s), at(i + 1, j, s), at(i + 1, j + 1, s), at(i, j + 1, s), s == 1 ? 1 : 0);
+      if (s == 0) continue;
+      if (!is_house(i - 1, j)) wall(i, j + 1, i, j);
+      if (!is_house(i + 1, j)) wall(i + 1, j, i + 1, j + 1);
+      if (!is_house(i, j - 1)) wall(i, j, i + 1, j);
+      if (!is_house(i, j + 1)) wall(i + 1, j + 1, i, j + 1);
+    }
+  return mesh;
+}
+
+/// Of the fluid between the sheet and the lid: the sum over columns on triangles.
+double columns_of(const TriMesh& sheet, double lid) {
+  double volume = 0.0;
+  for (const TriangleId t : sheet.triangles.ids()) {
+    const auto [a, b, c] = corners(sheet, t);
+    volume += area_vector(a, b, c).z * (lid - (a.z + b.z + c.z) / 3.0);
+  }
+  return volume;
+}
+
+MeshCase case_over_floor(int n_layers, const std::string& floor = "terrain") {
+  MeshCase options = layers(n_layers, 5e-3);
+  options.farfield.farfield_shape = "box";
+  options.farfield.farfield_floor = floor;
+  options.farfield.farfield_to_z = k_lid;
+  return options;
+}
+
+TEST(Floor, TerrainWithAHouseGetsSidesAndALid) {
+  const TriMesh sheet = terrain(true);
+  for (const int n_layers : {8, 0}) {
+    MeshCase options = case_over_floor(n_layers);
+    options.farfield.farfield_sides = "x_min=inflow x_max=outflow y_min=slip,name:sides y_max=slip,name:sides";
+    const VolumeMeshResult result = volume_mesh(sheet, options, RunContext({.threads = 2}));
+    EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
+    const double expected = columns_of(sheet, k_lid);
+    EXPECT_NEAR(result.check.total_volume, expected, 1e-9 * expected) << n_layers;
+    Edges rims = rim_edges(result);
+    if (n_layers == 0) {
+      EXPECT_EQ(count_cells(result.mesh).prisms, 0);
+      continue;
+    }
+    EXPECT_GT(count_cells(result.mesh).prisms, 0);
+    EXPECT_GT(result.layer.coverage, 0.9);
+    // The sides hold the prints of the columns on all edges of the rim; the lid holds none.
+    EXPECT_EQ(rims["inflow"], static_cast<std::size_t>(k_cells_y));
+    EXPECT_EQ(rims["outflow"], static_cast<std::size_t>(k_cells_y));
+    EXPECT_EQ(rims["sides"], static_cast<std::size_t>(2 * k_cells_x));
+    EXPECT_EQ(rims["farfield"], 0u);
+    for (const auto& face : result.mesh.boundary_triangles) {
+      const Patch& patch = result.mesh.patches[face.patch];
+      const double x = patch.name == "inflow" ? 0.0 : 6.0;
+      if (patch.name != "inflow" && patch.name != "outflow") continue;
+      for (const NodeId node : face.nodes) EXPECT_EQ(result.mesh.points[node].x, x);
+    }
+  }
+}
+
+TEST(Floor, BodiesAboveTheTerrainAreInTheBox) {
+  TriMesh sheet = terrain(false);
+  const double without = columns_of(sheet, k_lid);
+  TriMesh body = test::sphere(3);
+  for (Point& p : body.points) p = Vec3{3.0, 2.2, 1.5} + 0.5 * p;
+  body.patches = Column<PatchId, Patch>{{"balloon", PatchKind::wall}};
+  body.triangle_patch.assign(body.n_triangles(), PatchId(0));
+  append(sheet, body);
+  const VolumeMeshResult result = volume_mesh(sheet, case_over_floor(5), RunContext({.threads = 2}));
+  EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
+  const double expected = without - test::volume_of(body);
+  EXPECT_NEAR(result.check.total_volume, expected, 1e-9 * expected);
+  // Sides and lid are one patch unless rules part them.
+  EXPECT_EQ(rim_edges(result)["farfield"], static_cast<std::size_t>(2 * (k_cells_x + k_cells_y)));
+
+  for (Point& p : body.points) p.z -= 5.0;
+  TriMesh below = terrain(false);
+  append(below, body);
+  test::expect_error(ErrorCode::bad_argument, "closed parts are below the floor", [&] { volume_mesh(below, case_over_floor(5), {}); });
+}
+
+TEST(Floor, VerticalAxisAndLidAreFound) {
+  TriMesh sheet = terrain(false);
+  for (Point& p : sheet.points) p = {p.y, p.z, p.x};  // y is up
+  MeshCase options = case_over_floor(0, "terr*");
+  options.farfield.farfield_to_z = k_automatic;
+  const TriMesh whole = complete_boundary(sheet, {options.farfield}, RunContext({.threads = 1}));
+  const Box of_sheet = bounding_box(sheet), box = bounding_box(whole);
+  EXPECT_NEAR(box.max.y, of_sheet.max.y + 3.0, 1e-12);  // half of 6 m above the highest point
+  EXPECT_EQ(box.max.x, 4.5);
+  EXPECT_EQ(box.max.z, 6.0);
+  EXPECT_EQ(Topology(whole, {}).n_boundary_halfedges(), 0u);
+}
+
+TEST(Floor, RimsNearTheSidesAreMovedIntoThem) {
+  TriMesh sheet = terrain(false);
+  for (Point& p : sheet.points)
+    if (p.x == 0.0) p.x = 2e-4 * std::sin(40.0 * p.y);
+  FarfieldOptions farfield = case_over_floor(0).farfield;
+  farfield.farfield_from_x = 0.0;
+  const TriMesh whole = complete_boundary(sheet, {farfield}, RunContext({.threads = 1}));
+  EXPECT_EQ(bounding_box(whole).min.x, 0.0);
+}
+
+TEST(Floor, MistakesAreErrorsWithPlaces) {
+  const auto complete = [](const TriMesh& mesh, const FarfieldOptions& farfield) { complete_boundary(mesh, {farfield}, RunContext({.threads = 1})); };
+  const FarfieldOptions usual = case_over_floor(0).farfield;
+  TriMesh bent = terrain(false);
+  for (Point& p : bent.points)
+    if (p.x == 6.0 && p.y == 2.0) p.x = 5.8;
+  test::expect_error(ErrorCode::open_surface, "2 of 84 rim edges of the floor \"terrain\" lie in none of the box's vertical sides",
+                     [&] { complete(bent, usual); });
+  test::expect_error(ErrorCode::open_surface, "the rim is 0.2 m from the nearest side, x_max at x = 6 m", [&] { complete(bent, usual); });
+  FarfieldOptions wide = usual;
+  wide.farfield_to_x = 8.0;
+  test::expect_error(ErrorCode::open_surface, "give the box the corners of the sheet", [&] { complete(terrain(false), wide); });
+  FarfieldOptions other = usual;
+  other.farfield_floor = "ground";
+  test::expect_error(ErrorCode::bad_argument, "no patch \"ground\"", [&] { complete(terrain(false), other); });
+  FarfieldOptions sphere = usual;
+  sphere.farfield_shape = "sphere";
+  test::expect_error(ErrorCode::bad_argument, "a floor needs farfield = box{ floor = ... }", [&] { complete(terrain(false), sphere); });
+  FarfieldOptions low = usual;
+  low.farfield_to_z = 0.1;
+  test::expect_error(ErrorCode::bad_argument, "raise the upper corner of the box", [&] { complete(terrain(true), low); });
+  FarfieldOptions sides = usual;
+  sides.farfield_sides = "z_min=wall";
+  test::expect_error(ErrorCode::bad_argument, "there is no side \"z_min\"", [&] { complete(terrain(false), sides); });
+  TriMesh turned = terrain(false);
+  for (TriangleVertices& t : turned.triangles) std::swap(t[1], t[2]);
+  test::expect_error(ErrorCode::bad_argument, "normals of the floor point downwards", [&] { complete(turned, usual); });
+  FarfieldOptions of_box = usual;
+  of_box.farfield_floor = "*";
+  test::expect_error(ErrorCode::bad_argument, "its surface is closed", [&] { complete(test::cube(2), of_box); });
+}
+
+}  // namespace
+}  // namespace sterna::volmesh
