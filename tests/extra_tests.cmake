@@ -68,7 +68,7 @@ set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 
 
 add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
 add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA} --all USES_TERMINAL)  # all five, by hand
-set_tests_properties(report_real_pages PROPERTIES LABELS real_data SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_11_surface_file;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
+set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_11_surface_file;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
 
 # The same browser uses every control of the workbench.
 add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
