@@ -81,6 +81,7 @@ Setting setting_of(const std::string& name) {
   if (name == "box" || name == "cylinder") {
     FarfieldOptions& far = setting.mesh_case.farfield;
     far.farfield_shape = name;
+    if (name == "box") far.farfield_radius = FarfieldOptions().farfield_radius;  // the radius of other shapes is an error
     far.farfield_from_x = far.farfield_from_y = far.farfield_from_z = -5.0;
     far.farfield_to_x = far.farfield_to_y = far.farfield_to_z = 6.0;
     if (name == "cylinder") far.farfield_from_y = far.farfield_from_z = far.farfield_to_y = far.farfield_to_z = 0.5;
