@@ -12,7 +12,8 @@ namespace sterna::cad {
 
 /// What differs between a model and its file, read again without healing: faces, area and volume of each closed solid (to 1e-6, and what the tolerances of the
 /// model's edges leave open; STEP and IGES: its magnitude), area of all open shells and loose faces. One sentence for each, with the solid's name; empty: the
-/// file holds the model. \throws Error(cancelled)
+/// file holds the model.
+/// \throws Error(cancelled)
 std::vector<std::string> differences_of_file(const Model& model, const std::string& bytes, CadFormat format, const std::string& name,
                                              const RunContext& context);
 

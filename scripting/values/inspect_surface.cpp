@@ -156,7 +156,7 @@ std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& foreca
   return finding;
 }
 
-/// What remesh would make, where it is advised. A surface that remesh refuses is not its matter.
+/// What remesh would make, where it is advised.
 void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspection& report, const RunContext& context) {
   if (!report.preparation.is_remesh_advised || report.find(FindingKind::crossing) != nullptr || report.find(FindingKind::non_manifold) != nullptr) return;
   surfmesh::RemeshForecast forecast;
@@ -164,6 +164,7 @@ void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspecti
     forecast = surfmesh::forecast_remesh(wall, {}, {}, {}, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
+    context.info("inspect: the number of triangles that remesh would make is not predicted: " + error.info().problem);
     return;
   }
   report.remeshed_triangles = forecast.n_triangles;
@@ -251,7 +252,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
     many = many_triangles_of(forecast, request);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    context.debug("the number of triangles is not predicted: " + error.info().problem);  // meshing says what is wrong
+    context.info("inspect: the number of triangles is not predicted: " + error.info().problem);
   }
   if (many) context.warn(many->text + "; try " + many->advice);
   const RunContext meshing = context.part("surface", k_joined * k_foretold, k_joined);

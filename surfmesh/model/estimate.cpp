@@ -5,14 +5,13 @@
 #include <cstdio>
 
 #include "geom/base/error.h"
+#include "geom/math/constants.h"
 
 namespace sterna::surfmesh {
 namespace {
 
 constexpr const char* k_estimate_attempt = "meshing the model's surface";
 constexpr std::size_t k_shown_faces = 5;
-/// Area of an equilateral triangle by the square of its edge, 3^(1/2) / 4.
-const double k_equilateral = std::sqrt(3.0) / 4.0;
 /// Estimates are above the triangles made by up to so much where the mesh does not reach the sizes it is asked for.
 constexpr double k_surely = 1.5;
 
@@ -36,7 +35,7 @@ double estimated_triangles(const ModelSizes& sizes, FaceId face) {
   double n = 0.0;
   wanted.curvature->for_each_cell([&](double by_curvature, double area) {
     const double size = std::min(by_curvature, wanted.max_edge);
-    n += area / (k_equilateral * size * size);
+    n += area / (k_equilateral_area * size * size);
   });
   return n;
 }

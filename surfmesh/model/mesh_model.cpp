@@ -19,7 +19,7 @@
 #include "surfmesh/model/estimate.h"
 #include "surfmesh/model/join_faces.h"
 #include "surfmesh/model/mesh_report.h"
-#include "surfmesh/model/proximity.h"
+#include "surfmesh/model/sized_model.h"
 #include "surfmesh/model/smooth_angle.h"
 
 namespace sterna::surfmesh {
@@ -35,12 +35,7 @@ constexpr int k_rounds_before_holes = 2;
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
 constexpr int k_digits = 4;  ///< of numbers in messages
 
-struct Meshing {
-  const Model& model;
-  const SurfaceMeshOptions& options;
-  Column<EdgeId, EdgeSamples> edges;
-  ModelSizes sizes;
-  ModelTopology topology;
+struct Meshing : SizedModel {
   WingBands bands;
   PeriodicRims rims;
   std::vector<AbsorbedPart> absorbed;
@@ -239,9 +234,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                        const RunContext& context) {
   check_options(options);
-  Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}, {}, {}};
-  meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
-  add_place_sizes(model, meshing.edges, options, asked, meshing.sizes);
+  Meshing meshing{sized_model(model, options, patches, asked, context), {}, {}, {}, {}, {}, {}, {}};
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
   if (const std::vector<SidePair> pairs = side_pairs(options.periodic); !pairs.empty())
@@ -249,9 +242,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
   check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
-  add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context, &meshing.bands);
-  if (looks_for_gaps(options))
-    add_gap_sources(model, SurfaceSizes(model, meshing.edges, meshing.topology, meshing.sizes, {}, context, true), options, meshing.sizes, context);
+  add_narrow_places(meshing, &meshing.bands, context);
   context.progress(k_prepared);
   SurfaceMesh mesh;
   MeshCrossings crossings;

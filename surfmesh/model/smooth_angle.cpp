@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 
@@ -153,14 +153,9 @@ void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, Smooth
   for (const SharpEdge& e : edges) keys.insert(keys.end(), e.keys.begin(), e.keys.end());
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  const auto index = [&](const VertexKey& key) { return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin()); };
-  std::vector<std::size_t> parent(keys.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const SharpEdge& e : edges) parent[root(index(e.keys[0]))] = root(index(e.keys[1]));
+  const auto index = [&](const VertexKey& key) { return static_cast<std::uint32_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin()); };
+  DisjointSets connected(keys.size());
+  for (const SharpEdge& e : edges) connected.join(index(e.keys[0]), index(e.keys[1]));
   struct Group {
     Box box;
     double longest = 0.0;
@@ -170,7 +165,7 @@ void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, Smooth
   };
   std::vector<Group> groups(keys.size());
   for (const SharpEdge& e : edges) {
-    Group& group = groups[root(index(e.keys[0]))];
+    Group& group = groups[connected.root(index(e.keys[0]))];
     for (const Point& p : e.ends) group.box.add(p);
     group.longest = std::max(group.longest, distance(e.ends[0], e.ends[1]));
     group.follow = group.follow && e.follow;
@@ -180,7 +175,7 @@ void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, Smooth
   for (const Group& group : groups)
     if (group.longest > 0.0) extents[group.face] += group.extent();
   for (const SharpEdge& e : edges) {
-    const Group& group = groups[root(index(e.keys[0]))];
+    const Group& group = groups[connected.root(index(e.keys[0]))];
     if (group.follow && group.extent() <= k_spot && extents[group.face] <= 2.0 * k_spot) continue;
     keep_larger_outside_spots(best, e.angle, 0.5 * (e.ends[0] + e.ends[1]));
   }

@@ -7,20 +7,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "surfmesh/model/estimate.h"
-#include "surfmesh/model/proximity.h"
+#include "surfmesh/model/sized_model.h"
 #include "surfmesh/model/surface_sizes.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-const double k_triangle_of_edge = std::sqrt(3.0) / 4.0;  ///< area of an equilateral triangle by the square of its edge
-constexpr double k_rough = 2e7;                          ///< triangles: cells of sizes would take gigabytes
+constexpr double k_rough = 2e7;  ///< triangles: cells of sizes would take gigabytes
 /// Triangles made by those of the sizes: 1.05 to 1.16 on ten models of CAD, since edges are cut into whole numbers of segments.
 constexpr double k_made = 1.1;
 constexpr double k_cause = 0.5;  ///< of a face's triangles: a rule that asks for so many is the cause
@@ -28,15 +27,6 @@ constexpr double k_same_size = 1.05;
 constexpr int k_cell_samples = 2;    ///< in each direction of a cell inside a face
 constexpr int k_border_samples = 6;  ///< of one that the border crosses
 constexpr int k_most_pieces = 64;    ///< of an edge between two samples
-constexpr double k_rad_to_degrees = 180.0 / std::numbers::pi;
-
-struct ForecastBasis {
-  const Model& model;
-  const SurfaceMeshOptions& options;
-  Column<EdgeId, EdgeSamples> edges;
-  ModelSizes sizes;
-  ModelTopology topology;
-};
 
 /// What is known of one face.
 struct FaceSum {
@@ -53,7 +43,7 @@ bool is_in_outline(const FaceOutline& outline, const Uv& at) {
   return inside;
 }
 
-FaceSum sum_of_cells(const ForecastBasis& all, const SurfaceSizes& field, FaceId f) {
+FaceSum sum_of_cells(const SizedModel& all, const SurfaceSizes& field, FaceId f) {
   const FaceGrid& grid = field.grid(f);
   FaceSum sum;
   for (const FaceGridCell& cell : grid.cells()) {
@@ -80,14 +70,14 @@ FaceSum sum_of_cells(const ForecastBasis& all, const SurfaceSizes& field, FaceId
         if (!is_whole && !is_in_outline(all.sizes.outlines[f], uv)) continue;
         const double size = field.on_face(f, uv, point), share = area / (n * n);
         sum.area += share;
-        sum.n += share / (k_triangle_of_edge * size * size);
+        sum.n += share / (k_equilateral_area * size * size);
       }
   }
   return sum;
 }
 
 /// Segments that an edge will be cut into.
-double cuts_of(const ForecastBasis& all, const SurfaceSizes& field, EdgeId e) {
+double cuts_of(const SizedModel& all, const SurfaceSizes& field, EdgeId e) {
   const std::vector<EdgeSample>& samples = all.edges[e].samples;
   if (samples.empty() || all.topology.is_point[e] != 0) return 0.0;
   double n = 0.0;
@@ -106,7 +96,7 @@ struct LeastEdge {
   Point place;
 };
 
-LeastEdge least_edge_of(const ForecastBasis& all, FaceId f) {
+LeastEdge least_edge_of(const SizedModel& all, FaceId f) {
   LeastEdge least;
   for (const Border& border : all.model.faces[f].borders)
     for (const EdgeUse& use : border) {
@@ -122,20 +112,20 @@ LeastEdge least_edge_of(const ForecastBasis& all, FaceId f) {
 
 std::string metres(double value) { return number_text(value, 3) + " m"; }
 
-void explain(const ForecastBasis& all, const FaceSum& sum, FaceForecast& forecast) {
+void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) {
   const FaceSizes& wanted = all.sizes.faces[forecast.face];
   const auto blame = [&](std::string rule, std::string advice) {
     forecast.rule = std::move(rule);
     forecast.advice = std::move(advice);
   };
-  const double by_longest = sum.area / (k_triangle_of_edge * wanted.max_edge * wanted.max_edge), goal = k_cause * forecast.n_triangles;
+  const double by_longest = sum.area / (k_equilateral_area * wanted.max_edge * wanted.max_edge), goal = k_cause * forecast.n_triangles;
   forecast.least_edge = wanted.max_edge;
   wanted.curvature->for_each_inside([&](const Point& p, double size) {
     if (size >= forecast.least_edge && forecast.least_edge < wanted.max_edge) return;
     if (size < forecast.least_edge) forecast.least_edge = size;
     forecast.place = p;
   });
-  const std::string curvature = "curvature: an edge spans at most " + number_text(wanted.limits.angle * k_rad_to_degrees, 3) + " degrees";
+  const std::string curvature = "curvature: an edge spans at most " + number_text(wanted.limits.angle * k_degrees, 3) + " degrees";
   const std::string less_curvature = "a larger curvature_angle or min_edge";
   if (by_longest >= goal) return blame("max_edge = " + metres(wanted.max_edge), "a larger max_edge");
   if (estimated_triangles(all.sizes, forecast.face) >= goal) return blame(curvature, less_curvature);
@@ -161,9 +151,7 @@ void explain(const ForecastBasis& all, const FaceSum& sum, FaceForecast& forecas
 
 SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                                  const RunContext& context) {
-  ForecastBasis all{model, options, sample_edges(model, context), {}, {}};
-  all.sizes = sizes_of_faces(model, all.edges, options, patches, context);
-  add_place_sizes(model, all.edges, options, asked, all.sizes);
+  SizedModel all = sized_model(model, options, patches, asked, context);
   std::vector<FaceSum> sums(model.faces.size());
   double rough = 0.0;
   for (const FaceId f : model.faces.ids()) {
@@ -173,9 +161,7 @@ SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& o
   if (rough < k_rough) {
     std::vector<AbsorbedPart> absorbed;
     all.topology = absorb_small_parts(model, all.edges, all.sizes, absorbed);
-    add_sources(model, all.edges, all.topology, options, all.sizes, context);
-    if (looks_for_gaps(options))
-      add_gap_sources(model, SurfaceSizes(model, all.edges, all.topology, all.sizes, {}, context, true), options, all.sizes, context);
+    add_narrow_places(all, nullptr, context);
     const SurfaceSizes field(model, all.edges, all.topology, all.sizes, {}, context, true);
     const auto of_face = [&](std::size_t i) {
       const FaceId f(static_cast<std::uint64_t>(i));

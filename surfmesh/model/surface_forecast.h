@@ -28,9 +28,8 @@ struct SurfaceForecast {
 inline constexpr std::size_t k_forecast_faces = 3;
 
 /// Integrates 1 / size^2 over each face, with the sizes that mesh_model() begins with: within about 30 % of what it makes. Above k_rough triangles (20 million)
-/// sizes are not carried over the surface, and the number is a lower bound. Takes a fifth of the time of mesh_model() to twice its
-/// time (very many small faces); rows at leading and trailing edges
-/// are not counted.
+/// sizes are not carried over the surface, and the number is a lower bound. Takes a fifth of the time of mesh_model() to twice its time (very many small
+/// faces). Rows at leading and trailing edges are not counted.
 /// \throws Error(bad_argument) as mesh_model()
 SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                                  const RunContext& context);

@@ -1,9 +1,9 @@
 #include "surfmesh/remesh/remesh_forecast.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "surfmesh/remesh/reference.h"
 #include "surfmesh/remesh/remesh_sizes.h"
@@ -12,7 +12,6 @@ namespace sterna::surfmesh {
 
 RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                                const RunContext& context) {
-  const double of_edge = std::sqrt(3.0) / 4.0;  // area of an equilateral triangle by the square of its edge
   const Reference reference(wall, {options.feature_angle, least_edge(wall, options, patches, context), options.smooth, {}}, {}, {}, context);
   const RemeshSizes sizes(reference, options, patches, asked, context);
   const SurfaceLimitTable limits(wall, reference.topology, options, patches);
@@ -27,9 +26,9 @@ RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options
     const Point middle = (a + b + c) / 3.0;
     const double size = sizes(middle, t), area = triangle_area(a, b, c), longest = limits.of(t).max_edge;
     OfPatch& patch = of_patches[wall.triangle_patch[t].index()];
-    patch.n += area / (of_edge * size * size);
-    patch.by_longest += area / (of_edge * longest * longest);
-    forecast.n_triangles += area / (of_edge * size * size);
+    patch.n += area / (k_equilateral_area * size * size);
+    patch.by_longest += area / (k_equilateral_area * longest * longest);
+    forecast.n_triangles += area / (k_equilateral_area * size * size);
     if (size >= patch.least) continue;
     patch.least = size;
     patch.place = middle;

@@ -7,6 +7,7 @@
 
 #include "geom/base/glob.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
 
@@ -20,8 +21,6 @@ constexpr double k_max_edge_of_length = 1e-3;
 constexpr double k_min_edge_of_max = 0.02;
 /// Of min_edge, where chord_error needs shorter edges.
 constexpr double k_least_for_chord = 0.25;
-/// Area of an equilateral triangle over its edge squared.
-constexpr double k_equilateral_area = 0.4330127018922193;
 /// Surfaces look at each other when their normals are opposed within 30 degrees.
 constexpr double k_opposed_cosine = 0.866;
 /// Hits nearer than this part of the reach are the surface itself.

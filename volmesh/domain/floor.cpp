@@ -13,6 +13,7 @@
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
+#include "volmesh/case/ignored_requests.h"
 #include "volmesh/domain/flatten_rims.h"
 #include "volmesh/domain/shape_sizes.h"
 
@@ -109,6 +110,15 @@ Box box_above(const TriMesh& mesh, const std::vector<std::array<VertexId, 2>>& r
   box.min[up] = all.min[up];
   box.max[up] = is_automatic(to[up]) ? all.max[up] + k_default_lid * longest : to[up];
   const double margin = k_shape_margin * body_length(mesh);
+  if (!is_automatic(from[up]) && from[up] > all.min[up] + margin) {
+    const Point lowest = *std::ranges::min_element(mesh.points, {}, [&](const Point& p) { return p[up]; });
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_floor_attempt,
+                 .problem = std::string("the box begins at ") + "xyz"[up] + " = " + in_metres(from[up]) + ", above the lowest point of the floor at " +
+                            in_metres(all.min[up]),
+                 .places = {{lowest, "the lowest point"}},
+                 .hint = "lower that corner of the box: the fluid begins at the floor, wherever the corner is below it"});
+  }
   if (box.max[up] >= all.max[up] + margin) return box;
   const Point highest = *std::ranges::max_element(mesh.points, {}, [&](const Point& p) { return p[up]; });
   throw Error({.code = ErrorCode::bad_argument,
@@ -171,6 +181,7 @@ void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<
 FloorBox fit_floor(const Topology& topology, const FarfieldOptions& options, TriMesh& mesh) {
   if (options.farfield_shape != "box")
     throw_bad_argument(k_floor_attempt, "the farfield's shape is \"" + options.farfield_shape + "\"", {}, "a floor needs farfield = box{ floor = ... }");
+  require_used_farfield(options);
   const Components components = connected_components(mesh, topology);
   const std::vector<std::uint8_t> is_open = require_sheet(mesh, topology, components, options.farfield_floor);
   FloorBox floor;

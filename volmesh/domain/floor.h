@@ -26,7 +26,8 @@ struct FloorBox {
 /// that is not given, half the longest side above the highest point.
 /// \pre `topology` is that of `mesh`
 /// \throws Error(bad_argument) when the shape is not "box", when no patch is called farfield_floor, when the surface is closed, when the normals of the sheet
-/// point away from the lid, when the lid is not above all points; Error(open_surface) with places when a rim leaves the sides, or belongs to another part
+/// point away from the lid, when the lid is not above all points or the box begins above the lowest one, when options belong
+/// to another shape; Error(open_surface) with places when a rim leaves the sides, or belongs to another part
 FloorBox fit_floor(const Topology& topology, const FarfieldOptions& options, TriMesh& mesh);
 
 /// \throws Error(bad_argument) with the place of closed parts that are not within `boundary`: below the sheet, or outside the sides

@@ -27,8 +27,8 @@ class Corners {
     });
   }
 
-  /// Patches without layers that have a sharp edge at a rim, or at an edge that they share with another patch on which layers end: it is divided anew as a
-  /// whole.
+  /// Patches without layers that have a sharp edge at a rim, or at an edge that they share with another patch on which layers end: that edge is divided
+  /// anew as a whole.
   std::vector<std::uint8_t> patches_with_corners() const {
     std::vector<std::uint8_t> has_corner(boundary_.patches.size(), 0);
     const Column<VertexId, std::uint8_t> is_shared = vertices_between_ends();

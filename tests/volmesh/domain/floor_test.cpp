@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -171,35 +172,30 @@ TEST(Floor, RimsNearTheSidesAreMovedIntoThem) {
 }
 
 TEST(Floor, MistakesAreErrorsWithPlaces) {
-  const auto complete = [](const TriMesh& mesh, const FarfieldOptions& farfield) { complete_boundary(mesh, {farfield}, RunContext({.threads = 1})); };
-  const FarfieldOptions usual = case_over_floor(0).farfield;
-  TriMesh bent = terrain(false);
+  using Options = FarfieldOptions;
+  const Options usual = case_over_floor(0).farfield;
+  const auto refused = [&](
+                           const TriMesh& mesh, ErrorCode code, const char* text, const std::function<void(Options&)>& change = [](Options&) {}) {
+    Options options = usual;
+    change(options);
+    test::expect_error(code, text, [&] { complete_boundary(mesh, {options}, RunContext({.threads = 1})); });
+  };
+  const TriMesh sheet = terrain(false);
+  TriMesh bent = sheet, turned = sheet;
   for (Point& p : bent.points)
     if (p.x == 6.0 && p.y == 2.0) p.x = 5.8;
-  test::expect_error(ErrorCode::open_surface, "2 of 84 rim edges of the floor \"terrain\" lie in none of the box's vertical sides",
-                     [&] { complete(bent, usual); });
-  test::expect_error(ErrorCode::open_surface, "the rim is 0.2 m from the nearest side, x_max at x = 6 m", [&] { complete(bent, usual); });
-  FarfieldOptions wide = usual;
-  wide.farfield_to_x = 8.0;
-  test::expect_error(ErrorCode::open_surface, "give the box the corners of the sheet", [&] { complete(terrain(false), wide); });
-  FarfieldOptions other = usual;
-  other.farfield_floor = "ground";
-  test::expect_error(ErrorCode::bad_argument, "no patch \"ground\"", [&] { complete(terrain(false), other); });
-  FarfieldOptions sphere = usual;
-  sphere.farfield_shape = "sphere";
-  test::expect_error(ErrorCode::bad_argument, "a floor needs farfield = box{ floor = ... }", [&] { complete(terrain(false), sphere); });
-  FarfieldOptions low = usual;
-  low.farfield_to_z = 0.1;
-  test::expect_error(ErrorCode::bad_argument, "raise the upper corner of the box", [&] { complete(terrain(true), low); });
-  FarfieldOptions sides = usual;
-  sides.farfield_sides = "z_min=wall";
-  test::expect_error(ErrorCode::bad_argument, "there is no side \"z_min\"", [&] { complete(terrain(false), sides); });
-  TriMesh turned = terrain(false);
   for (TriangleVertices& t : turned.triangles) std::swap(t[1], t[2]);
-  test::expect_error(ErrorCode::bad_argument, "normals of the floor point downwards", [&] { complete(turned, usual); });
-  FarfieldOptions of_box = usual;
-  of_box.farfield_floor = "*";
-  test::expect_error(ErrorCode::bad_argument, "its surface is closed", [&] { complete(test::cube(2), of_box); });
+  refused(bent, ErrorCode::open_surface, "2 of 84 rim edges of the floor \"terrain\" lie in none of the box's vertical sides");
+  refused(bent, ErrorCode::open_surface, "the rim is 0.2 m from the nearest side, x_max at x = 6 m");
+  refused(turned, ErrorCode::bad_argument, "normals of the floor point downwards");
+  refused(sheet, ErrorCode::open_surface, "give the box the corners of the sheet", [](Options& o) { o.farfield_to_x = 8.0; });
+  refused(sheet, ErrorCode::bad_argument, "no patch \"ground\"", [](Options& o) { o.farfield_floor = "ground"; });
+  refused(sheet, ErrorCode::bad_argument, "a floor needs farfield = box{ floor = ... }", [](Options& o) { o.farfield_shape = "sphere"; });
+  refused(sheet, ErrorCode::bad_argument, "the shape \"box\" does not have farfield_radius = 5", [](Options& o) { o.farfield_radius = 5.0; });
+  refused(sheet, ErrorCode::bad_argument, "the box begins at z = 2 m, above the lowest point", [](Options& o) { o.farfield_from_z = 2.0; });
+  refused(sheet, ErrorCode::bad_argument, "there is no side \"z_min\"", [](Options& o) { o.farfield_sides = "z_min=wall"; });
+  refused(terrain(true), ErrorCode::bad_argument, "raise the upper corner of the box", [](Options& o) { o.farfield_to_z = 0.1; });
+  refused(test::cube(2), ErrorCode::bad_argument, "its surface is closed", [](Options& o) { o.farfield_floor = "*"; });
 }
 
 }  // namespace
