@@ -9,6 +9,13 @@
 #include "surfmesh/remesh/remesh_sizes.h"
 
 namespace sterna::surfmesh {
+namespace {
+
+/// Triangles made by those of the sizes: 1.18 to 1.50 on eleven clean surfaces, since edges that were cut are shorter than the size, and those of sharp lines
+/// and narrow places are shorter still.
+constexpr double k_made = 1.3;
+
+}  // namespace
 
 RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                                const RunContext& context) {
@@ -26,9 +33,10 @@ RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options
     const Point middle = (a + b + c) / 3.0;
     const double size = sizes(middle, t), area = triangle_area(a, b, c), longest = limits.of(t).max_edge;
     OfPatch& patch = of_patches[wall.triangle_patch[t].index()];
-    patch.n += area / (k_equilateral_area * size * size);
-    patch.by_longest += area / (k_equilateral_area * longest * longest);
-    forecast.n_triangles += area / (k_equilateral_area * size * size);
+    const double n = k_made * area / (k_equilateral_area * size * size);
+    patch.n += n;
+    patch.by_longest += k_made * area / (k_equilateral_area * longest * longest);
+    forecast.n_triangles += n;
     if (size >= patch.least) continue;
     patch.least = size;
     patch.place = middle;
