@@ -107,6 +107,7 @@ local mesh = volume_mesh{ wall,
   },
   envelope = {
     max_growth = 1.4,
+    growth = "local",               -- uniform: flat layers grow by max_growth on all lines
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
     solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
     max_thickness = "automatic",

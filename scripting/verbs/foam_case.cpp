@@ -19,7 +19,8 @@ constexpr double k_compressible_mach = 0.3;    ///< below, density changes by le
 constexpr double k_supersonic_advice = 1.3;    ///< above, shocks are far from what a pressure-based steady solver converges with
 constexpr double k_viscosity_ratio_sst = 1.0;  ///< NASA's Turbulence Modeling Resource advises 0.01 to 10 for free streams
 constexpr double k_chi_of_free_stream = 3.0;   ///< nuTilda over nu: 3 to 5 by Spalart and Rumsey (2007), so that boundary layers are turbulent from the start
-constexpr double k_cv1 = 7.1;                  ///< of Spalart and Allmaras: nut = nuTilda chi^3 / (chi^3 + cv1^3)
+constexpr double k_full_correction = 70.0, k_half_correction = 80.0;  ///< degrees of non-orthogonality
+constexpr double k_cv1 = 7.1;                                         ///< of Spalart and Allmaras: nut = nuTilda chi^3 / (chi^3 + cv1^3)
 
 /// nuTilda over nu that gives this ratio of viscosities: the root of chi^4 = ratio (chi^3 + cv1^3), by Newton's method from above, where it is convex.
 double chi_of_ratio(double ratio) {
@@ -44,6 +45,26 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
   setup.is_density_known = !is_automatic(flow.density);
   setup.density = setup.is_density_known ? flow.density : 1.0;
   setup.nu = flow.speed * flow.length / flow.reynolds;
+}
+
+/// The explicit part of normal gradients grows with the tangent of the angle between a face and the line of the centres beside it. Limits as OpenFOAM's users'
+/// guide and practice have them, proven on the meshes of docs/verification.md.
+void choose_correction(FoamSetup& setup, const FoamMeasures& measures) {
+  const double degrees = measures.non_orthogonality * k_degrees;
+  const std::string measured = fmt::format("The largest angle between a face and the line of its cells' centres is {:.4g} degrees at ({:.6g}, {:.6g}, {:.6g})",
+                                           degrees, measures.place.x, measures.place.y, measures.place.z);
+  if (degrees <= k_full_correction) {
+    setup.correction_reason = fmt::format("{}: up to {:g} the correction is made in full.", measured, k_full_correction);
+  } else if (degrees <= k_half_correction) {
+    setup.correction = "limited corrected 0.5";
+    setup.correction_reason = fmt::format("{}: above {:g} the correction is held below the rest of the gradient.", measured, k_full_correction);
+  } else {
+    setup.correction = "limited corrected 0.33";
+    setup.correction_reason =
+        fmt::format("{}: above {:g} the correction is held below half of the rest of the gradient, or runs diverge.", measured, k_half_correction);
+  }
+  // Without a second solution for the pressure a half M6 became unstable after 150 iterations: faces above 80 degrees before its trailing edge.
+  setup.n_correctors = degrees > k_full_correction || (setup.is_turbulent && !setup.is_compressible) ? 1 : 0;
 }
 
 void set_turbulence(FoamSetup& setup) {
@@ -105,6 +126,32 @@ void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
 
 }  // namespace
 
+FoamMeasures foam_measures(const HybridMesh& mesh, const CheckReport* known, const RunContext& context) {
+  std::optional<CheckReport> own;
+  const auto is_measured = [](const CheckReport& report) {
+    return report.quality_measured && report.gate(Measure::non_orthogonality).state != GateState::not_checked;
+  };
+  if (!known || !is_measured(*known)) {
+    CheckOptions options;
+    options.intersections = false;
+    own = check(mesh, options, context);
+    known = &*own;
+  }
+  if (!is_measured(*known)) {
+    ErrorInfo info{.code = ErrorCode::bad_argument,
+                   .attempted = "making a case of OpenFOAM",
+                   .problem = "the mesh does not conform, so no solver can take it",
+                   .hint = "sterna check tells where"};
+    if (!known->findings.empty()) info.add_place(known->findings.front().position, known->findings.front().what);
+    throw Error(std::move(info));
+  }
+  const GateResult& gate = known->gate(Measure::non_orthogonality);
+  FoamMeasures measures{.non_orthogonality = gate.worst, .place = {}};
+  if (!gate.places.empty()) measures.place = gate.places.front().position;
+  if (!gate.forced.empty() && (gate.places.empty() || gate.forced.front().value > gate.places.front().value)) measures.place = gate.forced.front().position;
+  return measures;
+}
+
 void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flow, CaseProblems& problems) {
   if (!is_compressible(options, flow)) return;
   if (is_automatic(flow.temperature) || is_automatic(flow.pressure) || is_automatic(flow.speed))
@@ -114,7 +161,7 @@ void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flo
 }
 
 FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
-                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context) {
+                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const FoamMeasures& measures) {
   CaseProblems problems;
   const CaseSite site = case_site(mesh, common, problems);
   FoamSetup setup{.options = options, .common = common, .flow = flow};
@@ -127,6 +174,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   require_foam_flow(options, flow, problems);
   complete_flow(setup, context);
   set_turbulence(setup);
+  choose_correction(setup, measures);
   setup.velocity = setup.flow.speed * direction_of(mesh, site, common);
   setup.area = reference_area(reference, site);
   setup.length = reference_length(reference, setup.flow);
@@ -137,6 +185,13 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
     for (const PatchId p : site.inflows) setup.inflows.push_back(names[p.index()]);
     for (const PatchId p : site.outflows) setup.outflows.push_back(names[p.index()]);
   }
+
+  if (site.is_internal)
+    setup.settles_by =
+        !setup.has_pressure_drop()
+            ? ""
+            : "pressureDrop" + (setup.inflows.size() == 1 && setup.outflows.size() == 1 ? "" : "_" + setup.inflows.front() + "_" + setup.outflows.front());
+  else if (!setup.monitored.empty()) setup.settles_by = "forces";
 
   FoamCase result{.application = setup.application, .files = {}, .joined = {}};
   UsedBoundaries used(boundaries);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/volume/volume_foam.h"
+#include "scripting/verbs/foam_run.h"
 #include "scripting/verbs/foam_setup.h"
 #include "volmesh/flow/standard_atmosphere.h"
 
@@ -58,8 +59,7 @@ class FoamSettings {
     add("system", "fvSolution", solution());
     if (s_.is_compressible) add("system", "fvOptions", temperature_limits());
     add("system", "decomposeParDict", decomposition());
-    all.push_back({.path = "Allrun", .text = run_script(), .is_program = true});
-    all.push_back({.path = "Allclean", .text = clean_script(), .is_program = true});
+    for (CaseFile& file : foam_run_files(s_)) all.push_back(std::move(file));
     return all;
   }
 
@@ -126,12 +126,12 @@ class FoamSettings {
   std::string control() const {
     const double step = k_first_step * s_.flow.length / s_.flow.speed;
     const double end = is_automatic(s_.options.end_time) ? k_lengths_in_time * s_.flow.length / s_.flow.speed : s_.options.end_time;
-    std::string text = "application " + s_.application + ";\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime " +
-                       (is_steady_ ? std::to_string(s_.common.iterations) : case_number(end)) + ";\ndeltaT " + (is_steady_ ? "1" : case_number(step)) +
-                       ";\nwriteControl timeStep;\nwriteInterval " +
-                       std::to_string(std::min(s_.options.write_interval, is_steady_ ? s_.common.iterations : s_.options.write_interval)) +
-                       ";\npurgeWrite 2;\nwriteFormat " + (s_.options.format == "binary" ? "binary" : "ascii") +
-                       ";\nwritePrecision 12;\ntimePrecision 12;\nrunTimeModifiable true;\n";
+    std::string text =
+        "application " + s_.application + ";\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\n" +
+        (is_steady_ ? std::string("#include \"runControl\"  // endTime and writeInterval: Allrun runs in parts\ndeltaT 1")
+                    : "endTime " + case_number(end) + ";\nwriteInterval " + std::to_string(s_.options.write_interval) + ";\ndeltaT " + case_number(step)) +
+        ";\nwriteControl timeStep;\npurgeWrite 2;\nwriteFormat " + (s_.options.format == "binary" ? "binary" : "ascii") +
+        ";\nwritePrecision 12;\ntimePrecision 12;\nrunTimeModifiable true;\n";
     if (!is_steady_) text += "adjustTimeStep yes;\nmaxCo " + case_number(s_.options.courant) + ";\n";
     text += "\nfunctions\n{\n";
     if (!s_.monitored.empty()) text += forces("forces", "forces", "");
@@ -156,6 +156,7 @@ class FoamSettings {
           "    temperature\n    {\n        type fieldMinMax;\n        libs (fieldFunctionObjects);\n        mode magnitude;\n        fields (T);\n        "
           "writeControl "
           "timeStep;\n        writeInterval 1;\n        log no;\n    }\n";
+    text += foam_watch_functions(s_);
     text += "    residuals\n    {\n        type solverInfo;\n        libs (utilityFunctionObjects);\n        fields (" + solved() + ");\n    }\n";
     return text + "}\n";
   }
@@ -172,6 +173,7 @@ class FoamSettings {
   std::string schemes() const {
     const std::string bounded = is_steady_ ? "bounded " : "";
     std::string text =
+        std::string(is_steady_ ? "#include \"stage\"  // convection of the velocity and correction of normal gradients: of first order at the start\n\n" : "") +
         std::string("ddtSchemes { default ") + (is_steady_ ? "steadyState" : "backward") + "; }\n\n" +
         "// Least squares over all cells that share a point. Gauss linear is not exact for linear fields on tetrahedra and on prisms over curved walls:\n"
         "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n" +
@@ -189,7 +191,9 @@ class FoamSettings {
         "limited, of first order only where they have to be. nuTilda is of first order: limited, it falls below zero in tetrahedra at the edges of wakes and "
         "is set back there at every iteration, for ever.\n"
         "divSchemes\n{\n    default none;\n    div(phi,U) " +
-        bounded + (s_.model == "laminar" && !s_.is_compressible ? "Gauss linearUpwind grad(U);\n" : "Gauss linearUpwindV grad(U);\n");
+        (is_steady_                                     ? std::string("$convectionOfU;\n")
+         : s_.model == "laminar" && !s_.is_compressible ? std::string("Gauss linearUpwind grad(U);\n")
+                                                        : std::string("Gauss linearUpwindV grad(U);\n"));
     if (s_.is_compressible) {
       text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
               "Gauss limitedLinear 1;\n    div(phid,p) Gauss upwind;\n    div((phi|interpolate(rho)),p) " + bounded +
@@ -200,10 +204,8 @@ class FoamSettings {
     for (const char* const name : {"nuTilda", "k", "omega"})
       if (solved().find(name) != std::string::npos)
         text += std::string("    div(phi,") + name + ") " + bounded + (name == std::string_view("nuTilda") ? "Gauss upwind;\n" : "Gauss limitedLinear 1;\n");
-    text +=
-        "}\n\n// Corrected in full: where faces lean by more than 80 degrees and a run diverges, \"limited corrected 0.5\" holds the correction below the "
-        "rest.\n"
-        "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }\n";
+    text += "}\n\n// " + s_.correction_reason + "\nlaplacianSchemes { default Gauss linear " + (is_steady_ ? "$correction" : s_.correction) +
+            "; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default " + (is_steady_ ? "$correction" : s_.correction) + "; }\n";
     if (s_.is_turbulent) text += "wallDist { method meshWave; }\n";
     return text;
   }
@@ -213,13 +215,15 @@ class FoamSettings {
     const std::string smooth = "{ solver smoothSolver; smoother symGaussSeidel; tolerance " + tolerance + "; relTol 0.1; maxIter 20; }\n";
     const std::string multigrid = "{ solver GAMG; smoother GaussSeidel; tolerance " + tolerance + "; relTol 0.05; }\n";
     const std::string krylov = "{ solver PBiCGStab; preconditioner DILU; tolerance " + tolerance + "; relTol 0.1; }\n";
-    std::string text = "solvers\n{\n    p " + (is_transonic() ? krylov : multigrid) + "    Phi " + multigrid + "    \"(U|e|nuTilda|k|omega)\" " +
+    std::string text = "solvers\n{\n    p " + (is_transonic() ? krylov : multigrid) +
+                       "    Phi { solver GAMG; smoother DICGaussSeidel; tolerance 1e-07; relTol 0; }\n" + "    \"(U|e|nuTilda|k|omega)\" " +
                        (s_.is_compressible ? krylov : smooth);
     if (!is_steady_) {
       text += "    pFinal { $p; relTol 0; }\n    \"(U|e|nuTilda|k|omega)Final\" { $U; relTol 0; }\n";
       if (s_.is_compressible) text += "    \"rho.*\" { solver diagonal; }\n";
     }
-    text += "}\n\npotentialFlow { nNonOrthogonalCorrectors 20; PhiRefCell 0; PhiRefValue 0; }\n\n";
+    text +=
+        "}\n\n// Fluxes conserve mass to Phi's tolerance after each of them.\npotentialFlow { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; }\n\n";
     const std::string limits =
         s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (is_transonic() ? "yes" : "no") + ";\n" : "";
     const std::string reference = "    pRefCell 0;\n    pRefValue " + (s_.is_compressible ? case_number(s_.flow.pressure) : std::string("0")) + ";\n";
@@ -230,10 +234,8 @@ class FoamSettings {
     std::string fields = solved() + " ";
     for (std::size_t at = 0, end = fields.find(' '); end != std::string::npos; at = end + 1, end = fields.find(' ', at))
       controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.options.residual) + ";\n";
-    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") +
-            // Without a second solution for the pressure a half M6 became unstable after 150 iterations: faces above 80 degrees before its trailing edge.
-            (s_.is_turbulent && !s_.is_compressible ? ";\n    nNonOrthogonalCorrectors 1;\n" : ";\n    nNonOrthogonalCorrectors 0;\n") + limits + reference +
-            "    residualControl\n    {\n" + controls + "    }\n}\n\n";
+    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") + ";\n    nNonOrthogonalCorrectors " +
+            std::to_string(s_.n_correctors) + ";\n" + limits + reference + "    residualControl\n    {\n" + controls + "    }\n}\n\n";
     return text + (s_.is_compressible
                        ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
                        : std::string(s_.model == "SpalartAllmaras"
@@ -259,25 +261,6 @@ class FoamSettings {
            "method hierarchical;\nhierarchicalCoeffs { n (" +
            std::to_string(n[0]) + " " + std::to_string(n[1]) + " " + std::to_string(n[2]) + "); order xyz; }\ncoeffs { n (" + std::to_string(n[0]) + " " +
            std::to_string(n[1]) + " " + std::to_string(n[2]) + "); order xyz; }\n";
-  }
-
-  std::string run_script() const {
-    const bool is_parallel = s_.options.tasks > 1;
-    std::string text = "#!/bin/sh\n# Written by sterna " STERNA_VERSION ". Flow: " + describe(s_.flow) +
-                       "\ncd \"$(dirname \"$0\")\" || exit 1\n"
-                       "# Packages of Debian have no script that sets it.\n[ -n \"$WM_PROJECT_DIR\" ] || { [ -d /usr/share/openfoam ] && export "
-                       "WM_PROJECT_DIR=/usr/share/openfoam; }\n"
-                       "run() { name=$1; shift; echo \"running $name\"; \"$@\" > \"log.$name\" 2>&1 || { tail -n 30 \"log.$name\"; echo \"$name failed, see "
-                       "log.$name\"; exit 1; }; "
-                       "}\n\n# From uniform flow. potentialFoam runs, too, but what fvc::reconstruct makes of its fluxes is wrong in Debian's OpenFOAM 1912.\n";
-    if (!is_parallel) return text + "run " + s_.application + " " + s_.application + "\n";
-    return text + "run decomposePar decomposePar -force\nrun " + s_.application + " mpirun -np " + std::to_string(s_.options.tasks) + " " + s_.application +
-           " -parallel\nrun reconstructPar reconstructPar -latestTime\n";
-  }
-
-  std::string clean_script() const {
-    return "#!/bin/sh\n# Results and logs; 0/, constant/ and system/ stay.\ncd \"$(dirname \"$0\")\" || exit 1\nrm -rf log.* postProcessing processor[0-9]* "
-           "[1-9]* 0.[0-9]* [0-9]*e-[0-9]*\n";
   }
 
   const FoamSetup& s_;

@@ -29,6 +29,10 @@ struct FoamSetup {
   std::vector<std::string> monitored;          ///< names of patches
   std::vector<std::string> inflows, outflows;  ///< of tunnels and ducts
   std::string application;
+  std::string correction = "corrected";  ///< scheme of normal gradients
+  std::string correction_reason;         ///< a sentence for fvSchemes
+  int n_correctors = 0;                  ///< solutions for the pressure beside the first
+  std::string settles_by;                ///< function object whose values end a steady run when they settle; empty: residuals alone do
 
   bool has_pressure_drop() const { return !inflows.empty() && !outflows.empty(); }
 };

@@ -79,7 +79,8 @@ void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const 
   require_known_kinds(mesh.unknown_kinds, request.kinds, attempted);
   FoamCase files;
   try {
-    files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context);
+    const FoamMeasures measures = foam_measures(seen, mesh.check ? &*mesh.check : nullptr, context);
+    files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context, measures);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = attempted;

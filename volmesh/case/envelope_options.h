@@ -12,6 +12,7 @@ struct EnvelopeOptions {
   int layers = 30;
   double first_height = k_automatic;
   double max_growth = 1.4;
+  std::string growth = "local";
   double total_height = k_automatic;
   std::string solve_for = "none";
   double max_thickness = k_automatic;
@@ -50,6 +51,12 @@ struct Schema<volmesh::EnvelopeOptions> {
                .help = "height of the first cell at the wall; in scripts also a function of x, y, z",
                .required = true},
       Field<O>{.name = "max_growth", .member = &O::max_growth, .min = 1.0, .max = 3.0, .help = "largest ratio of heights of consecutive layers"},
+      Field<O>{.name = "growth",
+               .member = &O::growth,
+               .help =
+                   "local: each line grows by one ratio of its own; uniform: flat layers grow by max_growth on all lines, and the ratio bends to each line's "
+                   "total height where cells are taller than a twentieth of their edges",
+               .choices = "uniform local"},
       Field<O>{.name = "total_height",
                .member = &O::total_height,
                .unit = Unit::metre,

@@ -17,6 +17,81 @@ double geometric_sum(double q, int n) {
   return std::expm1(n * std::log1p(q)) / q;
 }
 
+constexpr double k_flat = 20.0;              ///< edges over heights above which cells are flat: they grow by the common ratio
+constexpr int k_bend_steps = 100;            ///< Newton's or bisection's
+constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
+constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0: below it cells are equally high
+
+double bend_share(double x) { return x < 1.0 ? (x * x) * (x * x) : 1.0; }
+double bend_slope(double x) { return 4.0 * x * x * x; }
+
+/// Heights of the cells of a line with this bend, and the sum's derivative by it.
+struct BentSum {
+  double sum = 0.0, slope = 0.0;
+  double last = 0.0, ratio = 1.0;  ///< of the last cell
+};
+
+BentSum bent_sum(const LineGrowth& line, double bend, int n) {
+  const double g = line.common;
+  BentSum result{.sum = line.h0, .last = line.h0};
+  double h = line.h0, dh = 0.0;
+  for (int j = 1; j < n; ++j) {
+    const double x = k_flat * h / line.edge, share = bend_share(x), dshare = x < 1.0 ? bend_slope(x) * k_flat * dh / line.edge : 0.0;
+    double ratio = 1.0, dratio = 0.0;
+    if (bend >= 0.0) {
+      const double d = 1.0 / (1.0 + bend * share);
+      if (g * d > 1.0) {
+        ratio = g * d;
+        dratio = -ratio * d * (share + bend * dshare);
+      }
+    } else {
+      ratio = g * (1.0 - bend * share);
+      dratio = -g * (share + bend * dshare);
+    }
+    dh = dratio * h + ratio * dh;
+    h *= ratio;
+    result.sum += h;
+    result.slope += dh;
+    result.ratio = ratio;
+  }
+  result.last = h;
+  return result;
+}
+
+/// The bend whose heights have this sum, by Newton's method between bounds. \pre n >= 2, height above n h0
+double bend_for_height(const LineGrowth& line, double height, int n) {
+  double low = 0.0, high = 0.0;  // of the bend: the sum is above the height at `low`, below it at `high`
+  const double straight = bent_sum(line, 0.0, n).sum;
+  if (std::abs(straight - height) <= k_sum_tolerance * height) return 0.0;
+  double step = 1.0;
+  if (straight > height) {
+    while (bent_sum(line, step, n).sum > height && step < 1e40) {
+      low = step;
+      step *= 4.0;
+    }
+    high = step;
+  } else {
+    while (bent_sum(line, -step, n).sum < height && step < 1e40) {
+      high = -step;
+      step *= 4.0;
+    }
+    low = -step;
+  }
+  double bend = 0.5 * (low + high);
+  for (int i = 0; i < k_bend_steps; ++i) {
+    const BentSum at = bent_sum(line, bend, n);
+    const double off = at.sum - height;
+    if (std::abs(off) <= k_sum_tolerance * height) break;
+    (off > 0.0 ? low : high) = bend;
+    const double newton = at.slope < 0.0 ? bend - off / at.slope : low - 1.0;
+    bend = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (high - low <= 1e-15 * std::max(1.0, std::abs(bend))) break;
+  }
+  return bend;
+}
+
+bool is_compressed(const LineGrowth& line, double height, int n) { return n == 1 || height <= n * line.h0 * k_compressed; }
+
 }  // namespace
 
 double layer_height(double h0, double r, int n) { return h0 * geometric_sum(r - 1.0, n); }
@@ -57,6 +132,34 @@ void layer_parameters(double h0, double height, int n, double* t) {
     }
   }
   t[n] = 1.0;
+}
+
+void layer_parameters(const LineGrowth& line, double height, int n, double* t) {
+  if (line.common == 0.0 || is_compressed(line, height, n)) return layer_parameters(line.h0, height, n, t);
+  const double bend = bend_for_height(line, height, n);
+  double h = line.h0, sum = 0.0;
+  t[0] = 0.0;
+  for (int j = 1; j < n; ++j) {
+    sum += h;
+    t[j] = sum / height;
+    const double share = bend_share(k_flat * h / line.edge);
+    h *= bend >= 0.0 ? std::max(1.0, line.common / (1.0 + bend * share)) : line.common * (1.0 - bend * share);
+  }
+  t[n] = 1.0;
+}
+
+double largest_growth(const LineGrowth& line, double height, int n) {
+  if (line.common == 0.0) return growth_for_height(line.h0, height, n);
+  if (is_compressed(line, height, n)) return 1.0;
+  return std::max(line.common, bent_sum(line, bend_for_height(line, height, n), n).ratio);
+}
+
+double last_height(const LineGrowth& line, double height, int n) {
+  if (line.common == 0.0 || is_compressed(line, height, n)) {
+    const double growth = growth_for_height(line.h0, height, n);
+    return growth > 1.0 ? line.h0 * std::pow(growth, n - 1) : height / n;
+  }
+  return bent_sum(line, bend_for_height(line, height, n), n).last;
 }
 
 }  // namespace sterna::volmesh

@@ -19,4 +19,23 @@ double growth_for_height(double h0, double height, int n);
 /// Writes n + 1 values to `t`; the last one is exactly 1.
 void layer_parameters(double h0, double height, int n, double* t);
 
+/// How the cells of one line grow from the wall up. [method.md section 8; docs/heights.md]
+///
+/// Local: by one ratio, which each line has for itself, eq. (11). The centroid of a prism whose corner heights are in proportions that change from one layer to
+/// the next by a share s moves sideways by s/4 of an edge e, so the face between two flat cells of height h leans by atan(s e / 4 h): 0.1 % are 68 degrees at
+/// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, 20 h_j / e)), at least 1, with one g for all lines and a bend b that the total height of the line decides
+/// (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; neighbours whose bends differ by d have faces that lean by atan(5 d) at most for it.
+struct LineGrowth {
+  double h0 = 0.0;      ///< m, first height
+  double common = 0.0;  ///< g; 0: local
+  double edge = 0.0;    ///< m, e, of the wall there
+};
+
+/// As layer_parameters() above. \pre h0 > 0, height > 0, n >= 1; with a common ratio g >= 1 and edge > 0
+void layer_parameters(const LineGrowth& line, double height, int n, double* t);
+/// Ratio of the cells at the top, which are where it differs most from the common one, or the common one where it is larger; 1 when compressed.
+double largest_growth(const LineGrowth& line, double height, int n);
+/// m, height of the last of n cells.
+double last_height(const LineGrowth& line, double height, int n);
+
 }  // namespace sterna::volmesh

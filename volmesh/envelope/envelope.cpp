@@ -26,7 +26,9 @@ std::string_view to_string(HeightLimit limit) {
 }
 
 EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options)
-    : demand_(&base.demand),
+    : base_(&base),
+      demand_(&base.demand),
+      has_common_growth_(options.growth == "uniform"),
       first_height_(options.first_height),
       max_growth_(options.max_growth),
       total_height_(options.total_height),

@@ -11,6 +11,7 @@
 #include "geom/base/ids.h"
 #include "geom/base/vec3.h"
 #include "volmesh/case/envelope_options.h"
+#include "volmesh/case/growth_law.h"
 #include "volmesh/envelope/layer_base.h"
 
 namespace sterna::volmesh {
@@ -66,6 +67,8 @@ class EnvelopeScale {
   double max_thickness(VertexId v) const { return demand_->is_empty() ? max_thickness_ : demand_->max_thickness[v]; }  ///< m
   /// m, what all layers together are to have; automatic: eq. (1) of method.md.
   double total_height(VertexId v) const { return demand_->is_empty() ? total_height_ : demand_->total_height.empty() ? k_automatic : demand_->total_height[v]; }
+  /// How the cells of the line at v grow.
+  LineGrowth growth(VertexId v) const { return {.h0 = h0(v), .common = has_common_growth_ ? max_growth(v) : 0.0, .edge = base_->layer_edge[v]}; }
   double compressed(VertexId v) const { return n(v) * h0(v); }  ///< m, n h0: a layer that is lower is equally spaced
   double h_min(VertexId v) const;                               ///< m, 0.2 n h0: below it a vertex collapses (method.md §4)
   int most_layers() const { return most_layers_; }
@@ -73,7 +76,9 @@ class EnvelopeScale {
   double least_height() const { return least_height_; }
 
  private:
+  const LayerBase* base_;
   const LayerDemand* demand_;
+  bool has_common_growth_;
   double first_height_, max_growth_, total_height_, max_thickness_, least_height_;
   int layers_, most_layers_;
 };

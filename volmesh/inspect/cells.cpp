@@ -35,7 +35,7 @@ Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v, in
   const double h0 = scale.h0(v), edge = base.mean_edge[v];
   const double height = height_of(base, scale, v, n);
   if (height <= n * h0) return {height / n, height / n, edge};
-  return {h0, h0 * std::pow(growth_for_height(h0, height, n), n - 1), edge};
+  return {h0, last_height(scale.growth(v), height, n), edge};
 }
 
 Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { return cells_at(base, scale, v, scale.n(v)); }

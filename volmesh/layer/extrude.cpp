@@ -151,7 +151,7 @@ bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId
       const VertexId v = lines[i];
       const int n = layers(v);
       if (envelope.is_collapsed(v) || curving_[v] == 0.0) continue;
-      const double ratio = growth_for_height(scale_.h0(v), normal_height(base_, envelope, v), n);
+      const double ratio = largest_growth(scale_.growth(v), normal_height(base_, envelope, v), n);
       const double most = n < scale_.n(v) ? std::min(scale_.max_growth(v), k_max_growth) : k_max_growth;
       const double allowed = std::max(k_least_reserve * ratio, std::min(k_growth_reserve * ratio, most));
       nodes.resize(static_cast<std::size_t>(n) + 1);

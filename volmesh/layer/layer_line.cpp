@@ -27,7 +27,7 @@ void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, 
   nodes[0] = wall;
   if (envelope.is_collapsed(v)) return;
   const double h_n = normal_height(base_, envelope, v);
-  layer_parameters(scale_.h0(v), h_n, n, t_.data());
+  layer_parameters(scale_.growth(v), h_n, n, t_.data());
   const Vec3 along = envelope.height[v] * envelope.direction[v];
   const Vec3 aside = h_n * base_.vertex_normal[v] - along;
   const bool is_curved = c_t >= k_straight && base_.fan_of(v) == nullptr;

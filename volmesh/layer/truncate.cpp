@@ -32,10 +32,8 @@ class LineTruncation {
   LineChoice choose(VertexId v, Truncation truncation) const {
     const int all = scale_.n(v);
     const double height = normal_height(base_, envelope_, v), h0 = scale_.h0(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
-    const auto last = [&](int n) {
-      const double growth = growth_for_height(h0, height, n);
-      return growth > 1.0 ? h0 * std::pow(growth, n - 1) : height / n;
-    };
+    const LineGrowth law = scale_.growth(v);
+    const auto last = [&](int n) { return last_height(law, height, n); };
     // Growth and last cell fall with the number of layers.
     const auto least_with_growth = [&](double most) {
       return first_of(1, all, [&](int n) { return n == 1 ? height <= h0 * k_rounding : growth_for_height(h0, height, n) <= most * k_rounding; });

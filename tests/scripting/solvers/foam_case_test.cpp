@@ -1,12 +1,17 @@
 // Cases of OpenFOAM as mesh:foam_case writes them, run by its solvers with no edit by hand.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <regex>
 #include <sstream>
 
+#include "geom/math/constants.h"
 #include "io/file/surface_file.h"
 #include "io/file/volume_file.h"
+#include "io/output/atomic_file.h"
 #include "scripting/verbs/foam_case.h"
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/openfoam_tools.h"
@@ -41,6 +46,12 @@ class FoamCases : public ScriptFixture {
     return result.output;
   }
 };
+
+std::string file_of(const FoamCase& made, const std::string& path) {
+  for (const CaseFile& file : made.files)
+    if (file.path == path) return file.text;
+  return "no " + path;
+}
 
 bool has_openfoam() { return std::filesystem::exists("/usr/bin/simpleFoam"); }
 
@@ -125,6 +136,86 @@ TEST_F(FoamCases, ForcesAreThoseOfTheFlow) {
   EXPECT_NEAR(drag, 1.09, 0.15);  // a ball of 320 triangles; literature 1.087 to 1.096 for a sphere
 }
 
+/// A steady run begins with first order, goes on with second order once forces have settled, and ends when they have settled again. A second run goes on.
+TEST_F(FoamCases, ARunHasItsStagesAndEndsWhenForcesSettle) {
+  if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
+  run(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 }, model = 'laminar', reference_area = math.pi, iterations = 1200 }"));
+  const std::string told = run_case("case");
+  EXPECT_THAT(told, AllOf(HasSubstr("running potentialFoam"), HasSubstr("second order from iteration"),
+                          testing::ContainsRegex("settled at iteration|residuals are below")));
+  EXPECT_THAT(text_of("case/system/stage"), HasSubstr("linearUpwind"));
+  EXPECT_THAT(text_of("case/0/U"), HasSubstr("internalField uniform")) << "fluxes alone are those of potentialFoam";
+  int n_results = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "case"))
+    if (const std::string name = entry.path().filename(); name != "0" && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; })) ++n_results;
+  EXPECT_LE(n_results, 2) << "results of earlier parts are removed";
+  EXPECT_EQ(test::run_process(folder_ / "case" / "Allclean", {}, folder_).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "case/0/phi"));
+}
+
+/// A force that throws the flow off at one place: the run stops soon, fails, and names the place.
+TEST_F(FoamCases, ARunThatDivergesStopsAndNamesThePlace) {
+  if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
+  run(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 }, model = 'laminar', iterations = 1000 }"));
+  std::ofstream(folder_ / "case/system/fvOptions")
+      << "FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }\n"
+         "push { type vectorSemiImplicitSource; active yes; selectionMode cellZone; cellZone source_1_sphere; volumeMode specific; "
+         "injectionRateSuSp { U ((0 0 1e4) 0); } }\n";
+  const test::ProcessResult result = test::run_process(folder_ / "case" / "Allrun", {}, folder_);
+  EXPECT_NE(result.status, 0);
+  std::smatch found;
+  const std::string told = result.output;
+  ASSERT_TRUE(std::regex_search(told, found, std::regex(R"(diverged: the largest velocity is \S+ m/s at iteration (\d+).*first at \((\S+), (\S+), (\S+)\) m)")))
+      << told;
+  EXPECT_LE(std::stoi(found[1]), 20);
+  const Vec3 off{std::stod(found[2]) - 1.5, std::stod(found[3]), std::stod(found[4])};
+  EXPECT_LT(norm(off), 1.0) << told;  // the zone's radius is 0.5 m, and what is pushed flows out of it
+  EXPECT_THAT(told, HasSubstr("sterna draw"));
+}
+
+TEST(FoamRun, ForcesThatHaveSettledAreToldFromThoseThatMove) {
+  const std::string judge = file_of(foam_case(test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}}), {}, {},
+                                              volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0}), {.area = 1.0}, {}, RunContext()),
+                                    "system/judge.awk");
+  const std::filesystem::path folder = test::scratch() / "foam_judge";
+  std::filesystem::create_directories(folder);
+  io::write_whole(folder / "judge.awk", judge);
+  const auto told = [&](const std::string& values, const std::vector<std::string>& options) {
+    io::write_whole(folder / "values.dat", "# Time\n" + values);
+    std::vector<std::string> arguments = {"-f", "judge.awk"};
+    for (const std::string& option : options) arguments.insert(arguments.end(), {"-v", option});
+    arguments.push_back("values.dat");
+    return test::run_process("/usr/bin/awk", arguments, folder).output;
+  };
+  std::string still, moving, thrown;
+  for (int i = 1; i <= 60; ++i) {
+    const double drift = i < 15 ? 5.0 : 0.0;
+    still += std::to_string(i) + "\t(" + std::to_string(100.0 + drift + 0.3 * (i % 2)) + " 1 2)\t(1 1 1)\t(1 1 1)\n";
+    moving += std::to_string(i) + "\t(" + std::to_string(100.0 + i) + " 1 2)\t(1 1 1)\t(1 1 1)\n";
+    thrown += std::to_string(i) + "\tmag(U)\t0\t(0 0 0)\t" + std::to_string(i < 30 ? 70.0 : 70.0 * i) + "\t(1.5 " + std::to_string(i) + " 3)\n";
+  }
+  const std::vector<std::string> settled = {"what=settled", "window=40", "share=0.01"};
+  EXPECT_THAT(told(still, settled), testing::StartsWith("settled 0.1"));
+  EXPECT_THAT(told(moving, settled), testing::StartsWith("moving"));
+  EXPECT_THAT(told(still.substr(0, 200), settled), testing::StartsWith("short"));
+  EXPECT_EQ(told(thrown, {"what=wild", "limit=4000", "first=2000", "from=5"}), "wild 58 4060.000000 30 1.5 30 3\n");
+  EXPECT_THAT(told(thrown, {"what=wild", "limit=1e9", "first=1e8", "from=5"}), testing::StartsWith("bounded"));
+}
+
+/// Corrections of normal gradients by the largest angle that was measured, with the figure in the file.
+TEST(FoamRun, CorrectionsFollowFromTheMesh) {
+  const HybridMesh mesh = test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  const auto made = [&](double degrees) {
+    return foam_case(mesh, {.model = "SpalartAllmaras"}, {}, flow, {.area = 1.0}, {}, RunContext(),
+                     {.non_orthogonality = degrees * k_degree, .place = {1, 2, 3}});
+  };
+  EXPECT_THAT(file_of(made(60), "system/stage.final"), HasSubstr("correction corrected;"));
+  EXPECT_THAT(file_of(made(75), "system/stage.final"), HasSubstr("correction limited corrected 0.5;"));
+  EXPECT_THAT(file_of(made(89), "system/stage.final"), HasSubstr("correction limited corrected 0.33;"));
+  EXPECT_THAT(file_of(made(89), "system/fvSchemes"), AllOf(HasSubstr("is 89 degrees at (1, 2, 3)"), HasSubstr("$correction")));
+}
+
 TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
   run(with_mesh("m:foam_case{ " + at("case/") + ", flow{ mach = 0.2, altitude = 0, length = 2 }, alpha = 5*deg, model = 'kOmegaSST', tasks = 12 }"));
   std::vector<std::string> files;
@@ -134,7 +225,8 @@ TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
   EXPECT_THAT(files, testing::ElementsAre("0/Phi", "0/U", "0/k", "0/nut", "0/omega", "0/p", "Allclean", "Allrun", "case.foam", "constant/polyMesh/boundary",
                                           "constant/polyMesh/cellZones", "constant/polyMesh/faces", "constant/polyMesh/neighbour", "constant/polyMesh/owner",
                                           "constant/polyMesh/points", "constant/transportProperties", "constant/turbulenceProperties", "mesh.json",
-                                          "system/controlDict", "system/decomposeParDict", "system/fvSchemes", "system/fvSolution"));
+                                          "system/controlDict", "system/decomposeParDict", "system/fvSchemes", "system/fvSolution", "system/judge.awk",
+                                          "system/runControl", "system/stage", "system/stage.final", "system/stage.start"));
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) EXPECT_FALSE(entry.path().filename().string().starts_with(".sterna")) << entry.path();
   EXPECT_THAT(text_of("case/constant/polyMesh/boundary"), AllOf(HasSubstr("inGroups 1(farfield)"), HasSubstr("type wall")));
   EXPECT_THAT(text_of("case/constant/polyMesh/cellZones"), AllOf(HasSubstr("layers"), HasSubstr("source_1_sphere"), HasSubstr("format binary")));
@@ -165,12 +257,6 @@ TEST_F(FoamCases, MistakesAreToldTogetherAtTheirLine) {
   EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, boundaries = { prop = { thrust = 3 } } }")),
               HasSubstr("is called \"prop\""));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
-}
-
-std::string file_of(const FoamCase& made, const std::string& path) {
-  for (const CaseFile& file : made.files)
-    if (file.path == path) return file.text;
-  return "no " + path;
 }
 
 TEST(FoamConditions, TunnelsHaveTheConditionsOfTheirFlow) {

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "geom/math/constants.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -39,6 +43,51 @@ TEST(GrowthLaw, LayerParametersEndAtOneAndStartWithTheFirstHeight) {
   for (std::size_t j = 2; j <= 30; ++j) EXPECT_NEAR((t[j] - t[j - 1]) / (t[j - 1] - t[j - 2]), r, 1e-6 * r) << j;
   layer_parameters(1e-3, 3e-3, 30, t.data());  // below n h0: equal spacing
   for (std::size_t j = 1; j <= 30; ++j) EXPECT_NEAR(t[j] - t[j - 1], 1.0 / 30, 1e-12);
+}
+
+/// Whatever total height the line has, flat cells grow by the common ratio, no cell is lower than the one below it, and the last parameter is the whole height.
+TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
+  const double h0 = 1e-6, g = 1.3;
+  for (const int n : {2, 12, 30, 45}) {
+    for (const double edge : {1e-4, 1e-2, 1.0}) {
+      for (const double share : {0.2, 0.5, 0.8, 0.97, 1.0, 1.3}) {
+        const LineGrowth line{.h0 = h0, .common = g, .edge = edge};
+        const double height = share * layer_height(h0, growth_for_edge(h0, edge, g, n), n);
+        std::vector<double> t(static_cast<std::size_t>(n) + 1);
+        layer_parameters(line, height, n, t.data());
+        SCOPED_TRACE(testing::Message() << n << " layers, edge " << edge << ", share " << share);
+        EXPECT_EQ(t.front(), 0.0);
+        EXPECT_EQ(t.back(), 1.0);
+        if (height <= n * h0) {
+          EXPECT_NEAR(t[1], 1.0 / n, 1e-12) << "compressed";
+          continue;
+        }
+        EXPECT_NEAR(t[1] * height, h0, 1e-12 * h0);
+        double above = 0.0;
+        for (std::size_t j = 2; j < t.size(); ++j) {
+          const double before = t[j - 1] - t[j - 2], ratio = (t[j] - t[j - 1]) / before;
+          EXPECT_GE(ratio, 1.0 - 1e-9) << j;
+          above = std::max(above, ratio);
+          // The face between two prisms leans by atan(s e / 4 h) where corners' ratios differ by s.
+          if (share >= 0.97 && share <= 1.0 && last_height(line, height, n) > edge / 20.0)
+            EXPECT_LT(std::atan(std::abs(ratio / g - 1.0) * edge / (4.0 * before * height)), 50.0 * k_degree) << j;
+        }
+        EXPECT_LE(above, largest_growth(line, height, n) * (1.0 + 1e-9));
+        EXPECT_NEAR((t[t.size() - 1] - t[t.size() - 2]) * height, last_height(line, height, n), 1e-9 * height);
+      }
+    }
+  }
+}
+
+/// Where cells are not flat, and where it is asked for, the law is that of eq. (11).
+TEST(GrowthLaw, WithoutFlatCellsALineHasOneRatio) {
+  std::vector<double> common(13), local(13);
+  layer_parameters({.h0 = 1e-3, .common = 1.3, .edge = 5e-3}, 0.03, 12, common.data());
+  layer_parameters(1e-3, 0.03, 12, local.data());
+  for (std::size_t j = 0; j <= 12; ++j) EXPECT_NEAR(common[j], local[j], 1e-12) << j;
+  layer_parameters({.h0 = 1e-6, .common = 0.0, .edge = 0.1}, 0.03, 12, common.data());
+  layer_parameters(1e-6, 0.03, 12, local.data());
+  for (std::size_t j = 0; j <= 12; ++j) EXPECT_EQ(common[j], local[j]) << j;
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// How a case of OpenFOAM is run: Allrun with its stages, Allclean, and the script that judges forces and velocities.
+#pragma once
+
+#include <vector>
+
+#include "scripting/verbs/foam_setup.h"
+
+namespace sterna::scripting {
+
+/// system/stage, stage.start, stage.final (schemes that differ between the start and the rest of a steady run), system/runControl (where a part of it ends),
+/// system/judge.awk, Allrun, Allclean.
+std::vector<CaseFile> foam_run_files(const FoamSetup& setup);
+
+/// Entries of controlDict's functions by which a steady run ends where its velocity is out of bounds.
+std::string foam_watch_functions(const FoamSetup& setup);
+
+}  // namespace sterna::scripting
