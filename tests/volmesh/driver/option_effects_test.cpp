@@ -68,6 +68,11 @@ Setting setting_of(const std::string& name) {
     setting.mesh_case.tetrahedra.engine = "tetgen";
     setting.mesh_case.size.size_growth = 2.0;
   }
+  if (name == "flat") {  // cells near the wall are, and the least ratio that reaches the edges is below the largest
+    setting.mesh_case = layers(16, 1e-5);
+    setting.mesh_case.farfield.farfield_radius = 8.0;
+    setting.mesh_case.envelope.max_growth = 2.0;
+  }
   if (name == "graded") {  // edges, and with them heights, that differ
     setting.wall = test::cube(8);
     for (Point& p : setting.wall.points) p.x *= p.x;
@@ -122,6 +127,7 @@ const std::map<std::string, Change> k_changes = {
     {"envelope.layers", {"5"}},
     {"envelope.first_height", {"3e-3"}},
     {"envelope.max_growth", {"1.2"}},
+    {"envelope.growth", {"uniform", "flat"}},
     {"envelope.total_height", {"0.05"}},
     {"envelope.solve_for", {"layers", "height"}},
     {"envelope.max_thickness", {"0.03"}},
