@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct CaseFile {
 /// What the numerics are chosen by.
 struct FoamMeasures {
   double non_orthogonality = 0.0;  ///< radians, the largest between two cells (Measure::non_orthogonality)
-  Point place;                     ///< of that face
+  std::optional<Point> place;      ///< of that face, where it misses a limit of its gate
 };
 
 /// Of the last check of the mesh, or by a check of its own where that has not measured it.

@@ -11,7 +11,7 @@ namespace sterna::scripting {
 /// system/judge.awk, Allrun, Allclean.
 std::vector<CaseFile> foam_run_files(const FoamSetup& setup);
 
-/// Entries of controlDict's functions by which a steady run ends where its velocity is out of bounds.
+/// Entries of controlDict's functions by which a steady run ends when its velocity is out of bounds; empty for runs in time.
 std::string foam_watch_functions(const FoamSetup& setup);
 
 }  // namespace sterna::scripting

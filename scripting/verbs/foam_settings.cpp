@@ -112,10 +112,9 @@ class FoamSettings {
     const auto region = [&](const char* name, const std::string& patch) {
       return std::string("        ") + name + "\n        {\n" + at_opening(patch, "areaAverage", "p", "            ") + "        }\n";
     };
-    const bool is_one = s_.inflows.size() == 1 && s_.outflows.size() == 1;
     for (const std::string& in : s_.inflows)
       for (const std::string& out : s_.outflows)
-        add(is_one ? "pressureDrop" : "pressureDrop_" + in + "_" + out,
+        add(s_.pressure_drop(in, out),
             "        type fieldValueDelta;\n        libs (fieldFunctionObjects);\n        writeControl timeStep;\n        writeInterval 1;\n        log no;\n  "
             "      "
             "operation subtract;\n" +
@@ -191,9 +190,7 @@ class FoamSettings {
         "limited, of first order only where they have to be. nuTilda is of first order: limited, it falls below zero in tetrahedra at the edges of wakes and "
         "is set back there at every iteration, for ever.\n"
         "divSchemes\n{\n    default none;\n    div(phi,U) " +
-        (is_steady_                                     ? std::string("$convectionOfU;\n")
-         : s_.model == "laminar" && !s_.is_compressible ? std::string("Gauss linearUpwind grad(U);\n")
-                                                        : std::string("Gauss linearUpwindV grad(U);\n"));
+        (is_steady_ ? std::string("$convectionOfU") : s_.convection()) + ";\n";
     if (s_.is_compressible) {
       text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
               "Gauss limitedLinear 1;\n    div(phid,p) Gauss upwind;\n    div((phi|interpolate(rho)),p) " + bounded +

@@ -32,9 +32,16 @@ struct FoamSetup {
   std::string correction = "corrected";  ///< scheme of normal gradients
   std::string correction_reason;         ///< a sentence for fvSchemes
   int n_correctors = 0;                  ///< solutions for the pressure beside the first
-  std::string settles_by;                ///< function object whose values end a steady run when they settle; empty: residuals alone do
+  std::string settles_by;                ///< files, below postProcessing, whose values end a steady run when they settle; empty: residuals alone do
+  bool has_fast_openings = false;        ///< openings or discs, by which velocities far above the flow's are right (contractions, jets)
 
   bool has_pressure_drop() const { return !inflows.empty() && !outflows.empty(); }
+  /// Name of the function object of the pressure drop from an inflow to an outflow.
+  std::string pressure_drop(const std::string& inflow, const std::string& outflow) const {
+    return inflows.size() == 1 && outflows.size() == 1 ? "pressureDrop" : "pressureDrop_" + inflow + "_" + outflow;
+  }
+  /// Scheme of the velocity's convection, second order. Component by component laminar flow has it best, else along its steepest direction.
+  std::string convection() const { return model == "laminar" && !is_compressible ? "Gauss linearUpwind grad(U)" : "Gauss linearUpwindV grad(U)"; }
 };
 
 /// The files of 0/: one for each field that the solver reads. \p used notes which conditions were asked for.

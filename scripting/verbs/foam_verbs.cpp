@@ -20,6 +20,7 @@
 namespace sterna::scripting {
 namespace {
 
+constexpr double k_measured = 0.5;                          ///< share of the progress
 constexpr std::string_view k_proof = "system/controlDict";  ///< of a case
 
 /// \param mesh as the solver is to see it, \param made where it comes from
@@ -79,14 +80,14 @@ void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const 
   require_known_kinds(mesh.unknown_kinds, request.kinds, attempted);
   FoamCase files;
   try {
-    const FoamMeasures measures = foam_measures(seen, mesh.check ? &*mesh.check : nullptr, context);
+    const FoamMeasures measures = foam_measures(seen, mesh.check ? &*mesh.check : nullptr, context.part("check", 0.0, k_measured));
     files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context, measures);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = attempted;
     throw Error(std::move(info));
   }
-  write_case(seen, mesh, files, options, folder, context);
+  write_case(seen, mesh, files, options, folder, context.part("write", k_measured, 1.0));
   context.info("wrote the case " + folder.string() + " for " + files.application + ": run " + (folder / "Allrun").string());
 }
 

@@ -20,8 +20,10 @@ double geometric_sum(double q, int n) {
 constexpr double k_flat = 20.0;              ///< edges over heights above which cells are flat: they grow by the common ratio
 constexpr int k_bend_steps = 100;            ///< Newton's or bisection's
 constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
+constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
 constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0: below it cells are equally high
 
+/// How much of the bend acts on a cell, and its derivative, by x = 20 h / e. The fourth power leaves cells below a twentieth of their edges nearly alone.
 double bend_share(double x) { return x < 1.0 ? (x * x) * (x * x) : 1.0; }
 double bend_slope(double x) { return 4.0 * x * x * x; }
 
@@ -65,13 +67,13 @@ double bend_for_height(const LineGrowth& line, double height, int n) {
   if (std::abs(straight - height) <= k_sum_tolerance * height) return 0.0;
   double step = 1.0;
   if (straight > height) {
-    while (bent_sum(line, step, n).sum > height && step < 1e40) {
+    while (bent_sum(line, step, n).sum > height && step < k_largest_bend) {
       low = step;
       step *= 4.0;
     }
     high = step;
   } else {
-    while (bent_sum(line, -step, n).sum < height && step < 1e40) {
+    while (bent_sum(line, -step, n).sum < height && step < k_largest_bend) {
       high = -step;
       step *= 4.0;
     }

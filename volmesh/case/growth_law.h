@@ -23,8 +23,9 @@ void layer_parameters(double h0, double height, int n, double* t);
 ///
 /// Local: by one ratio, which each line has for itself, eq. (11). The centroid of a prism whose corner heights are in proportions that change from one layer to
 /// the next by a share s moves sideways by s/4 of an edge e, so the face between two flat cells of height h leans by atan(s e / 4 h): 0.1 % are 68 degrees at
-/// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, 20 h_j / e)), at least 1, with one g for all lines and a bend b that the total height of the line decides
-/// (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; neighbours whose bends differ by d have faces that lean by atan(5 d) at most for it.
+/// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, (20 h_j / e)^4)), at least 1, with one g for all lines and a bend b that follows from the total height of the
+/// line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; where the bends of neighbours differ by a small d, faces lean by atan(5 d) at most for
+/// it.
 struct LineGrowth {
   double h0 = 0.0;      ///< m, first height
   double common = 0.0;  ///< g; 0: local
