@@ -90,7 +90,7 @@ print(pre.ok, pre.coverage)
 
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
-  layers = 30,
+  layers = 30,                        -- automatic: so many that the last cells are as tall as half a regular tetrahedron on nine tenths of the area
   first_height = 1e-6 * wall.length,  -- or of flow conditions: y_plus{ ... }, below
   refinement = 1.0,                 -- of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
   family_wake = "automatic",        -- wake{ wall } where no source is given: on where refinement is given; on, off
@@ -107,7 +107,7 @@ local mesh = volume_mesh{ wall,
   },
   envelope = {
     max_growth = 1.4,
-    growth = "local",               -- uniform: flat layers grow by max_growth on all lines
+    growth = "local",               -- each line by one ratio of its own; uniform: flat layers grow by max_growth on all lines
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
     solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
     max_thickness = "automatic",

@@ -169,9 +169,15 @@ std::string_view to_string(Unit unit) {
   return "";
 }
 
+bool Option::is_automatic_value(const OptionValue& value) const {
+  if (const double* number = std::get_if<double>(&value)) return is_automatic(*number);
+  const std::int64_t* whole = std::get_if<std::int64_t>(&value);
+  return whole && !automatic.empty() && *whole == k_automatic_count;
+}
+
 std::string Option::default_text() const {
   if (required) return "required";
-  if (const double* number = std::get_if<double>(&default_value); number && is_automatic(*number)) return "automatic (" + std::string(automatic) + ")";
+  if (is_automatic_value(default_value)) return "automatic (" + std::string(automatic) + ")";
   if (const double* number = std::get_if<double>(&default_value)) return display_text(*number, unit);
   return value_text(default_value);
 }
@@ -203,6 +209,10 @@ void set_option(const Option& option, const OptionValue& value) {
   if (option.kind == OptionKind::integer && std::holds_alternative<double>(value)) {
     const double number = std::get<double>(value);
     if (number == std::floor(number) && std::abs(number) < 1e15) return set_option(option, static_cast<std::int64_t>(number));
+  }
+  if (const auto* name = std::get_if<std::string>(&value); name && *name == "automatic") {
+    if (option.kind == OptionKind::number) return set_option(option, k_automatic);
+    if (option.kind == OptionKind::integer && !option.automatic.empty()) return option.store(std::int64_t{k_automatic_count});
   }
   if (const auto* name = std::get_if<std::string>(&value); name && option.kind == OptionKind::number && !option.choices.empty()) {
     if (const auto number = named_number(option.choices, *name)) return set_option(option, *number);
@@ -260,13 +270,14 @@ void set_option_from_text(const Option& option, std::string_view text, BareAngle
       return set_option(option, text == "true");
     case OptionKind::text: return set_option(option, std::string(text));
     case OptionKind::integer: {
+      if (text == "automatic") return set_option(option, std::string(text));
       std::int64_t number = 0;
       const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
       if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) reject(option, "\"" + std::string(text) + "\"", "a whole number");
       return set_option(option, number);
     }
     case OptionKind::number:
-      if (text == "automatic") return set_option(option, k_automatic);
+      if (text == "automatic") return set_option(option, std::string(text));
       if (!option.choices.empty() && !text.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) return set_option(option, std::string(text));
       return set_option(option, number_of_text(option, text, bare_angle));
   }
@@ -332,16 +343,12 @@ std::string options_to_json(const OptionTable& table) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const Option& option : table) {
     auto& entry = json[std::string(option.stage)][std::string(option.name)];
-    std::visit(
-        [&](const auto& value) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
-            if (is_automatic(value)) entry = "automatic";
-            else entry = value;
-          } else {
-            entry = value;
-          }
-        },
-        option.get());
+    const OptionValue current = option.get();
+    if (option.is_automatic_value(current)) {
+      entry = "automatic";
+      continue;
+    }
+    std::visit([&](const auto& value) { entry = value; }, current);
   }
   return json.dump(2);
 }

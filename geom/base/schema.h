@@ -17,6 +17,9 @@ namespace sterna {
 /// "Find it yourself": the value of a double option whose default follows from the geometry or from other options.
 inline constexpr double k_automatic = std::numeric_limits<double>::quiet_NaN();
 constexpr bool is_automatic(double value) { return value != value; }
+/// The same of an integer option (a number of things) that has a text for `automatic`: "automatic" in scripts and on the command line.
+inline constexpr int k_automatic_count = -1;
+constexpr bool is_automatic(int value) { return value == k_automatic_count; }
 
 enum class Unit { none, metre, radian, second, byte };
 /// "m", "rad", "s", "B" or "".
@@ -33,7 +36,7 @@ struct Field {
   double min = -k_unbounded;  ///< inclusive
   double max = k_unbounded;   ///< inclusive
   std::string_view help;
-  std::string_view automatic = {};  ///< for doubles: what k_automatic means, e.g. "50 body lengths"; empty = must have a number
+  std::string_view automatic = {};  ///< for numbers: what k_automatic or k_automatic_count means, e.g. "50 body lengths"; empty = must have a number
   std::string_view choices =
       {};                 ///< for strings: the allowed values, separated by blanks; empty = any. For numbers: names that stand for some: "coarse=0.5 fine=2"
   bool required = false;  ///< the user must give it
@@ -66,6 +69,8 @@ struct Option {
   std::function<OptionValue()> get;
   std::function<void(const OptionValue&)> store;  ///< without any check; use set_option
 
+  /// Whether the value is k_automatic, or k_automatic_count of an integer that may be.
+  bool is_automatic_value(const OptionValue& value) const;
   /// "0.35", "automatic (50 body lengths)", "required"
   std::string default_text() const;
   /// "1 <= x", "0 .. 1 rad", "one of a, b"; empty when anything goes

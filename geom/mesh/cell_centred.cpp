@@ -30,6 +30,13 @@ void add_face(CellCentredScan& scan, std::uint64_t id, const InnerFace& face, bo
   scan.face_tets.add(face.tets, id);
 }
 
+/// A face between two cells of one column.
+void add_stacked(CellCentredScan& scan, std::uint64_t id, const InnerFace& face) {
+  add_face(scan, id, face, false);
+  scan.stacked_orthogonality.add(face.non_orthogonality, id);
+  scan.stacked_skewness.add(face.skewness, id);
+}
+
 void add_outer(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
   const OuterFace face = outer_face(corners, cell);
   scan.skewness.add(face.skewness, id);
@@ -193,7 +200,7 @@ class ColumnCentres {
     own_.read(c);
     const std::uint64_t first = 8 * c * n_layers_;
     const std::span<const InnerFace> tops = own_.tops(places_of(c));
-    for (std::size_t j = 0; j < tops.size(); ++j) add_face(scan, first + 8 * j + k_top, tops[j], false);
+    for (std::size_t j = 0; j < tops.size(); ++j) add_stacked(scan, first + 8 * j + k_top, tops[j]);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = neighbours_[3 * c + k];
       if (other == k_no_slot || other < c) continue;
@@ -207,7 +214,7 @@ class ColumnCentres {
     const std::uint64_t first = 8 * c * n_layers_;
     const Place* const places = places_of(c);
     for (int j = 0; j + 1 < n; ++j)
-      add_face(scan, first + 8 * static_cast<std::uint64_t>(j) + k_top, inner_face(top_of(mesh_, c, j).span(), places[j], places[j + 1]), false);
+      add_stacked(scan, first + 8 * static_cast<std::uint64_t>(j) + k_top, inner_face(top_of(mesh_, c, j).span(), places[j], places[j + 1]));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = neighbours_[3 * c + k];
       if (other == k_no_slot || other < c) continue;
@@ -394,6 +401,8 @@ CellCentredScan::CellCentredScan(const GateTable& limits)
       cell_aspect_ratio(scan_of(Measure::cell_aspect_ratio, limits)),
       cell_openness(scan_of(Measure::cell_openness, limits)),
       face_tets(scan_of(Measure::face_tets, limits)),
+      stacked_orthogonality(scan_of(Measure::stacked_orthogonality, limits)),
+      stacked_skewness(scan_of(Measure::stacked_skewness, limits)),
       cell_determinant(scan_of(Measure::cell_determinant, limits)) {}
 
 void CellCentredScan::merge(const CellCentredScan& other) {
@@ -405,6 +414,8 @@ void CellCentredScan::merge(const CellCentredScan& other) {
   cell_aspect_ratio.merge(other.cell_aspect_ratio);
   cell_openness.merge(other.cell_openness);
   face_tets.merge(other.face_tets);
+  stacked_orthogonality.merge(other.stacked_orthogonality);
+  stacked_skewness.merge(other.stacked_skewness);
   cell_determinant.merge(other.cell_determinant);
 }
 
@@ -475,7 +486,8 @@ void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, con
     const std::optional<Forcing> any_direction = given.get().skewness(side, limit);
     return any_direction ? any_direction : given.get().skewness_of_edge(side, limit, value);
   });
-  for (const GateScan* measure : {&scan.non_orthogonality, &scan.face_flatness, &scan.face_tets}) put(*measure, face);
+  for (const GateScan* measure : {&scan.non_orthogonality, &scan.face_flatness, &scan.face_tets, &scan.stacked_orthogonality, &scan.stacked_skewness})
+    put(*measure, face);
   for (const GateScan* measure : {&scan.cell_aspect_ratio, &scan.cell_openness, &scan.cell_determinant}) put(*measure, cell);
 }
 

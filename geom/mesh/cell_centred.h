@@ -14,7 +14,8 @@ namespace sterna::check_parts {
 struct CellCentredScan {
   static constexpr std::uint64_t k_of_slot = std::uint64_t{1} << 63;
   explicit CellCentredScan(const GateTable& limits);
-  GateScan non_orthogonality, skewness, face_weight, volume_ratio, face_flatness, cell_aspect_ratio, cell_openness, face_tets, cell_determinant;
+  GateScan non_orthogonality, skewness, face_weight, volume_ratio, face_flatness, cell_aspect_ratio, cell_openness, face_tets, stacked_orthogonality,
+      stacked_skewness, cell_determinant;
   void merge(const CellCentredScan& other);
 };
 

@@ -25,7 +25,7 @@ struct LineHeight {
   Vec3 normal;                 ///< unit, of the wall at the foot
   double visibility = 0.0;     ///< cosine, as RoomRequest has it; of lines below their full height
   bool is_full = false;        ///< at least k_full_height_share of what was asked for
-  bool is_compressed = false;  ///< below layers x first height
+  bool is_compressed = false;  ///< too low for its first height
 };
 
 struct LayerScan {
@@ -134,7 +134,7 @@ class LineScanner {
     own.normal = vertex_normal_;
     own.height = dot(point(line, n) - point(line, 0), vertex_normal_);
     // What was asked for cannot be met.
-    own.is_compressed = n > 0 && own.height < n * mesh_.request.first_height_of(line) * (1.0 - k_height_slack);
+    own.is_compressed = n > 0 && own.height < mesh_.request.first_room_of(line, n) * (1.0 - k_height_slack);
     own.is_full = n > 0 && own.height >= k_full_height_share * mesh_.request.target_height[line] * (1.0 - k_height_slack);
     if (own.is_full || normals_.empty()) return;
     std::vector<Vec3> normals = normals_;

@@ -68,6 +68,17 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::cell_openness, "OF", "cell_openness", "OpenFOAM openness", "cells", false, false, {1e-6, 1e-9, k_nan, 1.0}, {0x1p-60, 0x1p-20, 40, 1}},
     // The limit is checkMesh's (SMALL squared): tets that are upside down or flat; their shape does not matter to it.
     {M::face_tets, "OF", "face_tets", "OpenFOAM decomposition tets", "faces", false, true, {1e-30, k_nan, k_nan, 1.0}, {0, 1, 50}},
+    // Runs diverge from such faces near the wall (docs/heights.md); what FAILs is the measure over all faces.
+    {M::stacked_orthogonality,
+     "OF",
+     "stacked_orthogonality",
+     "non-orthogonality in columns",
+     "faces",
+     true,
+     false,
+     {k_nan, 85 * k_degree, 70 * k_degree, 0.999},
+     {0, k_right, 45}},
+    {M::stacked_skewness, "OF", "stacked_skewness", "skewness in columns", "faces", false, false, {k_nan, 20, 4, 0.999}, {0x1p-6, 0x1p4, 40, 4}},
     // First cells of y+ = 1 are beyond any limit of checkMesh's here, too: shown only.
     {M::cell_determinant, "OF", "cell_determinant", "OpenFOAM cell determinant", "cells", false, true, {k_nan, k_nan, k_nan, 1.0}, {0, 2, 50}},
     {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_nan, 1.0}, {0x1p-60, 0x1p-12, 48, 1}},
@@ -140,6 +151,8 @@ std::string_view trouble_of(Measure measure) {
     case M::cell_aspect_ratio: return "cells are long and thin";
     case M::cell_openness: return "faces of cells do not close";
     case M::face_tets: return "faces cannot be cut into triangles that OpenFOAM's particles and mappings accept";
+    case M::stacked_orthogonality: return "the corners of flat prisms grow by different ratios";
+    case M::stacked_skewness: return "the corners of flat prisms have different heights above the wall";
     case M::cell_determinant: return "cells are nearly flat";
     case M::cad_distance: return "nodes of the wall are off the model";
     case M::cad_normal: return "triangles of the wall are turned against the model";
@@ -169,6 +182,8 @@ std::string_view remedy_of(Measure measure) {
     case M::stack_angle:
     case M::non_orthogonality:
     case M::skewness: return "several normals at the sharp edge (open_ridges = \"always\"), finer triangles along it, or round it";
+    case M::stacked_orthogonality:
+    case M::stacked_skewness: return "growth = \"uniform\", a smaller max_growth, and shorter edges of the wall where heights differ";
     case M::stack_growth:
     case M::interface_height:
     case M::interface_volume:

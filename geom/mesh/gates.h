@@ -42,6 +42,8 @@ enum class Measure : std::uint8_t {
   cell_aspect_ratio,         ///< OpenFOAM's, per cell; reported only
   cell_openness,             ///< OpenFOAM's, per cell: sum of its face normals over the sum of their sizes
   face_tets,                 ///< OpenFOAM's, per face: quality of the worst tet into which it and its cells are cut
+  stacked_orthogonality,     ///< non_orthogonality between two prisms of one column, by which the proportions of their corners' heights differ
+  stacked_skewness,          ///< skewness of these faces
   cell_determinant,          ///< OpenFOAM's, per cell: determinant of the tensor of its inner faces, a cube's being 1; reported only
   cad_distance,              ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
   cad_normal,                ///< G18: facet normal against the model's at the facet's centroid (the same)

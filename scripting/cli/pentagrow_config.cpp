@@ -173,6 +173,7 @@ void read_formats(Entries& in, PentagrowCase& out) {
 
 void read_layers(Entries& in, volmesh::EnvelopeOptions& layer) {
   layer.layers = in.whole("NLayers", 21, 1, 1000);
+  layer.growth = "local";  // eq. (1), as the file means it
   layer.first_height = in.number("InitialHeight", 1e-5, 1e-12);
   layer.max_thickness = in.number("MaxLayerThickness", 1.0, 1e-12);
   layer.max_relative_height = in.number("MaxRelativeHeight", 5.0, 0.01, 1e6);

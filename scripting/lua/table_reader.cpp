@@ -114,9 +114,7 @@ void TableReader::set(const Option& option, const std::string& key, const Script
   try {
     if (const auto* flag = std::get_if<bool>(&value)) set_option(option, *flag);
     else if (const auto* whole = std::get_if<std::int64_t>(&value)) set_option(option, *whole);
-    else if (const auto* text = std::get_if<std::string>(&value); text && option.kind == OptionKind::number && *text == "automatic")
-      set_option(option, k_automatic);
-    else if (text) set_option(option, *text);
+    else if (const auto* text = std::get_if<std::string>(&value)) set_option(option, *text);
     else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (0/0 or the like)");
     else if (number) set_option(option, *number);
     else if (const auto* quantity = std::get_if<QuantityHandle>(&value);

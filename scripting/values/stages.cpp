@@ -588,6 +588,13 @@ std::string describe_classes(const volmesh::Classification& classes) {
                      classes.feature_angle * 180.0 / std::numbers::pi);
 }
 
+/// Of make_envelope{}: "30 layers".
+std::string layers_text(const volmesh::MeshCase& options) {
+  if (!options.patches.empty()) return "layers by patch";
+  const int layers = volmesh::effective_options(options, RunContext()).envelope.layers;
+  return is_automatic(layers) ? "layers by the walls' edges" : fmt::format("{} layers", layers);
+}
+
 }  // namespace
 
 std::string describe(const EnvelopeValue& envelope) {
@@ -596,9 +603,7 @@ std::string describe(const EnvelopeValue& envelope) {
   const auto n_collapsed = std::count(heights.begin(), heights.end(), 0.0);
   return fmt::format("Envelope{}: {} vertices, {} collapsed, {}, up to {:.6g} m tall",
                      envelope.step == volmesh::EnvelopeStep::finished ? "" : ", " + std::string(to_string(envelope.step)),
-                     count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed),
-                     envelope.options.patches.empty() ? fmt::format("{} layers", volmesh::effective_options(envelope.options, RunContext()).envelope.layers)
-                                                      : "layers by patch",
+                     count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed), layers_text(envelope.options),
                      heights.size() == 0 ? 0.0 : *std::max_element(heights.begin(), heights.end()));
 }
 

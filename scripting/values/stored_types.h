@@ -83,7 +83,7 @@ inline constexpr std::size_t k_members<volmesh::PlacedPart> = 5;
 template <>
 inline constexpr std::size_t k_members<LayerBlock> = 5;
 template <>
-inline constexpr std::size_t k_members<LayerRequest> = 8;
+inline constexpr std::size_t k_members<LayerRequest> = 9;
 template <>
 inline constexpr std::size_t k_members<BoundaryTriangle> = 2;
 template <>

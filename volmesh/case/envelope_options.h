@@ -43,19 +43,27 @@ struct Schema<volmesh::EnvelopeOptions> {
   static constexpr std::string_view stage = "envelope";
   static constexpr volmesh::MeshSteps steps = volmesh::k_envelope_step;
   static constexpr std::array fields = {
-      Field<O>{.name = "layers", .member = &O::layers, .min = 0, .max = 1000, .help = "number of prism layers; 0: none, tetrahedra alone"},
+      Field<O>{.name = "layers",
+               .member = &O::layers,
+               .min = 0,
+               .max = 1000,
+               .help = "number of prism layers; 0: none, tetrahedra alone",
+               .automatic = "so many that cells that grow by max_growth are at least half as tall as a regular tetrahedron on nine tenths of the walls' area"},
       Field<O>{.name = "first_height",
                .member = &O::first_height,
                .unit = Unit::metre,
                .min = 1e-12,
                .help = "height of the first cell at the wall; in scripts also a function of x, y, z",
                .required = true},
-      Field<O>{.name = "max_growth", .member = &O::max_growth, .min = 1.0, .max = 3.0, .help = "largest ratio of heights of consecutive layers"},
+      Field<O>{.name = "max_growth",
+               .member = &O::max_growth,
+               .min = 1.0,
+               .max = 3.0,
+               .help = "ratio of heights of consecutive layers, the largest where they differ"},
       Field<O>{.name = "growth",
                .member = &O::growth,
-               .help =
-                   "local: each line grows by one ratio of its own; uniform: flat layers grow by max_growth on all lines, and the ratio bends to each line's "
-                   "total height where cells are taller than a twentieth of their edges",
+               .help = "uniform: flat layers grow by max_growth on all lines, and the ratio bends to each line's total height where cells are taller than a "
+                       "twentieth of their edges; local: each line grows by one ratio of its own",
                .choices = "uniform local"},
       Field<O>{.name = "total_height",
                .member = &O::total_height,

@@ -20,8 +20,10 @@ double geometric_sum(double q, int n) {
 constexpr double k_flat = 20.0;              ///< edges over heights above which cells are flat: they grow by the common ratio
 constexpr int k_bend_steps = 100;            ///< Newton's or bisection's
 constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
+constexpr double k_unbent = 1.0 / 3.0;       ///< of the least height for the first cell: lines that low have the bend of full ones
+constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0
 constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
-constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0: below it cells are equally high
+constexpr double k_kept_growth = 0.6;        ///< of r - 1 at the top of lines as tall as asked: what lower lines keep before their first cells get lower
 
 /// How much of the bend acts on a cell, and its derivative, by x = 20 h / e. The fourth power leaves cells below a twentieth of their edges nearly alone.
 double bend_share(double x) { return x < 1.0 ? (x * x) * (x * x) : 1.0; }
@@ -92,7 +94,32 @@ double bend_for_height(const LineGrowth& line, double height, int n) {
   return bend;
 }
 
-bool is_compressed(const LineGrowth& line, double height, int n) { return n == 1 || height <= n * line.h0 * k_compressed; }
+/// The cells of a line whose flat ones grow by the common ratio: `share` times those that start with h0 and have this bend.
+struct CommonCells {
+  double share = 1.0, bend = 0.0;
+};
+
+/// Bends of a line as tall as asked (at least 0), and the largest, of a line that is lower.
+struct Bends {
+  double asked = 0.0, largest = 0.0;
+};
+
+Bends bends_of(const LineGrowth& line, int n) {
+  const double bend = line.target > n * line.h0 * k_compressed ? bend_for_height(line, line.target, n) : line.common - 1.0;
+  const double top = bend > 0.0 ? std::max(1.0, line.common / (1.0 + bend)) : line.common;
+  return {std::max(0.0, bend), std::max(0.0, line.common / (1.0 + k_kept_growth * (top - 1.0)) - 1.0)};
+}
+
+CommonCells common_cells(const LineGrowth& line, double height, int n) {
+  if (n == 1) return {height / line.h0, 0.0};
+  const Bends bends = bends_of(line, n);
+  const double lowest = bent_sum(line, bends.largest, n).sum;
+  if (height > lowest) return {1.0, bend_for_height(line, height, n)};
+  // The first cell is lower anyway: the lower the line, the more its last cells grow as on a full one.
+  const double squeeze = std::clamp((height / lowest - k_unbent) / (1.0 - k_unbent), 0.0, 1.0);
+  const double bend = bends.asked + squeeze * (bends.largest - bends.asked);
+  return {height / bent_sum(line, bend, n).sum, bend};
+}
 
 }  // namespace
 
@@ -137,31 +164,35 @@ void layer_parameters(double h0, double height, int n, double* t) {
 }
 
 void layer_parameters(const LineGrowth& line, double height, int n, double* t) {
-  if (line.common == 0.0 || is_compressed(line, height, n)) return layer_parameters(line.h0, height, n, t);
-  const double bend = bend_for_height(line, height, n);
+  if (line.common == 0.0) return layer_parameters(line.h0, height, n, t);
+  const CommonCells cells = common_cells(line, height, n);
   double h = line.h0, sum = 0.0;
   t[0] = 0.0;
   for (int j = 1; j < n; ++j) {
     sum += h;
-    t[j] = sum / height;
+    t[j] = cells.share * sum / height;
     const double share = bend_share(k_flat * h / line.edge);
-    h *= bend >= 0.0 ? std::max(1.0, line.common / (1.0 + bend * share)) : line.common * (1.0 - bend * share);
+    h *= cells.bend >= 0.0 ? std::max(1.0, line.common / (1.0 + cells.bend * share)) : line.common * (1.0 - cells.bend * share);
   }
   t[n] = 1.0;
 }
 
 double largest_growth(const LineGrowth& line, double height, int n) {
   if (line.common == 0.0) return growth_for_height(line.h0, height, n);
-  if (is_compressed(line, height, n)) return 1.0;
-  return std::max(line.common, bent_sum(line, bend_for_height(line, height, n), n).ratio);
+  return n == 1 ? 1.0 : std::max(line.common, bent_sum(line, common_cells(line, height, n).bend, n).ratio);
 }
 
 double last_height(const LineGrowth& line, double height, int n) {
-  if (line.common == 0.0 || is_compressed(line, height, n)) {
-    const double growth = growth_for_height(line.h0, height, n);
-    return growth > 1.0 ? line.h0 * std::pow(growth, n - 1) : height / n;
+  if (line.common > 0.0) {
+    const CommonCells cells = common_cells(line, height, n);
+    return cells.share * bent_sum(line, cells.bend, n).last;
   }
-  return bent_sum(line, bend_for_height(line, height, n), n).last;
+  const double growth = growth_for_height(line.h0, height, n);
+  return growth > 1.0 ? line.h0 * std::pow(growth, n - 1) : height / n;
+}
+
+double height_for_first_cell(const LineGrowth& line, int n) {
+  return line.common > 0.0 && n > 1 ? bent_sum(line, bends_of(line, n).largest, n).sum : n * line.h0;
 }
 
 }  // namespace sterna::volmesh

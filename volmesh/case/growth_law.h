@@ -25,18 +25,23 @@ void layer_parameters(double h0, double height, int n, double* t);
 /// the next by a share s moves sideways by s/4 of an edge e, so the face between two flat cells of height h leans by atan(s e / 4 h): 0.1 % are 68 degrees at
 /// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, (20 h_j / e)^4)), at least 1, with one g for all lines and a bend b that follows from the total height of the
 /// line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; where the bends of neighbours differ by a small d, faces lean by atan(5 d) at most for
-/// it.
+/// it. Lines that are far lower than asked would end with cells too low for the tetrahedra on them: the bend is limited so that the ratio at the top is at
+/// least 1 + 0.6 (r - 1), where r is the ratio there of a line as tall as asked. Still lower lines get lower first cells, all cells by one share; a third lower
+/// still, they have the bend of a line as tall as asked.
 struct LineGrowth {
   double h0 = 0.0;      ///< m, first height
   double common = 0.0;  ///< g; 0: local
-  double edge = 0.0;    ///< m, e, of the wall there
+  double edge = 0.0;    ///< m, e, the longest of the wall there
+  double target = 0.0;  ///< m, the total height that is asked for; with a common ratio
 };
 
-/// As layer_parameters() above. \pre h0 > 0, height > 0, n >= 1; with a common ratio g >= 1 and edge > 0
+/// As layer_parameters() above. \pre h0 > 0, height > 0, n >= 1; with a common ratio g >= 1, edge > 0 and target > 0
 void layer_parameters(const LineGrowth& line, double height, int n, double* t);
 /// Ratio of the cells at the top, which are where it differs most from the common one, or the common one where it is larger; 1 when compressed.
 double largest_growth(const LineGrowth& line, double height, int n);
 /// m, height of the last of n cells.
 double last_height(const LineGrowth& line, double height, int n);
+/// m, the least total height with which the first cell of n is h0.
+double height_for_first_cell(const LineGrowth& line, int n);
 
 }  // namespace sterna::volmesh

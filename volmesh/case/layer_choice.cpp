@@ -31,7 +31,9 @@ void refine(double f, double& length) {
   if (!is_automatic(length)) length /= f;
 }
 double refined_growth(double f, double growth) { return std::pow(growth, 1.0 / f); }
-int refined_layers(double f, int layers) { return layers == 0 ? 0 : std::clamp(static_cast<int>(std::lround(f * layers)), 1, k_most_layers); }
+int refined_layers(double f, int layers) {
+  return layers == 0 || is_automatic(layers) ? layers : std::clamp(static_cast<int>(std::lround(f * layers)), 1, k_most_layers);
+}
 
 void refine(double f, FarfieldOptions& farfield) {
   if (is_automatic(farfield.farfield_edge)) farfield.farfield_edge = -1.0 / f;
@@ -112,13 +114,19 @@ MeshCase effective_options(const MeshCase& user_options, const RunContext& conte
   EnvelopeOptions& e = options.envelope;
   if (const double f = user_options.family.refinement; f != 1.0)
     context.info(
-        print_text("refinement %.4g of a mesh family: %d layers instead of %d, growth %.4g instead of %.4g", f, e.layers, user_options.envelope.layers,
-                   e.max_growth, user_options.envelope.max_growth) +
+        print_text("refinement %.4g of a mesh family: %sgrowth %.4g instead of %.4g", f,
+                   is_automatic(e.layers) ? "" : print_text("%d layers instead of %d, ", e.layers, user_options.envelope.layers).c_str(), e.max_growth,
+                   user_options.envelope.max_growth) +
         (is_automatic(e.first_height) ? "" : print_text(", first height %.4g m instead of %.4g m", e.first_height, user_options.envelope.first_height)));
   if (is_automatic(e.total_height)) return options;
   if (!is_automatic(e.max_thickness) && e.max_thickness < e.total_height)
     throw bad("all walls", print_text("total_height %g m is above max_thickness %g m", e.total_height, e.max_thickness), "leave max_thickness out");
   if (is_automatic(e.first_height)) return options;  // patches have their own, and are solved one by one
+  if (is_automatic(e.layers)) {
+    if (e.solve_for == "max_growth")
+      throw bad("all walls", "max_growth is to follow from total_height, and the number of layers is not given", "give layers, or solve_for = \"layers\"");
+    e.solve_for = "layers";
+  }
   const LayerChoice solved = solve_layers({e.layers, e.first_height, e.max_growth, e.total_height}, e.solve_for, "all walls");
   if (e.solve_for == "layers")
     context.info(print_text("%d layers reach the total height of %.6g m with a growth of %.4g, first height %.6g m", solved.layers, e.total_height,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "geom/math/constants.h"
+
 namespace sterna::volmesh {
 namespace {
 
@@ -42,6 +44,15 @@ EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& optio
   least_height_ = std::numeric_limits<double>::infinity();
   for (const VertexId v : demand_->layers.ids()) least_height_ = std::min(least_height_, least(n(v), h0(v)));
 }
+
+double EnvelopeScale::height_by_edge(VertexId v) const {
+  const double given = total_height(v);
+  if (!is_automatic(given)) return given;
+  const double last = has_common_growth_ ? k_regular_height * base_->layer_edge[v] : base_->layer_edge[v];
+  return layer_height(h0(v), growth_for_edge(h0(v), last, max_growth(v), n(v)), n(v));
+}
+
+double EnvelopeScale::asked_height(VertexId v) const { return std::min(height_by_edge(v), max_thickness(v)); }
 
 double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v) * h0(v); }
 

@@ -55,6 +55,11 @@ inline double thickness_limit(double max_thickness, double total_height, double 
   return total_height > usual ? total_height : usual;
 }
 
+/// Of a first height that counts as met (G11 of quality.md).
+inline constexpr double k_first_cell_slack = 0.02;
+/// Largest first step along a vertex's normal over the first height above its facets.
+inline constexpr double k_most_lean = 2.0;
+
 /// What is asked of the layer at each vertex, and derived numbers that every step needs: the base's demand, or where it is empty the options.
 class EnvelopeScale {
  public:
@@ -67,9 +72,24 @@ class EnvelopeScale {
   double max_thickness(VertexId v) const { return demand_->is_empty() ? max_thickness_ : demand_->max_thickness[v]; }  ///< m
   /// m, what all layers together are to have; automatic: eq. (1) of method.md.
   double total_height(VertexId v) const { return demand_->is_empty() ? total_height_ : demand_->total_height.empty() ? k_automatic : demand_->total_height[v]; }
+  /// m, what the first cell of the line at v is to have along the vertex's normal. Where lines grow alike (growth = "uniform"), first heights are those above
+  /// the facets, in their mean: h0 over the mean cosine between the vertex's normal and theirs, at most k_most_lean h0.
+  double first_step(VertexId v) const { return has_common_growth_ ? h0(v) / std::max(base_->facet_cosine[v], 1.0 / k_most_lean) : h0(v); }
   /// How the cells of the line at v grow.
-  LineGrowth growth(VertexId v) const { return {.h0 = h0(v), .common = has_common_growth_ ? max_growth(v) : 0.0, .edge = base_->layer_edge[v]}; }
-  double compressed(VertexId v) const { return n(v) * h0(v); }  ///< m, n h0: a layer that is lower is equally spaced
+  LineGrowth growth(VertexId v) const {
+    if (!has_common_growth_) return {.h0 = h0(v)};
+    return {.h0 = first_step(v), .common = max_growth(v), .edge = base_->longest_edge[v], .target = asked_height(v)};
+  }
+  /// m, the total height that is given, or that of eq. (1).
+  double height_by_edge(VertexId v) const;
+  /// m, the total height that is asked for: height_by_edge(), at most max_thickness().
+  double asked_height(VertexId v) const;
+  bool has_common_growth() const { return has_common_growth_; }
+  /// m, the least height along the normal with which the first cell of n is as high as is asked for, less the 2 % that gate G11 leaves it.
+  double room_for_first_cell(VertexId v, int n) const {
+    return has_common_growth_ ? (1.0 - k_first_cell_slack) * height_for_first_cell(growth(v), n) : n * h0(v);
+  }
+  double compressed(VertexId v) const { return n(v) * h0(v); }  ///< m, n h0: a layer that is lower cannot have its first height
   double h_min(VertexId v) const;                               ///< m, 0.2 n h0: below it a vertex collapses (method.md §4)
   int most_layers() const { return most_layers_; }
   /// The smallest max(h0, h_min) of all vertices, m: what an optimiser may lower heights to.

@@ -86,10 +86,8 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
   const EnvelopeScale scale = scale_of(base, options);
   parallel_for(context, n_vertices, [&](std::size_t i) {
     const VertexId v(i);
-    const double r = growth_for_edge(scale.h0(v), base.layer_edge[v], scale.max_growth(v), scale.n(v));
-    const double asked = scale.total_height(v);
-    envelope.eq1[v] = is_automatic(asked) ? layer_height(scale.h0(v), r, scale.n(v)) : asked;
-    envelope.target[v] = base.constraint[v].freedom == Freedom::fixed ? 0.0 : std::min(envelope.eq1[v], scale.max_thickness(v));
+    envelope.eq1[v] = scale.height_by_edge(v);
+    envelope.target[v] = base.constraint[v].freedom == Freedom::fixed ? 0.0 : scale.asked_height(v);
     if (!is_automatic(options.max_relative_height)) envelope.target[v] = std::min(envelope.target[v], options.max_relative_height * base.mean_edge[v]);
     envelope.direction[v] = pull_towards_visible(base, v, base.vertex_normal[v], k_start_cosine * base.visibility[v]);
   });

@@ -13,9 +13,14 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): square of the edge of an equilateral triangle over its area
-constexpr double k_least_edge_share = 1.0 / 3.0;     ///< of the mean edge, where triangles are stretched
-constexpr int k_edge_sweeps = 20;                    ///< of smoothing: about five rings, the thickness of a layer by eq. (1)
+constexpr double k_least_edge_share = 1.0 / 3.0;  ///< of the mean edge, where triangles are stretched
+constexpr int k_edge_sweeps = 20;                 ///< of smoothing: about five rings, the thickness of a layer by eq. (1)
+
+}  // namespace
+
+double layer_edge_of(double equilateral_edge, double mean_edge) { return std::clamp(equilateral_edge, k_least_edge_share * mean_edge, mean_edge); }
+
+namespace {
 
 double worst_cosine_of(std::span<const Vec3> normals, const Vec3& d) {
   double worst = 1.0;
@@ -81,7 +86,9 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
       vertex_normal(mesh.n_vertices()),
       visible_direction(mesh.n_vertices()),
       visibility(mesh.n_vertices()),
+      facet_cosine(mesh.n_vertices()),
       mean_edge(mesh.n_vertices()),
+      longest_edge(mesh.n_vertices()),
       layer_edge(mesh.n_vertices()),
       vertex_area(mesh.n_vertices()),
       ridges(opened != nullptr && !opened->is_empty() ? opened : nullptr) {
@@ -106,8 +113,7 @@ void LayerBase::set_layer_edges(const RunContext& context) {
     const VertexId v(i);
     const auto n_triangles = static_cast<double>(topology.outgoing(v).size());
     if (n_triangles == 0.0) return;
-    const double equal_area = std::sqrt(k_equilateral * 3.0 * vertex_area[v] / n_triangles);
-    layer_edge[v] = std::clamp(equal_area, k_least_edge_share * mean_edge[v], mean_edge[v]);
+    layer_edge[v] = layer_edge_of(std::sqrt(k_equilateral * 3.0 * vertex_area[v] / n_triangles), mean_edge[v]);
   });
   if (ridges != nullptr) even_out_fans();
   std::vector<double> own(n), next(n);
@@ -150,14 +156,14 @@ void LayerBase::even_out_fans() {
     const bool is_end = std::ranges::binary_search(ridges->end_vertices, v);
     if ((sums.n_lines == 1.0 && !is_end) || sums.n_triangles == 0.0) continue;
     mean_edge[v] = sums.edges / sums.n_lines;
-    layer_edge[v] = std::clamp(std::sqrt(k_equilateral * sums.area / sums.n_triangles), k_least_edge_share * mean_edge[v], mean_edge[v]);
+    layer_edge[v] = layer_edge_of(std::sqrt(k_equilateral * sums.area / sums.n_triangles), mean_edge[v]);
   }
 }
 
 /// What depends on the triangles at a vertex, or at all vertices of a group, which get the same; of areas each its own.
 void LayerBase::derive(std::span<const VertexId> alike) {
   Vec3 sum;
-  double length = 0.0, weights = 0.0;
+  double length = 0.0, weights = 0.0, angles = 0.0, longest = 0.0;
   std::vector<Vec3> normals;
   for (const VertexId v : alike) {
     const Point p = wall.points[v];
@@ -166,6 +172,7 @@ void LayerBase::derive(std::span<const VertexId> alike) {
       const TriangleId t = triangle_of(h);
       const double angle = corner_angle(p, wall.points[topology.to(h)], wall.points[topology.from(previous(h))]);
       sum += angle * unit_normal[t];
+      angles += angle;
       third += area[t] / 3.0;
       normals.push_back(unit_normal[t]);
     }
@@ -173,7 +180,9 @@ void LayerBase::derive(std::span<const VertexId> alike) {
     for (const VertexId other : topology.neighbours(v)) {
       if (have_one_foot(v, other)) continue;
       const double weight = mirror_weight(v, other);
-      length += weight * distance(p, wall.points[other]);
+      const double own = distance(p, wall.points[other]);
+      length += weight * own;
+      longest = std::max(longest, own);
       weights += weight;
     }
   }
@@ -192,7 +201,11 @@ void LayerBase::derive(std::span<const VertexId> alike) {
       visibility[first] = seen;
     }
   }
+  longest_edge[first] = longest;
+  facet_cosine[first] = angles > 0.0 ? dot(sum, vertex_normal[first]) / angles : 1.0;
   for (const VertexId v : alike.subspan(1)) {
+    longest_edge[v] = longest;
+    facet_cosine[v] = facet_cosine[first];
     mean_edge[v] = mean_edge[first];
     vertex_normal[v] = vertex_normal[first];
     visible_direction[v] = visible_direction[first];

@@ -17,6 +17,10 @@
 
 namespace sterna::volmesh {
 
+inline constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): square of the edge of an equilateral triangle over its area
+/// m, l of eq. (1): the edge of the equilateral triangle of the same area (m), of stretched triangles at least a third of their mean edge (m).
+double layer_edge_of(double equilateral_edge, double mean_edge);
+
 struct LayerBase {
   /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its rims if it has a boundary.
   /// `wall` and `ridges` (those of the wall; null: none) must outlive this.
@@ -33,7 +37,9 @@ struct LayerBase {
   Column<VertexId, Vec3> vertex_normal;      ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
   Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; sees the worst incident normal best: axis of the smallest cap that holds them all
   Column<VertexId, double> visibility;       ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
+  Column<VertexId, double> facet_cosine;     ///< angle-weighted mean of the cosines between vertex_normal and the incident normals
   Column<VertexId, double> mean_edge;        ///< m, of the edges at the vertex
+  Column<VertexId, double> longest_edge;     ///< m, of the edges at the vertex
   Column<VertexId, double> layer_edge;       ///< m, l_j of eq. (1), see set_layer_edges()
   Column<VertexId, double> vertex_area;      ///< m^2, a third of the incident triangles
 

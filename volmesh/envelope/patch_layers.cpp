@@ -101,21 +101,17 @@ Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const C
   return layers;
 }
 
-/// What the rules of a patch say themselves.
-struct OwnWishes {
-  bool layers = false, first_height = false, growth = false, height = false;
-};
-
 /// With a total height: what follows from the rest. What the patch says itself stands; where it leaves both open, the growth gives way (walls that are
 /// connected share the number of layers), or what all walls are solved for.
-void solve(const OwnWishes& own, const std::string& of_all, const std::string& patch, PatchLayers& layers) {
+void solve(const std::string& of_all, const std::string& patch, PatchLayers& layers) {
   if (!layers.carries_layers() || is_automatic(layers.total_height)) return;
-  if (!own.layers && !own.first_height && !own.growth && !own.height && of_all == "none") return;  // solved with all walls, or proved to agree below
+  if (!layers.has_own_layers && !layers.has_own_first_height && !layers.has_own_growth && !layers.has_own_height && of_all == "none")
+    return;  // solved with all walls, or proved to agree below
   std::string solve_for = of_all == "none" ? "max_growth" : of_all;
-  if (own.growth && !own.layers) solve_for = "layers";
-  if (own.layers && !own.growth) solve_for = "max_growth";
-  if (own.layers && own.growth) solve_for = "none";
-  if (own.height && !own.layers && !own.growth) solve_for = "max_growth";
+  if (layers.has_own_growth && !layers.has_own_layers) solve_for = "layers";
+  if (layers.has_own_layers && !layers.has_own_growth) solve_for = "max_growth";
+  if (layers.has_own_layers && layers.has_own_growth) solve_for = "none";
+  if (layers.has_own_height && !layers.has_own_layers && !layers.has_own_growth) solve_for = "max_growth";
   const LayerChoice solved = solve_layers({layers.layers, layers.first_height, layers.max_growth, layers.total_height}, solve_for, "patch " + patch);
   layers.layers = solved.layers;
   layers.max_growth = solved.max_growth;
@@ -291,29 +287,41 @@ void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules) {
   }
 }
 
+Patch with_kind(Patch patch, std::span<const PatchRule> rules) {
+  for (const PatchRule& rule : rules)
+    if (rule.kind != PatchRule{}.kind && matches_glob(patch.name, rule.names)) patch.kind = kind_of(rule.kind);
+  return patch;
+}
+
+PatchLayers request_of(const Patch& patch, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
+  PatchLayers layers{.layers = options.layers,
+                     .first_height = options.first_height,
+                     .max_growth = options.max_growth,
+                     .total_height = options.total_height,
+                     .max_thickness = options.max_thickness};
+  const auto take = [](double asked, double& value, bool& is_own) {
+    if (!is_automatic(asked)) value = asked, is_own = true;
+  };
+  for (const PatchRule& rule : rules) {
+    if (!matches_glob(patch.name, rule.names)) continue;
+    if (rule.layers != PatchRule::k_as_all) layers.layers = rule.layers, layers.has_own_layers = true;
+    take(rule.first_height, layers.first_height, layers.has_own_first_height);
+    take(rule.max_growth, layers.max_growth, layers.has_own_growth);
+    take(rule.total_height, layers.total_height, layers.has_own_height);
+    if (!is_automatic(rule.max_thickness)) layers.max_thickness = rule.max_thickness;
+    if (!is_automatic(rule.blend)) layers.blend = rule.blend;
+  }
+  if (patch.kind != PatchKind::wall) layers.layers = 0;
+  return layers;
+}
+
 Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
   Column<PatchId, PatchLayers> result;
   std::string without;
   for (const Patch& patch : patches) {
-    PatchLayers layers{.layers = options.layers,
-                       .first_height = options.first_height,
-                       .max_growth = options.max_growth,
-                       .total_height = options.total_height,
-                       .max_thickness = options.max_thickness};
-    OwnWishes own;
-    for (const PatchRule& rule : rules) {
-      if (!matches_glob(patch.name, rule.names)) continue;
-      if (rule.layers != PatchRule::k_as_all) layers.layers = rule.layers, own.layers = true;
-      if (!is_automatic(rule.first_height)) layers.first_height = rule.first_height;
-      if (!is_automatic(rule.max_growth)) layers.max_growth = rule.max_growth, own.growth = true;
-      if (!is_automatic(rule.total_height)) layers.total_height = rule.total_height, own.height = true;
-      if (!is_automatic(rule.first_height)) layers.has_own_first_height = own.first_height = true;
-      if (!is_automatic(rule.max_thickness)) layers.max_thickness = rule.max_thickness;
-      if (!is_automatic(rule.blend)) layers.blend = rule.blend;
-    }
-    if (patch.kind != PatchKind::wall) layers.layers = 0;
+    PatchLayers layers = request_of(patch, options, rules);
     if (layers.carries_layers() && is_automatic(layers.first_height)) without += (without.empty() ? "" : ", ") + patch.name;
-    solve(own, options.solve_for, patch.name, layers);
+    solve(options.solve_for, patch.name, layers);
     result.push_back(layers);
   }
   if (!without.empty())

@@ -18,11 +18,14 @@ namespace sterna::volmesh {
 /// \throws Error(bad_argument) for a rule that no patch has a name like: with the names
 void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules);
 
+/// The patch with the kind that rules give it.
+Patch with_kind(Patch patch, std::span<const PatchRule> rules);
+
 /// What is asked of the layer on one patch.
 struct PatchLayers {
-  int layers = 0;                     ///< 0: the patch carries none
-  double first_height = k_automatic;  ///< m; a number where there are layers
-  bool has_own_first_height = false;  ///< a rule gives it
+  int layers = 0;                                                                                             ///< 0: the patch carries none
+  double first_height = k_automatic;                                                                          ///< m; a number where there are layers
+  bool has_own_layers = false, has_own_first_height = false, has_own_growth = false, has_own_height = false;  ///< a rule gives it
   double max_growth = 0.0;
   double total_height = k_automatic;   ///< m; automatic: by the wall's edges
   double max_thickness = k_automatic;  ///< m; automatic: a share of the body length
@@ -30,8 +33,11 @@ struct PatchLayers {
   bool carries_layers() const { return layers > 0; }
 };
 
+/// What the options of the envelope, overruled by the rules in their order, say of a patch of this kind: nothing is solved for.
+PatchLayers request_of(const Patch& patch, const EnvelopeOptions& options, std::span<const PatchRule> rules);
+
 /// Per patch: the options of the envelope, overruled by the rules in their order. Patches of other kinds than wall carry no layers, whatever is asked.
-/// \pre kinds are set (apply_patch_kinds)
+/// \pre kinds are set (apply_patch_kinds), the number of layers is not automatic
 /// \throws Error(bad_argument) for a patch with layers and without a first height
 Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const PatchRule> rules);
 

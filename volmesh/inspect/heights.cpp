@@ -211,7 +211,7 @@ class HeightSurvey {
     Finding finding{.kind = FindingKind::compressed, .severity = Severity::warn, .limit = 1.0};
     finding.value = h / scale_.compressed(v);
     finding.text = "the layer will be lower than its first cells alone (" + std::to_string(scale_.n(v)) + " of " + in_metres(scale_.h0(v), k_text_digits) +
-                   ") on about " + percent(area_of(compressed)) + " of the walls' area: equally spaced, first_height is not met there";
+                   ") on about " + percent(area_of(compressed)) + " of the walls' area: first_height is not met there";
     const int layers = static_cast<int>(std::floor(h / scale_.h0(v)));  // fewer than there are: the layer is lower than they
     finding.advice =
         layers >= 2 && layers < scale_.n(v)

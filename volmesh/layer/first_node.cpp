@@ -9,7 +9,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_tolerance = 0.02;  ///< G11 of quality.md
+constexpr double k_tolerance = k_first_cell_slack;
 
 struct Tally {
   std::int64_t n_full = 0, n_good = 0, n_compressed = 0, n_collapsed = 0;
@@ -45,7 +45,7 @@ double share(double part, double whole) { return whole > 0.0 ? part / whole : 1.
 FirstNodeReport first_node_report(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, const Envelope& envelope,
                                   const Extrusion& extrusion, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options);
-  const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= extrusion.layers.layers_of_line(v.value()) * scale.h0(v); };
+  const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= scale.room_for_first_cell(v, extrusion.layers.layers_of_line(v.value())); };
   const auto first_step = [&](VertexId v) { return extrusion.points[extrusion.layers.node(v.value(), 1).index()] - base.wall.points[v]; };
   const Tally vertices = parallel_reduce(
       context, base.wall.n_vertices(), Tally{},
@@ -58,7 +58,7 @@ FirstNodeReport first_node_report(const LayerBase& base, const Classification& c
             part.n_compressed += !envelope.is_collapsed(v);
             continue;
           }
-          const double deviation = std::abs(dot(first_step(v), base.vertex_normal[v]) / scale.h0(v) - 1.0);
+          const double deviation = std::abs(dot(first_step(v), base.vertex_normal[v]) / scale.first_step(v) - 1.0);
           ++part.n_full;
           part.n_good += deviation <= k_tolerance;
           part.note(deviation, base.wall.points[v]);

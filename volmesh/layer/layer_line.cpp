@@ -10,6 +10,12 @@ namespace {
 
 /// Below this c_t the curve is straight after less than a thousandth of the height.
 constexpr double k_straight = 1e-3;
+/// A line that bends within its flat cells changes their proportions above facets that are inclined to the vertex's normal. Steps along such a facet change by
+/// 0.5 t / c_t from cell to cell, and 11 h / e may (growth_law.h); a cell of height h at t has h = 0.2 t H where cells grow by 1.25: c_t is at least this times
+/// e / H, times the tangent of the line's slant and the sine of the facet's.
+constexpr double k_flat_curving = 0.23;
+/// Tangent of the slant beyond which a straight line has no first height any more, because of k_min_normal_share.
+constexpr double k_steepest = 9.9;
 /// Of h: the least normal height that the layer law is given (a line at 84 degrees to the wall normal).
 constexpr double k_min_normal_share = 0.1;
 
@@ -22,6 +28,13 @@ double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v
 
 LinePlacer::LinePlacer(const LayerBase& base, const EnvelopeScale& scale) : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
 
+/// The least c_t of a line that is not straight. Local growth changes proportions anyway.
+double LinePlacer::least_curving(VertexId v, double aside, double height) const {
+  if (!scale_.has_common_growth() || aside > k_steepest * height) return 0.0;
+  const double cosine = base_.worst_cosine(v, base_.vertex_normal[v]);
+  return k_flat_curving * (base_.longest_edge[v] / height) * (aside / height) * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
 void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, Point* nodes) {
   const Point wall = base_.wall.points[v];
   nodes[0] = wall;
@@ -30,7 +43,7 @@ void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, 
   layer_parameters(scale_.growth(v), h_n, n, t_.data());
   const Vec3 along = envelope.height[v] * envelope.direction[v];
   const Vec3 aside = h_n * base_.vertex_normal[v] - along;
-  const bool is_curved = c_t >= k_straight && base_.fan_of(v) == nullptr;
+  const bool is_curved = c_t >= std::max(k_straight, least_curving(v, norm(aside), h_n)) && base_.fan_of(v) == nullptr;
   const double end = is_curved ? std::exp(-1.0 / c_t) : 0.0;
   const double scale = 1.0 / (1.0 - end);
   for (int j = 1; j < n; ++j) {

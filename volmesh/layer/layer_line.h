@@ -8,7 +8,7 @@
 namespace sterna::volmesh {
 
 /// Height of the layer at a vertex along its wall normal, m: h (d . n). It is what the layer law divides, so that the first node is h0 off the wall whatever
-/// the line's curve and slant; the layer is compressed (equally spaced, h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told
+/// the line's curve and slant; the layer is compressed (h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told
 /// apart. Of a line of a fan: its length, so that nodes of one fan are equally far from their foot, however little it is open.
 double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v);
 
@@ -25,6 +25,8 @@ class LinePlacer {
   void place(const Envelope& envelope, VertexId v, double c_t, Point* nodes) { place(envelope, v, scale_.n(v), c_t, nodes); }
 
  private:
+  double least_curving(VertexId v, double aside, double height) const;
+
   const LayerBase& base_;
   EnvelopeScale scale_;
   std::vector<double> t_;

@@ -96,7 +96,7 @@ class Classifier {
       : base_(base), envelope_(envelope), layers_(layers), scale_(scale_of(base, options)), permitted_(permitted_heights(base, envelope, outer, context)) {}
   bool is_full(VertexId v) const { return has_full_height(base_, envelope_, v); }
   int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
-  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.room_for_first_cell(v, layers(v)); }
   bool is_truncated(VertexId v) const { return !envelope_.is_collapsed(v) && layers(v) < scale_.n(v); }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
@@ -268,6 +268,13 @@ LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options
     request.max_growth = *std::max_element(demand.max_growth.begin(), demand.max_growth.end());
   }
   const EnvelopeScale scale = scale_of(base, options);
+  if (scale.has_common_growth()) {
+    request.line_first_height.clear();
+    for (const VertexId v : envelope.height.ids()) {
+      request.line_first_height.push_back(scale.first_step(v));
+      request.line_first_room.push_back(scale.room_for_first_cell(v, layers.layers_of_line(v.value())));
+    }
+  }
   const auto asked = [&](VertexId v) { return static_cast<std::uint16_t>(scale.n(v)); };
   bool is_truncated = false;
   for (const VertexId v : envelope.height.ids()) {

@@ -19,7 +19,7 @@ struct PatchLayerReport {
   std::string name;
   double area = 0.0;                                      ///< m^2
   double full = 0.0;                                      ///< height along the wall's normal >= 0.9 h_target
-  double compressed = 0.0;                                ///< 0 < normal_height < n h0, n the layers that it has: equally spaced, h0 not met
+  double compressed = 0.0;                                ///< below the height that its first cell needs: h0 not met
   double collapsed = 0.0;                                 ///< no layer
   double attainable = 0.0;                                ///< where the geometry permits the full height (geom/mesh/layer_room.h)
   double attained = 0.0;                                  ///< at least 0.9 of the height that the geometry permits
@@ -48,7 +48,7 @@ struct LayerReport {
   double feature_angle = 0.0;      ///< rad, the user's or the one found
   VisibilityReport visibility;
   std::int64_t n_vertices = 0;
-  std::int64_t n_compressed = 0;                          ///< normal_height < n h0: equally spaced, h0 not met
+  std::int64_t n_compressed = 0;                          ///< too low for their first cells: h0 not met
   std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
   double compressed_area = 0.0;                           ///< share of the wall area
   double collapsed_area = 0.0;                            ///< share of the wall area

@@ -28,10 +28,13 @@ constexpr double k_least_win = 0.02;                       ///< of the cost: les
 constexpr double k_far_reach = 2.5;                        ///< of slide_share: where less did not do for a hard limit
 constexpr double k_farthest = 0.6;                         ///< of a height: no top moves by more, unless slide_share says so
 constexpr double k_still_share = 0.02;                     ///< of a line's height: cells within it go the less with the top, the nearer the wall
+constexpr double k_still_share_of_flat = 0.1;              ///< the same where flat cells of all lines grow alike
 constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no others
 constexpr int k_newton_steps = 30;
 constexpr double k_sum_tolerance = 1e-12;
-constexpr double k_most_power = 3.0;
+constexpr double k_most_power = 3.0, k_most_exponent = 3.0;
+constexpr double k_flat = 20.0;        ///< edges over heights above which cells are flat
+constexpr double k_most_change = 0.5;  ///< of a ratio, times 20 heights over the edge: faces lean by less than 68 degrees for it
 constexpr double k_growth_rounding = 1e-6;
 constexpr std::uint32_t k_no_tet = 0xffffffffu;
 constexpr std::size_t k_search_chunk = 1 << 13;
@@ -59,6 +62,37 @@ std::optional<std::vector<double>> steps_with_sum(const std::vector<double>& ste
   return std::nullopt;
 }
 
+/// Steps with another sum, of which the flat ones stay: each is multiplied by exp(a w), where w is 0 for the first, 1 for the last and fades out where steps
+/// are below a twentieth of the longest edge of the wall there, because the ratios of flat cells must be those of the lines beside (growth_law.h). Nothing
+/// where that needs ratios that would make faces between flat cells lean.
+std::optional<std::vector<double>> steps_above_flat_ones(const std::vector<double>& steps, double sum, double edge) {
+  const double whole = std::log(steps.back() / steps[0]);
+  if (!(whole > 0.0)) return std::nullopt;
+  std::vector<double> weight, result(steps.size());
+  for (const double step : steps) {
+    const double x = std::min(1.0, k_flat * step / edge);
+    weight.push_back(x * x * x * x * std::log(step / steps[0]) / whole);
+  }
+  double a = 0.0;
+  for (int i = 0; i < k_newton_steps; ++i) {
+    double value = -sum, slope = 0.0;
+    for (std::size_t j = 0; j < steps.size(); ++j) {
+      result[j] = steps[j] * std::exp(a * weight[j]);
+      value += result[j];
+      slope += weight[j] * result[j];
+    }
+    if (std::abs(value) < k_sum_tolerance * sum) {
+      for (std::size_t j = 1; j < steps.size(); ++j)
+        if (std::abs(a * (weight[j] - weight[j - 1])) > k_most_change * k_flat * steps[j - 1] / edge) return std::nullopt;
+      return result;
+    }
+    if (!(slope > 0.0)) return std::nullopt;
+    a -= value / slope;
+    if (!(std::abs(a) < k_most_exponent)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 double worst_growth(const std::vector<double>& steps) {
   double worst = 1.0;
   for (std::size_t i = 1; i < steps.size(); ++i) worst = std::max({worst, steps[i] / steps[i - 1], steps[i - 1] / steps[i]});
@@ -71,12 +105,13 @@ std::vector<double> steps_of(const std::vector<Point>& nodes) {
   return steps;
 }
 
+/// \param edge m, the longest of the wall at the line, where flat cells of all lines grow alike; 0: each line by its own ratio
 /// The line with `share` of its height: its curve scaled about the wall, nodes on that at the new steps; first cell as it was.
-std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, double share) {
+std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, double share, double edge) {
   const std::vector<double> steps = steps_of(nodes);
   double length = 0.0;
   for (const double step : steps) length += step;
-  const std::optional<std::vector<double>> wanted = steps_with_sum(steps, share * length);
+  const std::optional<std::vector<double>> wanted = edge > 0.0 ? steps_above_flat_ones(steps, share * length, edge) : steps_with_sum(steps, share * length);
   if (!wanted) return std::nullopt;
   std::vector<Point> result = nodes;
   double along = (*wanted)[0] / share, passed = 0.0;  // on the curve as it was: the new node; where segment k begins
@@ -91,11 +126,11 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
   return result;
 }
 
-/// Nodes go with the top, the less the lower: the first cell stays.
-void shift_top(const Vec3& shift, std::vector<Point>& nodes) {
+/// Nodes go with the top, the less the lower, by `still` of the height as a measure: the first cell stays.
+void shift_top(const Vec3& shift, double still, std::vector<Point>& nodes) {
   for (std::size_t j = 2; j < nodes.size(); ++j) {
     const double t = distance(nodes[0], nodes[j]) / distance(nodes[0], nodes.back());
-    if (j + 1 < nodes.size()) nodes[j] += (t * t / (t + k_still_share)) * shift;
+    if (j + 1 < nodes.size()) nodes[j] += (t * t / (t + still)) * shift;
   }
   nodes.back() += shift;
 }
@@ -436,6 +471,10 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
   const double height = distance(state.nodes.front(), state.nodes.back()), growth = std::max(worst_growth(steps_of(now)), allowed_growth(line));
   const Vec3 up = normalized(now.back() - now[now.size() - 2]), middle = to_middle(line, star);
   const Vec3 aside = normalized(middle - dot(middle, up) * up), across = cross(up, aside);
+  double edge = 0.0;
+  for (const std::uint32_t column : mesh_.request.line_first_room.empty() ? std::vector<std::uint32_t>() : star.columns)
+    for (const Line other : mesh_.layers.base[column])
+      edge = std::max(edge, distance(state.nodes.front(), mesh_.points[NodeId(mesh_.layers.first_node[other])]));
   struct Trial {
     double cost, share;
     Vec3 shift;
@@ -445,9 +484,9 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
     std::vector<Trial> trials;
     const auto attempt = [&](double share, const Vec3& shift) {
       if (share < 1.0 - state.reach || share > 1.0 + 0.5 * state.reach || norm(shift) > state.reach * height) return;
-      std::optional<std::vector<Point>> nodes = scaled_line(state.nodes, share);
+      std::optional<std::vector<Point>> nodes = scaled_line(state.nodes, share, edge);
       if (!nodes) return;
-      shift_top(shift, *nodes);
+      shift_top(shift, edge > 0.0 ? k_still_share_of_flat : k_still_share, *nodes);
       if (worst_growth(steps_of(*nodes)) > growth) return;
       put(line, *nodes);
       const double most = (1.0 - k_least_win) * cost_now, with = cost(tets, star, most);

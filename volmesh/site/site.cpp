@@ -20,6 +20,7 @@
 #include "volmesh/domain/sheeted_boundary.h"
 #include "volmesh/domain/split_corners.h"
 #include "volmesh/domain/split_needles.h"
+#include "volmesh/envelope/automatic_layers.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/patch_layers.h"
@@ -62,7 +63,7 @@ MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& cont
   if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
   require_no_others(options);
   require_no_layers_on_periodic_sides(options);
-  return effective_options(with_family_wake(wall, std::move(options), context), context);
+  return with_automatic_layers(wall, effective_options(with_family_wake(wall, std::move(options), context), context), context);
 }
 
 std::function<double(const Point&)> end_sizes(const MeshCase& options) {

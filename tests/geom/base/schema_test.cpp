@@ -25,6 +25,18 @@ TEST(Schema, TextWithUnitsReachesTheMember) {
   EXPECT_EQ(options.layers, 24);
 }
 
+TEST(Schema, WholeNumbersMayBeAutomatic) {
+  EnvelopeOptions options;
+  const OptionTable table = options_of(options);
+  const Option& layers = find_option(table, "layers", "test");
+  set_option_from_text(layers, "automatic");
+  EXPECT_TRUE(is_automatic(options.layers));
+  EXPECT_NE(options_to_json(table).find("\"layers\": \"automatic\""), std::string::npos);
+  // The number that stands for it is none of the user's, and other whole numbers cannot be automatic.
+  EXPECT_EQ(test::error_of([&] { set_option(layers, std::int64_t{k_automatic_count}); }).code(), ErrorCode::bad_argument);
+  EXPECT_EQ(test::error_of([&] { set_option_from_text(find_option(table, "height_sweeps", "test"), "automatic"); }).code(), ErrorCode::bad_argument);
+}
+
 TEST(Schema, MisspeltNameGetsASuggestion) {
   EnvelopeOptions options;
   const OptionTable table = options_of(options);

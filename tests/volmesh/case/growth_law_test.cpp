@@ -51,18 +51,18 @@ TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
   for (const int n : {2, 12, 30, 45}) {
     for (const double edge : {1e-4, 1e-2, 1.0}) {
       for (const double share : {0.2, 0.5, 0.8, 0.97, 1.0, 1.3}) {
-        const LineGrowth line{.h0 = h0, .common = g, .edge = edge};
-        const double height = share * layer_height(h0, growth_for_edge(h0, edge, g, n), n);
+        const double asked = layer_height(h0, growth_for_edge(h0, edge, g, n), n), height = share * asked;
+        const LineGrowth line{.h0 = h0, .common = g, .edge = edge, .target = asked};
         std::vector<double> t(static_cast<std::size_t>(n) + 1);
         layer_parameters(line, height, n, t.data());
         SCOPED_TRACE(testing::Message() << n << " layers, edge " << edge << ", share " << share);
         EXPECT_EQ(t.front(), 0.0);
         EXPECT_EQ(t.back(), 1.0);
-        if (height <= n * h0) {
-          EXPECT_NEAR(t[1], 1.0 / n, 1e-12) << "compressed";
-          continue;
-        }
-        EXPECT_NEAR(t[1] * height, h0, 1e-12 * h0);
+        // Lines that are too low for the largest bend have lower first cells.
+        const double room = height_for_first_cell(line, n);
+        EXPECT_GE(room, n * h0 * (1.0 - 1e-12));
+        if (height >= room) EXPECT_NEAR(t[1] * height, h0, 1e-12 * h0);
+        else EXPECT_LE(t[1] * height, h0 * height / room * (1.0 + 1e-12));
         double above = 0.0;
         for (std::size_t j = 2; j < t.size(); ++j) {
           const double before = t[j - 1] - t[j - 2], ratio = (t[j] - t[j - 1]) / before;
@@ -79,10 +79,33 @@ TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
   }
 }
 
+/// A line of a hundredth of the height beside a full one: the proportions of flat cells stay, so that faces between them do not lean.
+TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
+  const double h0 = 1e-6, g = 1.25, edge = 0.1;
+  const int n = 45;
+  const double full = layer_height(h0, growth_for_edge(h0, edge, g, n), n);
+  const LineGrowth line{.h0 = h0, .common = g, .edge = edge, .target = full};
+  std::vector<double> tall(n + 1), low(n + 1), lower(n + 1);
+  layer_parameters(line, full, n, tall.data());
+  for (const double share : {0.1, 0.01, 0.001}) {
+    layer_parameters(line, share * full, n, low.data());
+    EXPECT_LT(low[1] * share * full, h0);
+    layer_parameters(line, 0.5 * share * full, n, lower.data());
+    EXPECT_NEAR(lower[2] / lower[1], low[2] / low[1], 1e-9);
+    double change = 0.0;  // radians, the lean of faces between the two lines
+    for (std::size_t j = 2; j <= n; ++j) {
+      const double h = (tall[j - 1] - tall[j - 2]) * full;
+      const double tall_ratio = (tall[j] - tall[j - 1]) / (tall[j - 1] - tall[j - 2]), low_ratio = (low[j] - low[j - 1]) / (low[j - 1] - low[j - 2]);
+      change = std::max(change, std::atan(std::abs(low_ratio / tall_ratio - 1.0) * edge / (4.0 * h)));
+    }
+    EXPECT_LT(change, 70.0 * k_degree);
+  }
+}
+
 /// Where cells are not flat, and where it is asked for, the law is that of eq. (11).
 TEST(GrowthLaw, WithoutFlatCellsALineHasOneRatio) {
   std::vector<double> common(13), local(13);
-  layer_parameters({.h0 = 1e-3, .common = 1.3, .edge = 5e-3}, 0.03, 12, common.data());
+  layer_parameters({.h0 = 1e-3, .common = 1.3, .edge = 5e-3, .target = 0.03}, 0.03, 12, common.data());
   layer_parameters(1e-3, 0.03, 12, local.data());
   for (std::size_t j = 0; j <= 12; ++j) EXPECT_NEAR(common[j], local[j], 1e-12) << j;
   layer_parameters({.h0 = 1e-6, .common = 0.0, .edge = 0.1}, 0.03, 12, common.data());

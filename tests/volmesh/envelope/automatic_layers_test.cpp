@@ -1,0 +1,75 @@
+// The number of layers that follows from the walls.
+#include "volmesh/envelope/automatic_layers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geom/math/constants.h"
+#include "tests/support/shapes.h"
+#include "volmesh/case/layer_choice.h"
+
+namespace sterna::volmesh {
+namespace {
+
+MeshCase asked(double first_height) {
+  MeshCase mesh_case;
+  mesh_case.envelope.layers = k_automatic_count;
+  mesh_case.envelope.max_growth = 1.25;
+  mesh_case.envelope.first_height = first_height;
+  return mesh_case;
+}
+
+int layers_of(const TriMesh& surface, const MeshCase& mesh_case) { return with_automatic_layers(surface, mesh_case, RunContext()).envelope.layers; }
+
+TEST(AutomaticLayers, the_last_cell_is_half_a_regular_tetrahedron) {
+  const TriMesh cube = test::cube(4);  // all triangles alike: legs of a quarter
+  const double edge = std::sqrt(4.0 / std::sqrt(3.0) * 0.5 * 0.25 * 0.25), wanted = 0.5 * k_regular_height * edge;
+  for (const double h0 : {1e-6, 1e-4, 1e-3}) {
+    const int n = layers_of(cube, asked(h0));
+    const double growth = 1.25;
+    EXPECT_GE(h0 * std::pow(growth, n - 1), wanted);
+    EXPECT_LT(h0 * std::pow(growth, n - 2), wanted);
+  }
+  EXPECT_EQ(layers_of(cube, asked(1.0)), 1);
+  MeshCase given = asked(1e-4);
+  given.envelope.layers = 7;
+  EXPECT_EQ(layers_of(cube, given), 7);
+}
+
+TEST(AutomaticLayers, patches_count_with_what_they_ask_for) {
+  const TriMesh cube = test::cube(4);
+  const int of_all = layers_of(cube, asked(1e-4));
+  MeshCase finer = asked(1e-4), slower = asked(1e-4), own = asked(1e-4), none = asked(1e-4), slip = asked(1e-4);
+  finer.patches = {{.names = cube.patches[PatchId(0)].name, .first_height = 1e-6}};
+  slower.patches = {{.names = cube.patches[PatchId(0)].name, .max_growth = 1.1}};
+  EXPECT_GT(layers_of(cube, finer), of_all);
+  EXPECT_GT(layers_of(cube, slower), of_all);
+  own.patches = {{.names = "*", .layers = 12}};
+  EXPECT_EQ(layers_of(cube, own), 12);
+  none.patches = {{.names = "*", .layers = 0}};
+  EXPECT_EQ(layers_of(cube, none), 0);
+  slip.patches = {{.names = "*", .kind = "slip"}};
+  EXPECT_EQ(layers_of(cube, slip), 1);  // which has no wall to stand on: an error later
+}
+
+/// A member of a family has as many more as it is finer.
+TEST(AutomaticLayers, follow_the_member_of_a_family) {
+  const TriMesh coarse = test::cube(4), fine = test::cube(8);
+  MeshCase member = asked(1e-4);
+  member.family.refinement = 2.0;
+  const int n = layers_of(coarse, asked(1e-4)), n_fine = layers_of(fine, effective_options(member, RunContext()));
+  EXPECT_NEAR(n_fine, 2.0 * n, 2.0);
+}
+
+TEST(AutomaticLayers, a_total_height_is_solved_for_the_layers) {
+  MeshCase mesh_case = asked(1e-4);
+  mesh_case.envelope.total_height = 0.05;
+  const EnvelopeOptions found = effective_options(mesh_case, RunContext()).envelope;
+  EXPECT_GT(found.layers, 1);
+  mesh_case.envelope.solve_for = "max_growth";
+  EXPECT_ANY_THROW(effective_options(mesh_case, RunContext()));
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

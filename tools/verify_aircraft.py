@@ -1,0 +1,188 @@
+"""Aircraft of every kind through mesh and solver, from the case as foam_case writes it: `tools/verify_flow aircraft`. Twelve at Mach 0.2 with Spalart-Allmaras,
+six of them at Mach 0.5 as well, four with k-omega SST. A run has converged when Allrun ends without divergence and lift and drag stay within 0.5 % of the drag's
+or the lift's size over the last 100 iterations, of 600 at most.
+
+Each aircraft and each run keeps its folder. A run whose result.json is there is not repeated, so the tool can be stopped and started again. Aircraft whose file
+is in ../shared/data are skipped with a message where it is absent."""
+import json
+import pathlib
+import re
+import shutil
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DATA = ROOT.parent / "shared" / "data"
+WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged when its forces stay within it
+REFERENCE = 0.1            # reference area over the square of the length
+
+
+def script_before(name: str, end: str) -> str:
+    text = (ROOT / "scripts" / name).read_text()
+    return text[:text.index(end)]
+
+
+def model_mesh(model: str, options: str) -> str:
+    return f"local wall = surface_mesh{{ half({model}), {options} }}\n"
+
+
+def file_mesh(reader: str, file: str, options: str) -> str:
+    return model_mesh(f'{reader} "{DATA / file}"', options)
+
+
+def surface_mesh(file: str, options: str, remesh: str) -> str:
+    return f'local wall = remesh{{ half{{ read_surface{{ "{DATA / file}", {options} }} }}, {remesh} }}\n'
+
+
+class Aircraft:
+    """`file` in ../shared/data, or none; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well."""
+
+    def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False):
+        self.name, self.make, self.file, self.fast, self.sst = name, make, file, fast, sst
+
+    def is_there(self) -> bool:
+        return not self.file or (DATA / self.file).exists()
+
+
+def of_file(name: str, reader: str, file: str, options: str, **more) -> Aircraft:
+    return Aircraft(name, lambda: file_mesh(reader, file, options), file, **more)
+
+
+def of_surface(name: str, file: str, options: str, remesh: str, **more) -> Aircraft:
+    file = "surfaces/clean/" + file
+    return Aircraft(name, lambda: surface_mesh(file, options, remesh), file, **more)
+
+
+COARSE = "refinement = 0.5, curvature_angle = 24*deg"
+AIRCRAFT = [
+    Aircraft("airliner", lambda: script_before("03_airliner.lua", "model:write") + model_mesh("model", COARSE), fast=True, sst=True),
+    Aircraft("light", lambda: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", COARSE), fast=True, sst=True),
+    of_file("bjet", "read_smx", "smx/bjet.smx", COARSE, fast=True),
+    of_file("widebody", "read_smx", "smx/widebody.smx", COARSE),
+    of_file("delta", "read_smx", "smx/delta.smx", COARSE, fast=True),
+    of_file("D150", "read_cpacs", "cpacs/CPACS_30_D150.xml", COARSE, fast=True),
+    of_file("box_wing", "read_cpacs", "cpacs/boxWing.xml", COARSE),
+    of_surface("geom2", "vspgeom_geom2_geom2.stl", "split_angle = 60*deg", "refinement = 0.6", sst=True),
+    of_surface("wing_body", "wing_body_79k.stl", "split_angle = 60*deg", "refinement = 0.6"),
+    of_surface("dlr_f6", "dlr_f6_184k.stl", "unit = mm, split_angle = 60*deg", "refinement = 0.6"),
+    of_surface("cessna", "flowpanel_cessna_cessna.msh", "unit = ft, split_angle = 60*deg", "refinement = 0.6", sst=True),
+    of_surface("airplane", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", "refinement = 0.6", fast=True),
+]
+SHORT = ["light", "geom2"]
+
+MESH = """
+local stream = flow{ mach = 0.2, altitude = 0, length = wall.length }
+local cells = volume_mesh{ wall, layers = "automatic", growth = "uniform", max_growth = 1.25, first_height = y_plus{ 1, stream },
+  farfield = sphere{ radius = 20*wall.length } }
+cells:write "mesh.sterna"
+print("counts", wall.triangles, wall.length)
+"""
+CASE = """local cells = read_mesh "../mesh.sterna"
+cells:foam_case{{ "case", flow{{ mach = {mach}, altitude = 0, length = {length} }}, alpha = 2*deg, reference_area = {area}, model = "{model}", iterations = {iterations} }}
+"""
+
+
+class Run:
+    """One aircraft at one Mach number with one turbulence model."""
+
+    def __init__(self, aircraft: Aircraft, mach: float, model: str):
+        self.aircraft, self.mach, self.model = aircraft, mach, model
+
+    def folder(self) -> str:
+        return f"mach_{self.mach}_{self.model}"
+
+
+def runs_of(names: list[str], is_short: bool) -> list[Run]:
+    chosen = [aircraft for aircraft in AIRCRAFT if aircraft.name in names]
+    runs = [Run(a, 0.2, "SpalartAllmaras") for a in chosen]
+    if is_short:
+        return runs
+    return runs + [Run(a, 0.5, "SpalartAllmaras") for a in chosen if a.fast] + [Run(a, 0.2, "kOmegaSST") for a in chosen if a.sst]
+
+
+def mesh_of(tools, arguments, aircraft: Aircraft, folder: pathlib.Path) -> dict:
+    """The aircraft's mesh, made once for all its runs."""
+    done = folder / "mesh.result.json"
+    if done.exists():
+        return json.loads(done.read_text())
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    shutil.copytree(ROOT / "scripts" / "data", folder / "data")
+    (folder / "mesh.lua").write_text(aircraft.make() + MESH)
+    seconds = tools.run([arguments.sterna, "run", "mesh.lua"], folder, "log.sterna")
+    log = (folder / "log.sterna").read_text()
+    found = re.search(r"^counts\s+(\d+)\s+(\S+)$", log, re.M)
+    layers = re.search(r"(\d+) layers that grow by", log)
+    result = {"seconds": round(seconds, 1), "triangles": int(found[1]), "length": float(found[2]), "layers": int(layers[1])}
+    done.write_text(json.dumps(result))
+    return result
+
+
+def coefficient_rows(paths: list[pathlib.Path]) -> list[tuple[float, float, float]]:
+    """(iteration, CD, CL) of all parts of a run; where parts overlap, the later one."""
+    rows = {}
+    for path in paths:
+        names = []
+        for line in path.read_text().splitlines():
+            if line.startswith("# Time"):
+                names = line.lstrip("# ").split()
+            elif line and not line.startswith("#"):
+                value = dict(zip(names, map(float, line.split())))
+                rows[value["Time"]] = (value["Time"], value["Cd"], value["Cl"])
+    return [rows[key] for key in sorted(rows)]
+
+
+def spread(rows: list[tuple[float, float, float]]) -> float:
+    """Largest change of CD or CL over the last iterations, over the larger of their sizes at the end: lift may be near zero."""
+    last = [row for row in rows if row[0] > rows[-1][0] - WINDOW]
+    drag, lift = [row[1] for row in last], [row[2] for row in last]
+    scale = max(abs(drag[-1]), abs(lift[-1]))
+    return max((max(drag) - min(drag)) / abs(drag[-1]), (max(lift) - min(lift)) / scale)
+
+
+def solve(tools, arguments, run: Run, mesh: dict, folder: pathlib.Path, iterations: int) -> dict:
+    done = folder / "result.json"
+    if done.exists():
+        return json.loads(done.read_text())
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    (folder / "case.lua").write_text(CASE.format(mach=run.mach, length=mesh["length"], area=REFERENCE * mesh["length"] ** 2, model=run.model, iterations=iterations))
+    tools.run([arguments.sterna, "run", "case.lua"], folder, "log.sterna")
+    angle = re.search(r"largest angle .* is ([\d.]+) degrees", (folder / "case/system/fvSchemes").read_text())
+    result = {"cells": tools.mesh_numbers(folder / "case"), "angle": float(angle[1]) if angle else None}
+    try:
+        result["seconds"] = round(tools.run(["case/Allrun"], folder, "log.Allrun"), 1)
+        result["outcome"] = "ended"
+    except tools.subprocess.CalledProcessError:
+        result["outcome"] = "stopped"
+    says = [line for line in (folder / "log.Allrun").read_text().splitlines() if line and not line.startswith("#")]
+    result["says"] = says[-1] if says else ""
+    rows = coefficient_rows(tools.parts(folder / "case", "forceCoeffs", "coefficient.dat"))
+    if rows:
+        result.update(iterations=rows[-1][0], CD=rows[-1][1], CL=rows[-1][2], spread=spread(rows))
+    done.write_text(json.dumps(result, indent=1))
+    if not arguments.keep:
+        for part in (folder / "case").iterdir():
+            if part.name == "constant" or re.fullmatch(r"[1-9]\d*", part.name):
+                shutil.rmtree(part)
+    return result
+
+
+def aircraft(tools, arguments) -> None:
+    names = arguments.aircraft or (SHORT if arguments.short else [a.name for a in AIRCRAFT])
+    print("| aircraft | Mach, model | triangles, layers | cells | largest angle | iterations | CD | CL | change over the last 100 | seconds: mesh, solver |\n"
+          "|---|---|---|---|---|---|---|---|---|---|")
+    for run in runs_of(names, arguments.short):
+        body = run.aircraft
+        if not body.is_there():
+            print(f"skipped: {body.name}, whose file ../shared/data/{body.file} is not there", flush=True)
+            continue
+        folder = arguments.folder / "aircraft" / body.name
+        mesh = mesh_of(tools, arguments, body, folder)
+        result = solve(tools, arguments, run, mesh, folder / run.folder(), 60 if arguments.short else arguments.iterations)
+        has_forces = "spread" in result
+        print(f"| {body.name} | {run.mach}, {run.model} | {mesh['triangles']}, {mesh['layers']} | {result['cells']} | {result['angle']} | " +
+              (f"{result['iterations']:.0f} | {result['CD']:.4f} | {result['CL']:.4f} | {100 * result['spread']:.2f} %" if has_forces else "- | - | - | -") +
+              f" | {mesh['seconds']:.0f}, {result.get('seconds', 0):.0f} |", flush=True)
+        label = f"{body.name} at Mach {run.mach} with {run.model}"
+        arguments.require(result["outcome"] == "ended" and has_forces, f"{label}: {result['says']}")
+        if not arguments.short and has_forces:
+            arguments.require(result["spread"] <= BAND, f"{label}: forces change by {100 * result['spread']:.2f} % over the last {WINDOW} iterations")

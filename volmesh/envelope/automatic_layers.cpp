@@ -1,0 +1,87 @@
+#include "volmesh/envelope/automatic_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "geom/base/parallel.h"
+#include "geom/base/print_text.h"
+#include "geom/math/constants.h"
+#include "geom/math/measures.h"
+#include "volmesh/envelope/layer_base.h"
+#include "volmesh/envelope/patch_layers.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_wanted_last = 0.5;  ///< of the height of a regular tetrahedron on the triangle
+constexpr double k_reach = 0.9;        ///< share of the area
+constexpr int k_most_layers = 1000;    ///< as the option's own range
+
+struct Wanted {
+  int layers = 0;
+  double area = 0.0;
+};
+
+/// Of cells of first height h0 that grow by g to at least `last`.
+int layers_to_height(double h0, double growth, double last) {
+  if (last <= h0) return 1;
+  if (growth <= 1.0) return k_most_layers;
+  return std::min(k_most_layers, 1 + static_cast<int>(std::ceil(std::log(last / h0) / std::log(growth))));
+}
+
+/// The least number that is enough on k_reach of the area.
+int enough(std::vector<Wanted>& wanted) {
+  std::ranges::sort(wanted, {}, [](const Wanted& w) { return std::pair(w.layers, w.area); });
+  double all = 0.0, below = 0.0;
+  for (const Wanted& w : wanted) all += w.area;
+  for (const Wanted& w : wanted)
+    if (below += w.area; below >= k_reach * all) return w.layers;
+  return wanted.back().layers;
+}
+
+}  // namespace
+
+int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunContext& context) {
+  Column<PatchId, PatchLayers> asked;
+  for (const Patch& patch : surface.patches) asked.push_back(request_of(with_kind(patch, options.patches), options.envelope, options.patches));
+  const auto is_open = [](const PatchLayers& patch) { return is_automatic(patch.layers) && !patch.has_own_height && !is_automatic(patch.first_height); };
+  std::vector<Wanted> of_triangle(surface.n_triangles());
+  parallel_for(context, surface.n_triangles(), [&](std::size_t i) {
+    const TriangleId t(i);
+    const PatchLayers& patch = asked[surface.triangle_patch[t]];
+    if (!is_open(patch)) return;
+    const std::array<Point, 3> p = corners(surface, t);
+    const double area = 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])), edge = (distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0])) / 3.0;
+    double h0 = patch.first_height;
+    if (options.first_heights && !patch.has_own_first_height)
+      h0 = std::max({options.first_heights->at(p[0]), options.first_heights->at(p[1]), options.first_heights->at(p[2])});
+    of_triangle[i] = {layers_to_height(h0, patch.max_growth, k_wanted_last * k_regular_height * layer_edge_of(std::sqrt(k_equilateral * area), edge)), area};
+  });
+  std::map<std::pair<double, double>, std::vector<Wanted>> groups;  // by first height and growth
+  for (const TriangleId t : surface.triangles.ids())
+    if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch)) groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
+  int layers = 0;
+  for (auto& [request, wanted] : groups) layers = std::max(layers, enough(wanted));
+  if (layers > 0) return layers;
+  bool has_walls = false;
+  for (const PatchLayers& patch : asked) {
+    layers = std::max(layers, patch.layers);
+    has_walls = has_walls || patch.has_own_layers;
+  }
+  return has_walls && layers >= 0 ? layers : 1;
+}
+
+MeshCase with_automatic_layers(const TriMesh& surface, MeshCase options, const RunContext& context) {
+  EnvelopeOptions& e = options.envelope;
+  if (!is_automatic(e.layers)) return options;
+  e.layers = automatic_layers(surface, options, context);
+  if (e.layers > 0)
+    context.info(print_text("%d layers that grow by %.4g: the last cell is at least half as tall as a regular tetrahedron on nine tenths of the walls' area",
+                            e.layers, e.max_growth));
+  return options;
+}
+
+}  // namespace sterna::volmesh
