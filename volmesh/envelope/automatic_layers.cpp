@@ -62,7 +62,8 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
   });
   std::map<std::pair<double, double>, std::vector<Wanted>> groups;  // by first height and growth
   for (const TriangleId t : surface.triangles.ids())
-    if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch)) groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
+    if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch))
+      groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
   int layers = 0;
   for (auto& [request, wanted] : groups) layers = std::max(layers, enough(wanted));
   if (layers > 0) return layers;
