@@ -194,6 +194,11 @@ std::string Option::range_text() const {
     for (const std::string& choice : split(choices)) text += (text.size() > 6 ? ", " : " ") + choice;
     return text;
   }
+  if (kind == OptionKind::integer && !automatic.empty()) {
+    Option plain = *this;
+    plain.automatic = {};
+    return plain.range_text() + ", or automatic";
+  }
   const bool has_min = !std::isinf(min);
   const bool has_max = !std::isinf(max);
   if (has_min && has_max) return (unit == Unit::radian ? display_text(min, unit) : option_number_text(min)) + " .. " + display_text(max, unit);

@@ -112,11 +112,11 @@ struct LayerBlock {
 
 /// What was asked of the layer: its first height, growth and coverage are measured against it. Unknown for a mesh that was read from a file.
 struct LayerRequest {
-  double first_height = 0.0;               ///< m; 0 = nothing is known; the smallest where lines differ
-  double max_growth = 0.0;                 ///< largest ratio of heights of consecutive cells; the largest where lines differ
-  std::vector<double> line_first_height;   ///< m, along the vertex's normal, per line; empty: first_height everywhere
-  std::vector<double> line_first_room;     ///< m, least height of the whole line with which its first height can be met, per line; empty: layers x first height
-  std::vector<double> line_max_growth;     ///< per line; empty: max_growth everywhere
+  double first_height = 0.0;              ///< m; 0 = nothing is known; the smallest where lines differ
+  double max_growth = 0.0;                ///< largest ratio of heights of consecutive cells; the largest where lines differ
+  std::vector<double> line_first_height;  ///< m, along the vertex's normal, per line; empty: first_height everywhere
+  std::vector<double> line_first_room;  ///< m, least height of the whole line with which its first height is met to 2 %, per line; empty: layers x first height
+  std::vector<double> line_max_growth;  ///< per line; empty: max_growth everywhere
   std::vector<std::uint16_t> line_layers;  ///< per line; empty: as many as it has, so that none was truncated
   std::vector<double> target_height;       ///< m, of the whole layer, per line
   std::vector<std::uint8_t> reason;        ///< per line: why it is lower than its target, index of `reasons`

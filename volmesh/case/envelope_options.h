@@ -33,6 +33,9 @@ struct EnvelopeOptions {
   double barrier_weight = 0.02;
 };
 
+/// Whether flat cells grow by the same ratio on all lines (growth_law.h).
+inline bool has_common_growth(const EnvelopeOptions& options) { return options.growth == "uniform"; }
+
 }  // namespace sterna::volmesh
 
 namespace sterna {
@@ -47,8 +50,10 @@ struct Schema<volmesh::EnvelopeOptions> {
                .member = &O::layers,
                .min = 0,
                .max = 1000,
-               .help = "number of prism layers; 0: none, tetrahedra alone",
-               .automatic = "so many that cells that grow by max_growth are at least half as tall as a regular tetrahedron on nine tenths of the walls' area"},
+               .help =
+                   "number of prism layers; 0: none, tetrahedra alone; automatic: so many that cells that grow by max_growth get at least half as tall as a "
+                   "regular tetrahedron on nine tenths of the walls' area",
+               .automatic = "by max_growth and the edges of the walls"},
       Field<O>{.name = "first_height",
                .member = &O::first_height,
                .unit = Unit::metre,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/math/constants.h"
+
 namespace sterna::volmesh {
 namespace {
 
@@ -17,17 +19,12 @@ double geometric_sum(double q, int n) {
   return std::expm1(n * std::log1p(q)) / q;
 }
 
-constexpr double k_flat = 20.0;              ///< edges over heights above which cells are flat: they grow by the common ratio
 constexpr int k_bend_steps = 100;            ///< Newton's or bisection's
 constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
 constexpr double k_unbent = 1.0 / 3.0;       ///< of the least height for the first cell: lines that low have the bend of full ones
 constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0
 constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
 constexpr double k_kept_growth = 0.6;        ///< of r - 1 at the top of lines as tall as asked: what lower lines keep before their first cells get lower
-
-/// How much of the bend acts on a cell, and its derivative, by x = 20 h / e. The fourth power leaves cells below a twentieth of their edges nearly alone.
-double bend_share(double x) { return x < 1.0 ? (x * x) * (x * x) : 1.0; }
-double bend_slope(double x) { return 4.0 * x * x * x; }
 
 /// Heights of the cells of a line with this bend, and the sum's derivative by it.
 struct BentSum {
@@ -40,7 +37,7 @@ BentSum bent_sum(const LineGrowth& line, double bend, int n) {
   BentSum result{.sum = line.h0, .last = line.h0};
   double h = line.h0, dh = 0.0;
   for (int j = 1; j < n; ++j) {
-    const double x = k_flat * h / line.edge, share = bend_share(x), dshare = x < 1.0 ? bend_slope(x) * k_flat * dh / line.edge : 0.0;
+    const double share = bend_share(h, line.edge), dshare = share < 1.0 ? 4.0 * share * dh / h : 0.0;
     double ratio = 1.0, dratio = 0.0;
     if (bend >= 0.0) {
       const double d = 1.0 / (1.0 + bend * share);
@@ -123,11 +120,20 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
 
 }  // namespace
 
+double bend_share(double height, double edge) {
+  const double x = k_flat_edges * height / edge;
+  return x < 1.0 ? (x * x) * (x * x) : 1.0;
+}
+
 double layer_height(double h0, double r, int n) { return h0 * geometric_sum(r - 1.0, n); }
 
 double growth_for_edge(double h0, double l, double r_max, int n) {
   if (n == 1 || l <= h0) return 1.0;
   return std::clamp(std::pow(l / h0, 1.0 / (n - 1)), 1.0, r_max);
+}
+
+double height_by_edge(double h0, double edge, double r_max, int n, bool has_common_growth) {
+  return layer_height(h0, growth_for_edge(h0, has_common_growth ? k_regular_height * edge : edge, r_max, n), n);
 }
 
 double growth_for_height(double h0, double height, int n) {
@@ -171,7 +177,7 @@ void layer_parameters(const LineGrowth& line, double height, int n, double* t) {
   for (int j = 1; j < n; ++j) {
     sum += h;
     t[j] = cells.share * sum / height;
-    const double share = bend_share(k_flat * h / line.edge);
+    const double share = bend_share(h, line.edge);
     h *= cells.bend >= 0.0 ? std::max(1.0, line.common / (1.0 + cells.bend * share)) : line.common * (1.0 - cells.bend * share);
   }
   t[n] = 1.0;

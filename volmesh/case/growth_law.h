@@ -39,6 +39,13 @@ struct LineGrowth {
 void layer_parameters(const LineGrowth& line, double height, int n, double* t);
 /// Ratio of the cells at the top, which are where it differs most from the common one, or the common one where it is larger; 1 when compressed.
 double largest_growth(const LineGrowth& line, double height, int n);
+/// Edges over heights above which cells are flat.
+inline constexpr double k_flat_edges = 20.0;
+/// How much of a change of ratios may act on a cell of this height, 0 to 1: the fourth power of 20 h / e leaves flat cells nearly alone.
+double bend_share(double height, double edge);
+/// Total height of n layers, m, whose last cell is as tall as the wall's edge, eq. (1); with a common ratio as tall as a regular tetrahedron on it.
+double height_by_edge(double h0, double edge, double r_max, int n, bool has_common_growth);
+
 /// m, height of the last of n cells.
 double last_height(const LineGrowth& line, double height, int n);
 /// m, the least total height with which the first cell of n is h0.

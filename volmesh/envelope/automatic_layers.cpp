@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/base/print_text.h"
 #include "geom/math/constants.h"
@@ -19,17 +21,18 @@ namespace {
 constexpr double k_wanted_last = 0.5;  ///< of the height of a regular tetrahedron on the triangle
 constexpr double k_reach = 0.9;        ///< share of the area
 constexpr int k_most_layers = 1000;    ///< as the option's own range
+constexpr int k_too_many = k_most_layers + 1;
 
 struct Wanted {
   int layers = 0;
   double area = 0.0;
 };
 
-/// Of cells of first height h0 that grow by g to at least `last`.
+/// Of cells of first height h0 that grow by g to at least `last`; k_too_many where k_most_layers do not reach it.
 int layers_to_height(double h0, double growth, double last) {
   if (last <= h0) return 1;
-  if (growth <= 1.0) return k_most_layers;
-  return std::min(k_most_layers, 1 + static_cast<int>(std::ceil(std::log(last / h0) / std::log(growth))));
+  const double layers = growth > 1.0 ? 1.0 + std::ceil(std::log(last / h0) / std::log(growth)) : std::numeric_limits<double>::infinity();
+  return layers <= k_most_layers ? static_cast<int>(layers) : k_too_many;
 }
 
 /// The least number that is enough on k_reach of the area.
@@ -65,14 +68,22 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
     if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch))
       groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
   int layers = 0;
-  for (auto& [request, wanted] : groups) layers = std::max(layers, enough(wanted));
+  for (auto& [request, wanted] : groups) {
+    const auto [first_height, growth] = request;
+    layers = std::max(layers, enough(wanted));
+    if (layers == k_too_many)
+      throw_bad_argument("choosing the number of layers",
+                         print_text("%d layers of first height %.6g m that grow by %.6g do not reach half of the height of a regular tetrahedron on the wall",
+                                    k_most_layers, first_height, growth),
+                         {}, "raise max_growth, or give layers");
+  }
   if (layers > 0) return layers;
   bool has_walls = false;
   for (const PatchLayers& patch : asked) {
     layers = std::max(layers, patch.layers);
     has_walls = has_walls || patch.has_own_layers;
   }
-  return has_walls && layers >= 0 ? layers : 1;
+  return has_walls ? layers : 1;
 }
 
 MeshCase with_automatic_layers(const TriMesh& surface, MeshCase options, const RunContext& context) {

@@ -10,6 +10,7 @@ namespace sterna::volmesh {
 /// The fewest layers with which the last cell, growing by the ratio that is asked for, is at least half as tall as a regular tetrahedron on its triangle, on
 /// nine tenths of the area: of the walls that ask for the same first height and growth, and of all such walls the largest number. Patches whose number of
 /// layers or total height a rule gives do not count. Where no other carries layers: the largest number that a rule gives. At least 1 where there are no walls.
+/// \throws Error(bad_argument) where 1000 layers do not get as tall
 /// \pre `options` are those of the member of a mesh family that is meshed (refined())
 int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunContext& context);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "geom/math/constants.h"
-
 namespace sterna::volmesh {
 namespace {
 
@@ -30,7 +28,7 @@ std::string_view to_string(HeightLimit limit) {
 EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options)
     : base_(&base),
       demand_(&base.demand),
-      has_common_growth_(options.growth == "uniform"),
+      has_common_growth_(sterna::volmesh::has_common_growth(options)),
       first_height_(options.first_height),
       max_growth_(options.max_growth),
       total_height_(options.total_height),
@@ -45,14 +43,12 @@ EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& optio
   for (const VertexId v : demand_->layers.ids()) least_height_ = std::min(least_height_, least(n(v), h0(v)));
 }
 
-double EnvelopeScale::height_by_edge(VertexId v) const {
+double EnvelopeScale::unlimited_height(VertexId v) const {
   const double given = total_height(v);
-  if (!is_automatic(given)) return given;
-  const double last = has_common_growth_ ? k_regular_height * base_->layer_edge[v] : base_->layer_edge[v];
-  return layer_height(h0(v), growth_for_edge(h0(v), last, max_growth(v), n(v)), n(v));
+  return is_automatic(given) ? height_by_edge(h0(v), base_->layer_edge[v], max_growth(v), n(v), has_common_growth_) : given;
 }
 
-double EnvelopeScale::asked_height(VertexId v) const { return std::min(height_by_edge(v), max_thickness(v)); }
+double EnvelopeScale::asked_height(VertexId v) const { return std::min(unlimited_height(v), max_thickness(v)); }
 
 double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v) * h0(v); }
 

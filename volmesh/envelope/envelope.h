@@ -81,8 +81,8 @@ class EnvelopeScale {
     return {.h0 = first_step(v), .common = max_growth(v), .edge = base_->longest_edge[v], .target = asked_height(v)};
   }
   /// m, the total height that is given, or that of eq. (1).
-  double height_by_edge(VertexId v) const;
-  /// m, the total height that is asked for: height_by_edge(), at most max_thickness().
+  double unlimited_height(VertexId v) const;
+  /// m, the total height that is asked for: unlimited_height(), at most max_thickness().
   double asked_height(VertexId v) const;
   bool has_common_growth() const { return has_common_growth_; }
   /// m, the least height along the normal with which the first cell of n is as high as is asked for, less the 2 % that gate G11 leaves it.

@@ -86,7 +86,7 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
   const EnvelopeScale scale = scale_of(base, options);
   parallel_for(context, n_vertices, [&](std::size_t i) {
     const VertexId v(i);
-    envelope.eq1[v] = scale.height_by_edge(v);
+    envelope.eq1[v] = scale.unlimited_height(v);
     envelope.target[v] = base.constraint[v].freedom == Freedom::fixed ? 0.0 : scale.asked_height(v);
     if (!is_automatic(options.max_relative_height)) envelope.target[v] = std::min(envelope.target[v], options.max_relative_height * base.mean_edge[v]);
     envelope.direction[v] = pull_towards_visible(base, v, base.vertex_normal[v], k_start_cosine * base.visibility[v]);

@@ -121,7 +121,7 @@ class Blender {
  public:
   Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, const FirstHeights* by_place, LayerDemand& demand,
           const RunContext& context)
-      : base_(base), demand_(demand), context_(context), group_of_patch_(asked.size(), -1) {
+      : base_(base), demand_(demand), context_(context), has_common_growth_(has_common_growth(options)), group_of_patch_(asked.size(), -1) {
     std::vector<std::uint8_t> is_used(asked.size(), 0);
     for (const PatchId patch : base.wall.triangle_patch) is_used[patch.index()] = 1;
     for (const PatchId patch : asked.ids()) {
@@ -223,7 +223,7 @@ class Blender {
     if (!is_automatic(group.total_height)) return std::min(group.total_height, group.max_thickness);
     const int n = demand_.layers[v];
     const double h0 = first_height_at(group, v);
-    return std::min(layer_height(h0, growth_for_edge(h0, base_.layer_edge[v], group.max_growth, n), n), group.max_thickness);
+    return std::min(height_by_edge(h0, base_.layer_edge[v], group.max_growth, n, has_common_growth_), group.max_thickness);
   }
 
   Column<VertexId, double> distances_to(std::size_t group, double reach) const {
@@ -265,6 +265,7 @@ class Blender {
   const LayerBase& base_;
   LayerDemand& demand_;
   const RunContext& context_;
+  bool has_common_growth_;
   std::vector<Group> groups_;
   std::vector<int> group_of_patch_;  ///< -1: no layers, or no triangles
 };

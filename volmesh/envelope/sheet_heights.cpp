@@ -66,7 +66,7 @@ class SheetGrower {
     for (std::size_t k = 0; k < 2; ++k) {
       const VertexId v = foot.sides[k];
       const double asked = scale_.total_height(v);
-      const double by_edge = layer_height(before, growth_for_edge(before, base_.layer_edge[v], scale_.max_growth(v), all), all);
+      const double by_edge = height_by_edge(before, base_.layer_edge[v], scale_.max_growth(v), all, scale_.has_common_growth());
       const double height = std::min(is_automatic(asked) ? by_edge : asked, scale_.max_thickness(v));
       line.height = k == 0 ? height : std::min(line.height, height);
       edge = k == 0 ? base_.layer_edge[v] : std::min(edge, base_.layer_edge[v]);

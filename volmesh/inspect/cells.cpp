@@ -26,7 +26,7 @@ struct Cells {
 
 double height_of(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
   const double h0 = scale.h0(v), asked = scale.total_height(v);
-  const double height = is_automatic(asked) ? layer_height(h0, growth_for_edge(h0, base.mean_edge[v], scale.max_growth(v), n), n) : asked;
+  const double height = is_automatic(asked) ? height_by_edge(h0, base.mean_edge[v], scale.max_growth(v), n, scale.has_common_growth()) : asked;
   return std::min(height, scale.max_thickness(v));
 }
 

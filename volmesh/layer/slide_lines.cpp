@@ -12,6 +12,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/cell_shapes.h"
 #include "geom/mesh/line_measures.h"
+#include "volmesh/case/growth_law.h"
 #include "volmesh/layer/layer_cells.h"
 
 namespace sterna::volmesh {
@@ -33,7 +34,6 @@ constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better tha
 constexpr int k_newton_steps = 30;
 constexpr double k_sum_tolerance = 1e-12;
 constexpr double k_most_power = 3.0, k_most_exponent = 3.0;
-constexpr double k_flat = 20.0;        ///< edges over heights above which cells are flat
 constexpr double k_most_change = 0.5;  ///< of a ratio, times 20 heights over the edge: faces lean by less than 68 degrees for it
 constexpr double k_growth_rounding = 1e-6;
 constexpr std::uint32_t k_no_tet = 0xffffffffu;
@@ -42,55 +42,51 @@ constexpr std::size_t k_search_chunk = 1 << 13;
 /// What a value that is so many times its limit costs: nothing within it.
 double cost_of(double excess) { return excess > 1.0 ? excess * excess - 1.0 : 0.0; }
 
-/// The same first step and the same shape of growth (each step's ratio to the first to one power) with another sum; nothing where no power does it.
-std::optional<std::vector<double>> steps_with_sum(const std::vector<double>& steps, double sum) {
-  std::vector<double> logs, result(steps.size());
-  for (const double step : steps) logs.push_back(std::log(step / steps[0]));
-  double power = 1.0;
+struct Solved {
+  double exponent;
+  std::vector<double> steps;
+};
+
+/// Steps from[j] exp(x weight[j]) with this sum; x by Newton's method from `start`, between `least` and `most`. Nothing where there is no such x.
+std::optional<Solved> solve_sum(const std::vector<double>& from, const std::vector<double>& weight, double sum, double start, double least, double most) {
+  Solved solved{start, std::vector<double>(from.size())};
   for (int i = 0; i < k_newton_steps; ++i) {
     double value = -sum, slope = 0.0;
-    for (std::size_t j = 0; j < steps.size(); ++j) {
-      result[j] = steps[0] * std::exp(power * logs[j]);
-      value += result[j];
-      slope += logs[j] * result[j];
+    for (std::size_t j = 0; j < from.size(); ++j) {
+      solved.steps[j] = from[j] * std::exp(solved.exponent * weight[j]);
+      value += solved.steps[j];
+      slope += weight[j] * solved.steps[j];
     }
-    if (std::abs(value) < k_sum_tolerance * sum) return result;
+    if (std::abs(value) < k_sum_tolerance * sum) return solved;
     if (!(slope > 0.0)) return std::nullopt;  // equal steps
-    power -= value / slope;                   // convex: from above it never falls below the solution, from below it does not matter
-    if (!(power > 0.0 && power < k_most_power)) return std::nullopt;
+    solved.exponent -= value / slope;         // convex: from above it never falls below the solution, from below it does not matter
+    if (!(solved.exponent > least && solved.exponent < most)) return std::nullopt;
   }
   return std::nullopt;
 }
 
-/// Steps with another sum, of which the flat ones stay: each is multiplied by exp(a w), where w is 0 for the first, 1 for the last and fades out where steps
-/// are below a twentieth of the longest edge of the wall there, because the ratios of flat cells must be those of the lines beside (growth_law.h). Nothing
-/// where that needs ratios that would make faces between flat cells lean.
+/// The same first step and the same shape of growth (each step's ratio to the first to one power) with another sum; nothing where no power does it.
+std::optional<std::vector<double>> steps_with_sum(const std::vector<double>& steps, double sum) {
+  std::vector<double> logs;
+  for (const double step : steps) logs.push_back(std::log(step / steps[0]));
+  std::optional<Solved> solved = solve_sum(std::vector<double>(steps.size(), steps[0]), logs, sum, 1.0, 0.0, k_most_power);
+  if (!solved) return std::nullopt;
+  return std::move(solved->steps);
+}
+
+/// Steps with another sum, of which the flat ones stay: each is multiplied by exp(x w), where w is 0 for the first, 1 for the last and fades out where steps
+/// are flat, because the ratios of flat cells must be those of the lines beside (growth_law.h). Nothing where that needs ratios that would make faces between
+/// flat cells lean.
 std::optional<std::vector<double>> steps_above_flat_ones(const std::vector<double>& steps, double sum, double edge) {
   const double whole = std::log(steps.back() / steps[0]);
   if (!(whole > 0.0)) return std::nullopt;
-  std::vector<double> weight, result(steps.size());
-  for (const double step : steps) {
-    const double x = std::min(1.0, k_flat * step / edge);
-    weight.push_back(x * x * x * x * std::log(step / steps[0]) / whole);
-  }
-  double a = 0.0;
-  for (int i = 0; i < k_newton_steps; ++i) {
-    double value = -sum, slope = 0.0;
-    for (std::size_t j = 0; j < steps.size(); ++j) {
-      result[j] = steps[j] * std::exp(a * weight[j]);
-      value += result[j];
-      slope += weight[j] * result[j];
-    }
-    if (std::abs(value) < k_sum_tolerance * sum) {
-      for (std::size_t j = 1; j < steps.size(); ++j)
-        if (std::abs(a * (weight[j] - weight[j - 1])) > k_most_change * k_flat * steps[j - 1] / edge) return std::nullopt;
-      return result;
-    }
-    if (!(slope > 0.0)) return std::nullopt;
-    a -= value / slope;
-    if (!(std::abs(a) < k_most_exponent)) return std::nullopt;
-  }
-  return std::nullopt;
+  std::vector<double> weight;
+  for (const double step : steps) weight.push_back(bend_share(step, edge) * std::log(step / steps[0]) / whole);
+  std::optional<Solved> solved = solve_sum(steps, weight, sum, 0.0, -k_most_exponent, k_most_exponent);
+  if (!solved) return std::nullopt;
+  for (std::size_t j = 1; j < steps.size(); ++j)
+    if (std::abs(solved->exponent * (weight[j] - weight[j - 1])) > k_most_change * k_flat_edges * steps[j - 1] / edge) return std::nullopt;
+  return std::move(solved->steps);
 }
 
 double worst_growth(const std::vector<double>& steps) {
@@ -105,8 +101,8 @@ std::vector<double> steps_of(const std::vector<Point>& nodes) {
   return steps;
 }
 
-/// \param edge m, the longest of the wall at the line, where flat cells of all lines grow alike; 0: each line by its own ratio
 /// The line with `share` of its height: its curve scaled about the wall, nodes on that at the new steps; first cell as it was.
+/// \param edge m, the longest of the wall at the line, where flat cells of all lines grow alike; 0: each line by its own ratio
 std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, double share, double edge) {
   const std::vector<double> steps = steps_of(nodes);
   double length = 0.0;
@@ -472,9 +468,10 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
   const Vec3 up = normalized(now.back() - now[now.size() - 2]), middle = to_middle(line, star);
   const Vec3 aside = normalized(middle - dot(middle, up) * up), across = cross(up, aside);
   double edge = 0.0;
-  for (const std::uint32_t column : mesh_.request.line_first_room.empty() ? std::vector<std::uint32_t>() : star.columns)
-    for (const Line other : mesh_.layers.base[column])
-      edge = std::max(edge, distance(state.nodes.front(), mesh_.points[NodeId(mesh_.layers.first_node[other])]));
+  if (!mesh_.request.line_first_room.empty())  // flat cells grow alike
+    for (const std::uint32_t column : star.columns)
+      for (const Line other : mesh_.layers.base[column])
+        edge = std::max(edge, distance(state.nodes.front(), mesh_.points[NodeId(mesh_.layers.first_node[other])]));
   struct Trial {
     double cost, share;
     Vec3 shift;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "geom/base/error.h"
 #include "geom/math/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/case/layer_choice.h"
@@ -32,6 +33,9 @@ TEST(AutomaticLayers, the_last_cell_is_half_a_regular_tetrahedron) {
     EXPECT_LT(h0 * std::pow(growth, n - 2), wanted);
   }
   EXPECT_EQ(layers_of(cube, asked(1.0)), 1);
+  MeshCase level = asked(1e-4);
+  level.envelope.max_growth = 1.0;
+  EXPECT_THROW(layers_of(cube, level), Error);
   MeshCase given = asked(1e-4);
   given.envelope.layers = 7;
   EXPECT_EQ(layers_of(cube, given), 7);
