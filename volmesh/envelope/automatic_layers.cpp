@@ -19,11 +19,11 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_wanted_last = 0.5;  ///< of the height of a regular tetrahedron on the triangle
-constexpr double k_reach = 0.9;        ///< share of the area
+constexpr double k_area_share = 0.9;        ///< share of the area
 constexpr int k_most_layers = 1000;    ///< as the option's own range
 constexpr int k_too_many = k_most_layers + 1;
 
-struct Wanted {
+struct WantedLayers {
   int layers = 0;
   double area = 0.0;
 };
@@ -35,13 +35,13 @@ int layers_to_height(double h0, double growth, double last) {
   return layers <= k_most_layers ? static_cast<int>(layers) : k_too_many;
 }
 
-/// The least number that is enough on k_reach of the area.
-int enough(std::vector<Wanted>& wanted) {
-  std::ranges::sort(wanted, {}, [](const Wanted& w) { return std::pair(w.layers, w.area); });
+/// The least number that is enough on k_area_share of the area.
+int enough(std::vector<WantedLayers>& wanted) {
+  std::ranges::sort(wanted, {}, [](const WantedLayers& w) { return std::pair(w.layers, w.area); });
   double all = 0.0, below = 0.0;
-  for (const Wanted& w : wanted) all += w.area;
-  for (const Wanted& w : wanted)
-    if (below += w.area; below >= k_reach * all) return w.layers;
+  for (const WantedLayers& w : wanted) all += w.area;
+  for (const WantedLayers& w : wanted)
+    if (below += w.area; below >= k_area_share * all) return w.layers;
   return wanted.back().layers;
 }
 
@@ -51,7 +51,7 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
   Column<PatchId, PatchLayers> asked;
   for (const Patch& patch : surface.patches) asked.push_back(request_of(with_kind(patch, options.patches), options.envelope, options.patches));
   const auto is_open = [](const PatchLayers& patch) { return is_automatic(patch.layers) && !patch.has_own_height && !is_automatic(patch.first_height); };
-  std::vector<Wanted> of_triangle(surface.n_triangles());
+  std::vector<WantedLayers> of_triangle(surface.n_triangles());
   parallel_for(context, surface.n_triangles(), [&](std::size_t i) {
     const TriangleId t(i);
     const PatchLayers& patch = asked[surface.triangle_patch[t]];
@@ -63,7 +63,7 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
       h0 = std::max({options.first_heights->at(p[0]), options.first_heights->at(p[1]), options.first_heights->at(p[2])});
     of_triangle[i] = {layers_to_height(h0, patch.max_growth, k_wanted_last * k_regular_height * layer_edge_of(std::sqrt(k_equilateral * area), edge)), area};
   });
-  std::map<std::pair<double, double>, std::vector<Wanted>> groups;  // by first height and growth
+  std::map<std::pair<double, double>, std::vector<WantedLayers>> groups;  // by first height and growth
   for (const TriangleId t : surface.triangles.ids())
     if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch))
       groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
