@@ -13,8 +13,8 @@ local model = aircraft{ body, main_wing }
 -- The wall: triangles no longer than max_edge, and finer where the model is curved.
 local wall = surface_mesh{ model, max_edge = 0.2, curvature_angle = 15*deg, min_edge = 10*mm }
 
--- The mesh. Height of the first cell and number of layers are all it needs; the rest has defaults, which help(volume_mesh) lists.
-local mesh = volume_mesh{ wall, layers = 26, first_height = 2e-5, farfield = sphere{ radius = 100 }, sources = { wake{ wall, length = 2 } } }
+-- The mesh. The height of the first cell is all it needs: layers grow by 1.25 until they meet the tetrahedra. help(volume_mesh) lists the other options.
+local mesh = volume_mesh{ wall, first_height = 2e-5, farfield = sphere{ radius = 100 }, sources = { wake{ wall, length = 2 } } }
 
 -- The verdict: every face matched, every cell valid, nothing intersects. An invalid mesh is an error that names the places.
 mesh:check()

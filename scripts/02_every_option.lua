@@ -90,7 +90,7 @@ print(pre.ok, pre.coverage)
 
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
-  layers = 30,                        -- automatic: so many that the last cells are as tall as half a regular tetrahedron on nine tenths of the area
+  layers = "automatic",               -- so many that the last cells are as tall as half a regular tetrahedron on nine tenths of the area
   first_height = 1e-6 * wall.length,  -- or of flow conditions: y_plus{ ... }, below
   refinement = 1.0,                 -- of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
   family_wake = "automatic",        -- wake{ wall } where no source is given: on where refinement is given; on, off
@@ -106,8 +106,8 @@ local mesh = volume_mesh{ wall,
     fan_angle = 30*deg,             -- between two normals of an edge, at most
   },
   envelope = {
-    max_growth = 1.4,
-    growth = "local",               -- each line by one ratio of its own; uniform: flat layers grow by max_growth on all lines
+    max_growth = 1.25,
+    growth = "uniform",             -- flat layers grow by max_growth on all lines; local: each line by one ratio of its own
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
     solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
     max_thickness = "automatic",
@@ -272,7 +272,7 @@ mesh:su2_config{ "every_option.cfg", cruise,
   wall_temperature = "automatic",   -- kelvin; automatic: adiabatic
   monitor = "",                     -- patches whose forces count; empty: walls
   iterations = 5000,
-  cfl = 10,
+  cfl = 10,                         -- automatic: 10, and 5 or 1 where faces of control volumes lie nearly along their edges
   restart = false,                  -- true: from restart_flow of an earlier run
   boundaries = {},                  -- by patches: { prop = { thrust = 800 } }, or pressure_jump = 120, temperature_jump = 0; of openings pressure = 1e5, total_pressure = 1.1e5, total_temperature = 300
   kinds = {},                       -- what patches are to the solver: { ["top*"] = "slip" }

@@ -25,7 +25,7 @@ local wall = surface_mesh{ model,
 print(wall, table.concat(wall.patches, " "))
 assert(wall.is_closed and wall.crossings == 0)
 
-local mesh = volume_mesh{ wall, layers = 30, first_height = 1e-5, farfield = sphere{ radius = 200 } }
+local mesh = volume_mesh{ wall, first_height = 1e-5, farfield = sphere{ radius = 200 } }
 mesh:check()
 mesh:write("aircraft.su2", "aircraft.vtu")
 print("wrote aircraft.su2 (for SU2) and aircraft.vtu (for ParaView) into the current folder")

@@ -17,7 +17,7 @@ local support = read_cad "tunnel_sting.step"
 local tunnel = test_section{ length = 5, width = 2.4, height = 1.8, upstream = 2, inflow = "inlet", outflow = "outlet",
   max_edge = 0.25,                                                  -- of all its patches
   through = "sting",                                                -- may pass through walls; whatever else reaches out of the tunnel is an error
-  walls = { layers = 26, first_height = 20e-6 } }                   -- or walls = "slip"; floor, ceiling, left, right = ... for single ones
+  walls = { first_height = 20e-6 } }                   -- or walls = "slip"; floor, ceiling, left, right = ... for single ones
 
 local mounted = assembly{ model, support }                          -- one closed surface, since they touch
 assert(#mounted.solids == 1 and mounted.is_closed)
@@ -30,7 +30,7 @@ for _, alpha in ipairs{ -4, 12 } do
       patches = { ["body*"] = { max_edge = 0.04 }, ["wing*"] = { max_edge = 0.03, min_edge = 0.0015 }, ["sting*"] = { max_edge = 0.05 } } }
     assert(wall.is_closed and wall.crossings == 0)
     print(string.format("pitch %3d, yaw %d: %s triangles", alpha, beta, wall.triangles))
-    local mesh = volume_mesh{ wall, layers = 28, first_height = 3e-6 }   -- of the model; the walls' own came with the test section
+    local mesh = volume_mesh{ wall, first_height = 3e-6 }   -- of the model; the walls' own came with the test section
     mesh:check()
     mesh:write(string.format("tunnel_a%d_b%d.cgns", alpha, beta))
   end

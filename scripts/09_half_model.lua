@@ -30,6 +30,6 @@ local cut = half(full)
 assert(math.abs(cut.triangles / full.triangles - 0.5) < 0.015)
 
 -- Half a farfield and the plane "symmetry" are added; the layer ends in the plane.
-local mesh = volume_mesh{ wall, layers = 30, first_height = 2e-5, farfield = sphere{ radius = 150 } }
+local mesh = volume_mesh{ wall, first_height = 2e-5, farfield = sphere{ radius = 150 } }
 mesh:check()
 mesh:write("half_model.su2", "half_model.vtu")

@@ -15,7 +15,7 @@ aircraft{ body, main_wing }:write("series_model.step")
 sting{ name = "sting", from = { 1.45, 0, 0 }, to = { 2.6, 0, 0 }, diameter = 0.07, cone_start = 0.5, end_diameter = 0.13 }:model():write("series_sting.step")
 
 local tunnel = test_section{ length = 6, width = 2.4, height = 1.8, upstream = 2, through = "sting", inflow = "inlet", outflow = "outlet",
-                             max_edge = 0.4, walls = "slip" }            -- or layers: walls = { layers = 24, first_height = 20e-6 }
+                             max_edge = 0.4, walls = "slip" }            -- or layers: walls = { first_height = 20e-6 }
 local model  = read_cad "series_model.step"
 local sting  = read_cad "series_sting.step"
 
@@ -27,7 +27,7 @@ local polar = series{ "polar",
     local m = assembly{ bent, sting }:rotate{ about = {0.8, 0, 0}, pitch = p.alpha*deg, yaw = p.beta*deg }
     local wall = surface_mesh{ m, tunnel, curvature_angle = 20*deg, growth = 1.3,
       patches = { ["body*"] = { max_edge = 0.04 }, ["wing*"] = { max_edge = 0.03, min_edge = 0.0015 }, ["sting*"] = { max_edge = 0.05 } } }
-    return volume_mesh{ wall, layers = 18, first_height = 30e-6 }:write(p.name .. ".cgns")
+    return volume_mesh{ wall, first_height = 30e-6 }:write(p.name .. ".cgns")
   end }
 
 -- The table of results is there for the script, too; NAME/series.csv and series.json hold the same.

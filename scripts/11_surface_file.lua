@@ -10,7 +10,6 @@ print(given)
 local wall = remesh{ given }
 
 local mesh = volume_mesh{ wall,
-  layers = 24,
   first_height = 1e-5 * wall.length,
   farfield = sphere{ radius = 30 * wall.length },
   sources = { wake{ wall, length = 2 } } }

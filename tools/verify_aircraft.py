@@ -20,16 +20,17 @@ def script_before(name: str, end: str) -> str:
     return text[:text.index(end)]
 
 
-def model_mesh(model: str, options: str) -> str:
-    return f"local wall = surface_mesh{{ half({model}), {options} }}\n"
+def model_mesh(model: str, refinement: float) -> str:
+    """The whole wall is cut at the plane of symmetry and meshed again: the plane runs along edges of some models, which are hard to cut themselves."""
+    return f"local wall = remesh{{ half{{ surface_mesh{{ union{{ {model} }}, refinement = 0.5, curvature_angle = 24*deg }} }}, refinement = {refinement} }}\n"
 
 
-def file_mesh(reader: str, file: str, options: str) -> str:
-    return model_mesh(f'{reader} "{DATA / file}"', options)
+def file_mesh(reader: str, file: str, refinement: float) -> str:
+    return model_mesh(f'{reader} "{DATA / file}"', refinement)
 
 
-def surface_mesh(file: str, options: str, remesh: str) -> str:
-    return f'local wall = remesh{{ half{{ read_surface{{ "{DATA / file}", {options} }} }}, {remesh} }}\n'
+def surface_mesh(file: str, options: str, refinement: float) -> str:
+    return f'local wall = remesh{{ half{{ read_surface{{ "{DATA / file}", {options} }} }}, refinement = {refinement} }}\n'
 
 
 class Aircraft:
@@ -42,35 +43,34 @@ class Aircraft:
         return not self.file or (DATA / self.file).exists()
 
 
-def of_file(name: str, reader: str, file: str, options: str, **more) -> Aircraft:
-    return Aircraft(name, lambda: file_mesh(reader, file, options), file, **more)
+def of_file(name: str, reader: str, file: str, refinement: float, **more) -> Aircraft:
+    return Aircraft(name, lambda: file_mesh(reader, file, refinement), file, **more)
 
 
-def of_surface(name: str, file: str, options: str, remesh: str, **more) -> Aircraft:
+def of_surface(name: str, file: str, options: str, refinement: float, **more) -> Aircraft:
     file = "surfaces/clean/" + file
-    return Aircraft(name, lambda: surface_mesh(file, options, remesh), file, **more)
+    return Aircraft(name, lambda: surface_mesh(file, options, refinement), file, **more)
 
 
-COARSE = "refinement = 0.5, curvature_angle = 24*deg"
 AIRCRAFT = [
-    Aircraft("airliner", lambda: script_before("03_airliner.lua", "model:write") + model_mesh("model", COARSE), fast=True, sst=True),
-    Aircraft("light", lambda: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", COARSE), fast=True, sst=True),
-    of_file("bjet", "read_smx", "smx/bjet.smx", COARSE, fast=True),
-    of_file("widebody", "read_smx", "smx/widebody.smx", COARSE),
-    of_file("delta", "read_smx", "smx/delta.smx", COARSE, fast=True),
-    of_file("D150", "read_cpacs", "cpacs/CPACS_30_D150.xml", COARSE, fast=True),
-    of_file("box_wing", "read_cpacs", "cpacs/boxWing.xml", COARSE),
-    of_surface("geom2", "vspgeom_geom2_geom2.stl", "split_angle = 60*deg", "refinement = 0.6", sst=True),
-    of_surface("wing_body", "wing_body_79k.stl", "split_angle = 60*deg", "refinement = 0.6"),
-    of_surface("dlr_f6", "dlr_f6_184k.stl", "unit = mm, split_angle = 60*deg", "refinement = 0.6"),
-    of_surface("cessna", "flowpanel_cessna_cessna.msh", "unit = ft, split_angle = 60*deg", "refinement = 0.6", sst=True),
-    of_surface("airplane", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", "refinement = 0.6", fast=True),
+    Aircraft("airliner", lambda: script_before("03_airliner.lua", "model:write") + model_mesh("model", 0.1), fast=True, sst=True),
+    Aircraft("light", lambda: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", 0.3), fast=True, sst=True),
+    of_file("bjet", "read_smx", "smx/bjet.smx", 0.28, fast=True),
+    of_file("widebody", "read_smx", "smx/widebody.smx", 0.19),
+    of_file("delta", "read_smx", "smx/delta.smx", 0.3, fast=True),
+    of_file("D150", "read_cpacs", "cpacs/CPACS_30_D150.xml", 0.33, fast=True),
+    of_file("box_wing", "read_cpacs", "cpacs/boxWing.xml", 0.3),
+    of_surface("geom2", "vspgeom_geom2_geom2.stl", "split_angle = 60*deg", 0.6, sst=True),
+    of_surface("wing_body", "wing_body_79k.stl", "split_angle = 60*deg", 0.6),
+    of_surface("dlr_f6", "dlr_f6_184k.stl", "unit = mm, split_angle = 60*deg", 0.26),
+    of_surface("cessna", "flowpanel_cessna_cessna.msh", "unit = ft, split_angle = 60*deg", 0.36, sst=True),
+    of_surface("airplane", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", 0.5, fast=True),
 ]
 SHORT = ["light", "geom2"]
 
 MESH = """
 local stream = flow{ mach = 0.2, altitude = 0, length = wall.length }
-local cells = volume_mesh{ wall, layers = "automatic", growth = "uniform", max_growth = 1.25, first_height = y_plus{ 1, stream },
+local cells = volume_mesh{ wall, first_height = y_plus{ 1, stream },
   farfield = sphere{ radius = 20*wall.length } }
 cells:write "mesh.sterna"
 print("counts", wall.triangles, wall.length)

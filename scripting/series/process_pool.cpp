@@ -104,10 +104,10 @@ CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunCo
   const CaseStatus status = read_status(task.folder, context);
   if (status.key == task.key && (status.is_final() || status.state == CaseState::killed)) return status;
   CaseStatus settled = otherwise;
-  // The build is part of the key, so this worker was of another one.
+  // Build and script are part of the key, so this worker was of others.
   if (status.is_final() && !status.key.empty() && !status.key.ends_with(k_of_earlier_run)) {
     settled.state = CaseState::killed;
-    settled.message = "another build of sterna, which has replaced this one, worked on it: run the series again";
+    settled.message = "another build of sterna, or the script as it was changed meanwhile, worked on it: run the series again";
   }
   settled.found = status.found;
   write_status(settled, task.folder);

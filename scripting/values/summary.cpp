@@ -208,8 +208,8 @@ std::string summary_text(const MeshValue& mesh) {
       text += fmt::format("  truncated   {:.2f} % of patch \"{}\", down to {}\n", 100.0 * patch.truncated, patch.name,
                           patch.least_layers == 1 ? "1 layer" : fmt::format("{} layers", patch.least_layers));
   if (layer.n_compressed > 0)
-    text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
-                        count_text(layer.n_compressed), count_text(layer.n_vertices));
+    text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (too low for the first height that is asked for)\n",
+                        100.0 * layer.compressed_area, count_text(layer.n_compressed), count_text(layer.n_vertices));
   if (!layer.collapsed.empty())
     text += fmt::format("  collapsed   {:.2f} % of the area, {}; first at {}: {}\n", 100.0 * layer.collapsed_area,
                         counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"), format_point(layer.collapsed.front().position),

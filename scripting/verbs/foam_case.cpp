@@ -49,10 +49,10 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
 
 /// The explicit part of normal gradients grows with the tangent of the angle between a face and the line of the centres beside it. The two limits are the
 /// custom of OpenFOAM's users. That the least limiter keeps runs from diverging was measured on one airliner at 89 degrees (docs/flow.md).
-void choose_correction(FoamSetup& setup, const FoamMeasures& measures) {
-  const double degrees = measures.non_orthogonality * k_degrees;
-  std::string measured = fmt::format("The largest angle between the normal of a face and the line of its cells' centres is {:.4g} degrees", degrees);
-  if (measures.place) measured += fmt::format(" at ({:.6g}, {:.6g}, {:.6g})", measures.place->x, measures.place->y, measures.place->z);
+void choose_correction(FoamSetup& setup, const CaseMeasure& non_orthogonality) {
+  const double degrees = non_orthogonality.worst * k_degrees;
+  const std::string measured = fmt::format("The largest angle between the normal of a face and the line of its cells' centres is {:.4g} degrees{}", degrees,
+                                           at_place(non_orthogonality));
   if (degrees <= k_full_correction) {
     setup.correction_reason = fmt::format("{}: up to {:g} the correction is made in full.", measured, k_full_correction);
   } else if (degrees <= k_half_correction) {
@@ -125,32 +125,6 @@ void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
 
 }  // namespace
 
-FoamMeasures foam_measures(const HybridMesh& mesh, const CheckReport* known, const RunContext& context) {
-  std::optional<CheckReport> own;
-  const auto is_measured = [](const CheckReport& report) {
-    return report.quality_measured && report.gate(Measure::non_orthogonality).state != GateState::not_checked;
-  };
-  if (!known || !is_measured(*known)) {
-    CheckOptions options;
-    options.intersections = false;
-    own = check(mesh, options, context);
-    known = &*own;
-  }
-  if (own && !own->dual_checked) {
-    ErrorInfo info{.code = ErrorCode::bad_argument,
-                   .attempted = "making a case of OpenFOAM",
-                   .problem = "the mesh does not conform, so no solver can take it",
-                   .hint = "sterna check tells where"};
-    if (!known->findings.empty()) info.add_place(known->findings.front().position, known->findings.front().what);
-    throw Error(std::move(info));
-  }
-  const GateResult& gate = known->gate(Measure::non_orthogonality);
-  FoamMeasures measures{.non_orthogonality = gate.worst, .place = {}};  // 0 in a mesh of one cell
-  for (const auto* places : {&gate.places, &gate.forced})
-    if (!places->empty() && places->front().value == gate.worst) measures.place = places->front().position;
-  return measures;
-}
-
 void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flow, CaseProblems& problems) {
   if (!is_compressible(options, flow)) return;
   if (is_automatic(flow.temperature) || is_automatic(flow.pressure) || is_automatic(flow.speed))
@@ -160,7 +134,7 @@ void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flo
 }
 
 FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
-                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const FoamMeasures& measures) {
+                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const CaseMeasure& non_orthogonality) {
   CaseProblems problems;
   const CaseSite site = case_site(mesh, common, problems);
   FoamSetup setup{.options = options, .common = common, .flow = flow};
@@ -173,7 +147,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   require_foam_flow(options, flow, problems);
   complete_flow(setup, context);
   set_turbulence(setup);
-  choose_correction(setup, measures);
+  choose_correction(setup, non_orthogonality);
   setup.velocity = setup.flow.speed * direction_of(mesh, site, common);
   setup.area = reference_area(reference, site);
   setup.length = reference_length(reference, setup.flow);

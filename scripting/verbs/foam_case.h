@@ -36,16 +36,6 @@ struct CaseFile {
   bool is_program = false;
 };
 
-/// What the numerics are chosen by.
-struct FoamMeasures {
-  double non_orthogonality = 0.0;  ///< radians, the largest between two cells (Measure::non_orthogonality)
-  std::optional<Point> place;      ///< of that face, where it misses a limit of its gate
-};
-
-/// Of the last check of the mesh, or by a check of its own where that has not measured it.
-/// \throws Error(bad_argument) where the mesh does not conform, so that nothing can be measured
-FoamMeasures foam_measures(const HybridMesh& mesh, const CheckReport* known, const RunContext& context);
-
 /// All of a case but its polyMesh.
 struct FoamCase {
   std::string application;  ///< "simpleFoam"
@@ -57,10 +47,10 @@ struct FoamCase {
 /// their kinds; farfield: free stream or extrapolation by the direction of the flow through each face; inflow and outflow of tunnels (no farfield): speed and
 /// pressure of the flow, along the patch's normal; of bodies in a farfield, and actuator discs: as `boundaries` says. Forces are counted on all walls but those
 /// of tunnels; half models: half the area; without a reference area only forces, no coefficients. A flow of which only the Reynolds number is known gets a
-/// speed of 1 m/s. Non-orthogonal corrections follow from the measures. What was decided goes to the log.
+/// speed of 1 m/s. Corrections of normal gradients follow from the largest Measure::non_orthogonality. What was decided goes to the log.
 /// \throws Error(bad_argument) with everything that cannot be known from the mesh and what was given
 FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
-                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const FoamMeasures& measures = {});
+                   const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const CaseMeasure& non_orthogonality = {});
 
 /// What a case needs of the flow, whatever the mesh is: problems for the reader of a table, before meshing.
 void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flow, CaseProblems& problems);

@@ -57,6 +57,19 @@ END {
 }
 )AWK";
 
+constexpr std::string_view k_scale = R"AWK(# awk -v density=1.2 -f scale.awk FIELD: the field with its uniform vectors times the density.
+{
+  rest = $0
+  line = ""
+  while (match(rest, /uniform \([^)]*\)/)) {
+    split(substr(rest, RSTART + 9, RLENGTH - 10), v, " ")
+    line = line substr(rest, 1, RSTART - 1) sprintf("uniform (%.12g %.12g %.12g)", v[1] * density, v[2] * density, v[3] * density)
+    rest = substr(rest, RSTART + RLENGTH)
+  }
+  print line rest
+}
+)AWK";
+
 /// What follows on the variables of steady_variables().
 constexpr std::string_view k_steady_run = R"SH(
 # Times with results, and files of a function object in the order of the parts.
@@ -106,11 +119,14 @@ if [ "$at" = 0 ]; then
     # Fluxes that conserve mass; without them the first iterations make velocities far above the flow's. The velocity itself stays uniform, because what
     # potentialFoam reconstructs from its fluxes is wrong in Debian's OpenFOAM 1912.
     cp 0/U U.start && cp 0/Phi Phi.start && cp system/stage.start system/stage || exit 1
+    # Of a gas they are of mass: potentialFoam gets velocities times the density of the free stream.
+    [ -z "$density" ] || awk -v density="$density" -f system/scale.awk U.start > 0/U || exit 1
     echo "running potentialFoam"
     potentialFoam -writephi -noFunctionObjects > log.potentialFoam 2>&1 || {
       rm -f 0/phi
       echo "potentialFoam failed, see log.potentialFoam: the run starts from uniform flow"
     }
+    [ -z "$density" ] || [ ! -f 0/phi ] || LC_ALL=C sed -i 's/^dimensions .*/dimensions [1 0 -1 0 0 0 0];/' 0/phi || exit 1
     mv U.start 0/U && mv Phi.start 0/Phi && cp system/stage.final system/stage || exit 1
   fi
   [ "$tasks" = 1 ] || run decomposePar decomposePar -force
@@ -160,6 +176,7 @@ class RunFiles {
       add("system/stage.start", start_stage());
       add("system/runControl", fmt::format("endTime {};\nwriteInterval {};\n", s_.common.iterations, interval()));
       add("system/judge.awk", std::string(k_judge));
+      if (has_mass_fluxes()) add("system/scale.awk", std::string(k_scale));
     }
     add("Allrun", head() + (s_.options.steady ? steady_variables() + std::string(k_steady_run) + reset_control() : run_in_time()), true);
     add("Allclean", clean_script(), true);
@@ -167,6 +184,8 @@ class RunFiles {
   }
 
  private:
+  bool has_potential() const { return !s_.is_compressible || s_.flow.mach < 1.0; }
+  bool has_mass_fluxes() const { return s_.is_compressible && has_potential(); }
   bool is_in_parts() const { return s_.common.iterations >= k_least_iterations; }
   int part() const { return is_in_parts() ? k_part : s_.common.iterations; }
   /// Of results: at the end of each part, and as often as was asked for.
@@ -219,7 +238,8 @@ class RunFiles {
     set("first_sign", case_number(k_first_sign * limit), "m/s, by which the place is found where that began");
     set("watched", std::to_string(k_first_watched), "iteration from which on the velocity is judged; before, the impulse of the start has not faded");
     set("radius", case_number(k_place_radius * s_.flow.length), "m, of a picture of that place");
-    set("has_potential", s_.is_compressible ? "no" : "yes", "fluxes of potentialFoam at the start: volumes, which a gas solver does not read");
+    set("has_potential", has_potential() ? "yes" : "no", "fluxes of potentialFoam at the start; supersonic flow has no such potential");
+    set("density", has_mass_fluxes() ? case_number(s_.density) : "", "kg/m^3, of the free stream: those fluxes are of mass; empty: of volume");
     return text;
   }
 

@@ -1,4 +1,4 @@
-// constant/, system/ and Allrun of a case of OpenFOAM. Every scheme has its reason beside it in the file: docs/verification.md has the figures.
+// constant/, system/ and Allrun of a case of OpenFOAM. Every scheme has its reason beside it in the file: docs/measurements/solvers.md has the figures.
 #include <algorithm>
 #include <array>
 #include <cmath>

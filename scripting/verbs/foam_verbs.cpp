@@ -80,8 +80,9 @@ void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const 
   require_known_kinds(mesh.unknown_kinds, request.kinds, attempted);
   FoamCase files;
   try {
-    const FoamMeasures measures = foam_measures(seen, mesh.check ? &*mesh.check : nullptr, context.part("check", 0.0, k_measured));
-    files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context, measures);
+    const CaseMeasure worst =
+        measured_worst(seen, Measure::non_orthogonality, mesh.check ? &*mesh.check : nullptr, "OpenFOAM", context.part("check", 0.0, k_measured));
+    files = foam_case(seen, options, request.options, request.flow, request.reference, request.boundaries, context, worst);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = attempted;

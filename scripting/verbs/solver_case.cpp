@@ -98,6 +98,33 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
 
 }  // namespace
 
+CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckReport* known, std::string_view solver, const RunContext& context) {
+  std::optional<CheckReport> own;
+  if (!known || !known->quality_measured || known->gate(measure).state == GateState::not_checked) {
+    CheckOptions options;
+    options.intersections = false;
+    own = check(mesh, options, context);
+    known = &*own;
+  }
+  if (own && !own->dual_checked) {
+    ErrorInfo info{.code = ErrorCode::bad_argument,
+                   .attempted = "making a case of " + std::string(solver),
+                   .problem = "the mesh does not conform, so no solver can take it",
+                   .hint = "sterna check tells where"};
+    if (!known->findings.empty()) info.add_place(known->findings.front().position, known->findings.front().what);
+    throw Error(std::move(info));
+  }
+  const GateResult& gate = known->gate(measure);
+  CaseMeasure result{.worst = gate.worst, .place = {}};  // in a mesh of one cell 0 between cells
+  for (const auto* places : {&gate.places, &gate.forced})
+    if (!places->empty() && places->front().value == gate.worst) result.place = places->front().position;
+  return result;
+}
+
+std::string at_place(const CaseMeasure& measure) {
+  return measure.place ? fmt::format(" at ({:.6g}, {:.6g}, {:.6g})", measure.place->x, measure.place->y, measure.place->z) : "";
+}
+
 void CaseProblems::require_none(const std::string& attempted) const {
   std::string text;
   for (const std::string& problem : all_) text += (text.empty() ? "" : "; ") + problem;

@@ -5,10 +5,12 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
+#include "geom/mesh/check.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/flow/flow_state.h"
 
@@ -59,6 +61,18 @@ struct CaseRequest {
   CaseBoundaries boundaries;
   std::vector<CaseKind> kinds;
 };
+
+/// The worst value of a quality measure, by which a solver's numerics are chosen.
+struct CaseMeasure {
+  double worst = 0.0;          ///< in the measure's unit
+  std::optional<Point> place;  ///< m, where it misses a limit of its gate
+};
+
+/// Of the last check of the mesh, or by a check of its own where that has not measured it. \p solver as the error names it
+/// \throws Error(bad_argument) where the mesh does not conform, so that nothing can be measured
+CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckReport* known, std::string_view solver, const RunContext& context);
+/// " at (x, y, z)", or nothing.
+std::string at_place(const CaseMeasure& measure);
 
 struct PatchFacts {
   std::size_t n_faces = 0;

@@ -19,6 +19,20 @@ namespace {
 
 using volmesh::FlowState;
 
+/// How SU2 marches to the steady state. SU2's own advice for RANS and upwind schemes: a CFL number below 20 is low, above 100 high; ten iterations of the
+/// linear solver are enough on a sound mesh. Faces of control volumes that lie along their edges make the matrix less dominant, so lower numbers come with more
+/// iterations there. The two limits are the gate's (G5); no run has tested them, since SU2 is not in Debian.
+struct March {
+  double cfl, largest_cfl;
+  int linear_iterations;
+};
+constexpr March k_usual_march{.cfl = 10.0, .largest_cfl = 1000.0, .linear_iterations = 10};
+constexpr March k_careful_march{.cfl = 5.0, .largest_cfl = 100.0, .linear_iterations = 15};
+constexpr March k_slow_march{.cfl = 1.0, .largest_cfl = 20.0, .linear_iterations = 20};
+constexpr int k_force_window = 200;            ///< iterations
+constexpr double k_force_change = 0.002;       ///< of lift and drag within the window
+constexpr double k_no_angle = 0.1 * k_degree;  ///< of attack: lift may be zero below it
+
 std::string list(const std::vector<std::string>& entries) {
   if (entries.empty()) return "( NONE )";
   std::string text;
@@ -29,13 +43,14 @@ std::string list(const std::vector<std::string>& entries) {
 class Configuration {
  public:
   Configuration(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const FlowState& flow, const CaseReference& reference,
-                const CaseBoundaries& boundaries, const RunContext& context)
+                const CaseBoundaries& boundaries, const CaseMeasure& orthogonality, const RunContext& context)
       : mesh_(mesh),
         options_(options),
         common_(common),
         flow_(flow),
         reference_(reference),
         boundaries_(boundaries),
+        orthogonality_(orthogonality),
         context_(context),
         site_(case_site(mesh, common, problems_)),
         names_(io::su2_marker_names(mesh.patches, RunContext())) {
@@ -240,12 +255,34 @@ class Configuration {
   }
 
   std::string numerics() const {
-    std::string text = title("Numerics to start from") + "NUM_METHOD_GRAD= WEIGHTED_LEAST_SQUARES\nCFL_NUMBER= " + case_number(options_.cfl) +
-                       "\nCFL_ADAPT= YES\nCFL_ADAPT_PARAM= ( 0.1, 1.2, " + case_number(std::min(options_.cfl, 10.0)) + ", 1e3 )\n" +
+    const GateLimits& limits = info_of(Measure::orthogonality).limits;
+    const double worst = orthogonality_.worst;
+    const March march = worst >= limits.target ? k_usual_march : worst >= limits.hard ? k_careful_march : k_slow_march;
+    const double cfl = is_automatic(options_.cfl) ? march.cfl : options_.cfl;
+    const std::string because = fmt::format("% The least angle between a face of the control volumes and its edge is {:.4g} degrees{}, {}.\n",
+                                            worst * k_degrees, at_place(orthogonality_),
+                                            worst >= limits.target ? fmt::format("above {:g}: usual CFL numbers", limits.target * k_degrees)
+                                                                   : fmt::format("below {:g}: lower CFL numbers, and more iterations of the linear solver",
+                                                                                 (worst >= limits.hard ? limits.target : limits.hard) * k_degrees));
+    std::string text = title("Numerics") + because + "NUM_METHOD_GRAD= WEIGHTED_LEAST_SQUARES\nCFL_NUMBER= " + case_number(cfl) +
+                       "\nCFL_ADAPT= YES\nCFL_ADAPT_PARAM= ( 0.1, 1.2, " + case_number(std::min(cfl, march.cfl)) + ", " +
+                       case_number(std::max(cfl, march.largest_cfl)) + " )\n" +
                        "CONV_NUM_METHOD_FLOW= ROE\nMUSCL_FLOW= YES\nSLOPE_LIMITER_FLOW= VENKATAKRISHNAN\nTIME_DISCRE_FLOW= EULER_IMPLICIT\n";
     if (solver_ == "RANS") text += "CONV_NUM_METHOD_TURB= SCALAR_UPWIND\nMUSCL_TURB= NO\nTIME_DISCRE_TURB= EULER_IMPLICIT\n";
-    text += "LINEAR_SOLVER= FGMRES\nLINEAR_SOLVER_PREC= ILU\nLINEAR_SOLVER_ERROR= 1e-3\nLINEAR_SOLVER_ITER= 10\nMGLEVEL= 0\n";
-    return text + "ITER= " + std::to_string(common_.iterations) + "\nCONV_FIELD= RMS_DENSITY\nCONV_RESIDUAL_MINVAL= -9\nCONV_STARTITER= 10\n";
+    text +=
+        fmt::format("LINEAR_SOLVER= FGMRES\nLINEAR_SOLVER_PREC= ILU\nLINEAR_SOLVER_ERROR= 1e-3\nLINEAR_SOLVER_ITER= {}\nMGLEVEL= 0\n", march.linear_iterations);
+    return text + "ITER= " + std::to_string(common_.iterations) + "\n" + end();
+  }
+
+  /// Of a force SU2 takes the mean change from one iteration to the next, over the force; of several all have to be below it.
+  std::string end() const {
+    if (monitored_.empty()) return "CONV_FIELD= RMS_DENSITY\nCONV_RESIDUAL_MINVAL= -9\nCONV_STARTITER= 10\n";
+    const bool has_lift = std::abs(common_.alpha) > k_no_angle;
+    return fmt::format(
+        "% The run ends when {} changed by less than {:g} % over {} iterations.\nCONV_FIELD= {}\nCONV_CAUCHY_ELEMS= {}\nCONV_CAUCHY_EPS= {:g}\n"
+        "CONV_STARTITER= {}\n",
+        has_lift ? "drag and lift have" : "drag has", 100.0 * k_force_change, k_force_window, has_lift ? "( DRAG, LIFT )" : "DRAG", k_force_window,
+        k_force_change / k_force_window, k_force_window);
   }
 
   /// SU2 has it where there are two markers at least.
@@ -268,6 +305,7 @@ class Configuration {
   const FlowState& flow_;
   const CaseReference& reference_;
   UsedBoundaries boundaries_;
+  CaseMeasure orthogonality_;
   const RunContext& context_;
   CaseProblems problems_;
   CaseSite site_;
@@ -287,8 +325,8 @@ void require_su2_flow(const FlowState& flow, std::optional<bool> is_viscous, Cas
 }
 
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const FlowState& flow, const CaseReference& reference,
-                       const CaseBoundaries& boundaries, const RunContext& context) {
-  return Configuration(mesh, options, common, flow, reference, boundaries, context).text();
+                       const CaseBoundaries& boundaries, const RunContext& context, const CaseMeasure& orthogonality) {
+  return Configuration(mesh, options, common, flow, reference, boundaries, orthogonality, context).text();
 }
 
 }  // namespace sterna::scripting

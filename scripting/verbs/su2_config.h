@@ -6,6 +6,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
+#include "geom/math/constants.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "scripting/verbs/solver_case.h"
 #include "volmesh/flow/flow_state.h"
@@ -17,7 +18,7 @@ struct Su2Options {
   std::string solver = "automatic";
   std::string turbulence = "SA";
   std::string wall_functions = "automatic";
-  double cfl = 10.0;
+  double cfl = k_automatic;
   bool restart = false;
 };
 
@@ -25,10 +26,11 @@ struct Su2Options {
 /// MARKER_SYM; farfield: MARKER_FAR; inflow and outflow of tunnels (no farfield): total conditions and pressure of the flow, along the patch's normal; of
 /// bodies in a farfield, and actuator discs: as `boundaries` says. Forces are counted on all walls but those of tunnels (which touch an inflow or outflow).
 /// Half models: half the area. Tunnels need no reference area; those without a model in them (ducts) monitor no forces. MARKER_ANALYZE are their openings.
-/// What was decided goes to the log. \p boundaries by the names of patches
+/// CFL numbers and the linear solver follow from the least Measure::orthogonality. What was decided goes to the log. \p boundaries by the names of patches
 /// \throws Error(bad_argument) with everything that cannot be known from the mesh and what was given
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const volmesh::FlowState& flow,
-                       const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context);
+                       const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context,
+                       const CaseMeasure& orthogonality = {.worst = 90.0 * k_degree, .place = {}});
 
 /// What a configuration needs of the flow, whatever the mesh is. \param is_viscous unknown before meshing: nothing is asked of the temperature
 void require_su2_flow(const volmesh::FlowState& flow, std::optional<bool> is_viscous, CaseProblems& problems);
@@ -53,7 +55,12 @@ struct Schema<scripting::Su2Options> {
                .member = &O::wall_functions,
                .help = "of RANS on walls; automatic: where the first height that was asked for means a y+ above 20 in this flow",
                .choices = "automatic yes no"},
-      Field<O>{.name = "cfl", .member = &O::cfl, .min = 0.01, .max = 1e6, .help = "CFL number at the start; SU2 adapts it"},
+      Field<O>{.name = "cfl",
+               .member = &O::cfl,
+               .min = 0.01,
+               .max = 1e6,
+               .help = "CFL number at the start; SU2 adapts it",
+               .automatic = "10; 5 or 1 where faces of control volumes lie nearly along their edges"},
       Field<O>{.name = "restart", .member = &O::restart, .help = "go on from restart_flow, which an earlier run has written"},
   };
 };

@@ -25,7 +25,8 @@ void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest
   require_known_kinds(mesh.unknown_kinds, request.kinds, attempted);
   std::string text;
   try {
-    text = su2_config(seen, options, request.options, request.flow, request.reference, request.boundaries, context);
+    const CaseMeasure worst = measured_worst(seen, Measure::orthogonality, mesh.check ? &*mesh.check : nullptr, "SU2", context);
+    text = su2_config(seen, options, request.options, request.flow, request.reference, request.boundaries, context, worst);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = attempted;

@@ -40,8 +40,8 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   for (const char* part :
        {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in the own engine, ", "memory", "wrote box.su2"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
-  // It has a FAIL, so there is much to tell, in few lines: the worst place and what to do.
-  EXPECT_LE(std::count(result.errors.begin(), result.errors.end(), '\n'), 12) << result.errors;
+  // It has a FAIL, and layers far thinner than the tetrahedra, so there is much to tell, in few lines: the worst place and what to do.
+  EXPECT_LE(std::count(result.errors.begin(), result.errors.end(), '\n'), 13) << result.errors;
   for (const char* part : {" FAIL ", "hard limit ", "; remesh the wall there"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
   for (const char* name : {"box.su2", "box.su2.json", "box.vtu", "box.vtu.json", "stats.json"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;

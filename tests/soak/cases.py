@@ -255,6 +255,8 @@ def layers(rng, size):
         made["open_ridges"] = '"always"'
     if rng.random() < 0.15:
         made["truncate"] = rng.choice(['"auto"', '"always"'])
+        if made["truncate"] == '"always"':
+            made["growth"] = '"local"'  # with uniform growth lines are told as compressed that keep all layers, with lower first cells
     return made
 
 

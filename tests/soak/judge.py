@@ -202,9 +202,9 @@ class Judge:
         return ""
 
     def asked_truncation(self, case, manifest, found, told, text):
-        """Where lines are lower than layers times first height, though not collapsed, `truncate = "always"` leaves columns of fewer prisms. Of lines a little lower than asked for all layers may stay: one less would be a step of more than
+        """Where lines are lower than layers times first height, though not collapsed, `truncate = "always"` leaves columns of fewer prisms (`growth = "local"`: of uniform growth `compressed` counts lines whose first cells alone are lower). Of lines a little lower than asked for all layers may stay: one less would be a step of more than
         max_growth."""
-        if case["volume"].get("truncate") != '"always"' or case.get("tunnel"):
+        if case["volume"].get("truncate") != '"always"' or case["volume"].get("growth") != '"local"' or case.get("tunnel"):
             return ""
         for patch in manifest["layer"]["patches"]:
             layers = found["markers"].get(patch["name"], {}).get("layers")

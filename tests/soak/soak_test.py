@@ -33,7 +33,7 @@ WING = PLAIN | {"kind": "aircraft", "farfield": {}, "surface": {"max_edge": "0.3
 SHARP = WING | {"turned": [], "volume": WING["volume"] | {"open_ridges": '"always"'},
                 "components": [WING["components"][0] | {"lua": WING["components"][0]["lua"].replace("trailing_edge = 0.01", "trailing_edge = 0"), "after": []}]}
 # Two blocks with a gap that is too narrow for the layers of both.
-LOW = PLAIN | {"volume": {"layers": "5", "first_height": "0.01", "truncate": '"always"'},
+LOW = PLAIN | {"volume": {"layers": "5", "first_height": "0.01", "truncate": '"always"', "growth": '"local"'},
                "components": [{"name": "part0", "lua": 'box{ {0, 0, 0}, {1, 1, 1}, name = "part0" }', "needs": []},
                               {"name": "part1", "lua": 'box{ {0, 0, 1.08}, {1, 1, 1.3}, name = "part1" }', "needs": []}]}
 ROW = PLAIN | {"farfield": {}, "periodic": [["tunnel_left", "tunnel_right", ["0", "2", "0"]]], "tunnel_box": [["-2", "-1", "-1"], ["3", "1", "1"]],

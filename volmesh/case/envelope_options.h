@@ -9,10 +9,10 @@
 namespace sterna::volmesh {
 
 struct EnvelopeOptions {
-  int layers = 30;
+  int layers = k_automatic_count;
   double first_height = k_automatic;
-  double max_growth = 1.4;
-  std::string growth = "local";
+  double max_growth = 1.25;
+  std::string growth = "uniform";
   double total_height = k_automatic;
   std::string solve_for = "none";
   double max_thickness = k_automatic;
@@ -68,7 +68,7 @@ struct Schema<volmesh::EnvelopeOptions> {
       Field<O>{.name = "growth",
                .member = &O::growth,
                .help = "uniform: flat layers grow by max_growth on all lines, and the ratio bends to each line's total height where cells are taller than a "
-                       "twentieth of their edges; local: each line grows by one ratio of its own",
+                       "hundredth of their edges; local: each line grows by one ratio of its own",
                .choices = "uniform local"},
       Field<O>{.name = "total_height",
                .member = &O::total_height,

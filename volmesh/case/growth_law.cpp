@@ -37,7 +37,7 @@ BentSum bent_sum(const LineGrowth& line, double bend, int n) {
   BentSum result{.sum = line.h0, .last = line.h0};
   double h = line.h0, dh = 0.0;
   for (int j = 1; j < n; ++j) {
-    const double share = bend_share(h, line.edge), dshare = share < 1.0 ? 4.0 * share * dh / h : 0.0;
+    const double share = bend_share(h, line.edge), dshare = share < 1.0 ? 2.0 * share * dh / h : 0.0;
     double ratio = 1.0, dratio = 0.0;
     if (bend >= 0.0) {
       const double d = 1.0 / (1.0 + bend * share);
@@ -122,7 +122,7 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
 
 double bend_share(double height, double edge) {
   const double x = k_flat_edges * height / edge;
-  return x < 1.0 ? (x * x) * (x * x) : 1.0;
+  return x < 1.0 ? x * x : 1.0;
 }
 
 double layer_height(double h0, double r, int n) { return h0 * geometric_sum(r - 1.0, n); }

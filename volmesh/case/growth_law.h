@@ -23,9 +23,9 @@ void layer_parameters(double h0, double height, int n, double* t);
 ///
 /// Local: by one ratio, which each line has for itself, eq. (11). The centroid of a prism whose corner heights are in proportions that change from one layer to
 /// the next by a share s moves sideways by s/4 of an edge e, so the face between two flat cells of height h leans by atan(s e / 4 h): 0.1 % are 68 degrees at
-/// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, (20 h_j / e)^4)), at least 1, with one g for all lines and a bend b that follows from the total height of the
-/// line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; where the bends of neighbours differ by a small d, faces lean by atan(5 d) at most for
-/// it. Lines that are far lower than asked would end with cells too low for the tetrahedra on them: the bend is limited so that the ratio at the top is at
+/// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, (100 h_j / e)^2)), at least 1, with one g for all lines and a bend b that follows from the total height of
+/// the line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; where the bends of neighbours differ by a small d, faces lean by atan(25 d) at most
+/// for it. Lines that are far lower than asked would end with cells too low for the tetrahedra on them: the bend is limited so that the ratio at the top is at
 /// least 1 + 0.6 (r - 1), where r is the ratio there of a line as tall as asked. Still lower lines get lower first cells, all cells by one share; a third lower
 /// still, they have the bend of a line as tall as asked.
 struct LineGrowth {
@@ -40,8 +40,8 @@ void layer_parameters(const LineGrowth& line, double height, int n, double* t);
 /// Ratio of the cells at the top, which are where it differs most from the common one, or the common one where it is larger; 1 when compressed.
 double largest_growth(const LineGrowth& line, double height, int n);
 /// Edges over heights above which cells are flat.
-inline constexpr double k_flat_edges = 20.0;
-/// How much of a change of ratios may act on a cell of this height, 0 to 1: the fourth power of 20 h / e leaves flat cells nearly alone.
+inline constexpr double k_flat_edges = 100.0;
+/// How much of a change of ratios may act on a cell of this height, 0 to 1: the square of 100 h / e leaves flat cells nearly alone.
 double bend_share(double height, double edge);
 /// Total height of n layers, m, whose last cell is as tall as the wall's edge, eq. (1); with a common ratio as tall as a regular tetrahedron on it.
 double height_by_edge(double h0, double edge, double r_max, int n, bool has_common_growth);

@@ -19,7 +19,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_wanted_last = 0.5;  ///< of the height of a regular tetrahedron on the triangle
-constexpr double k_area_share = 0.9;        ///< share of the area
+constexpr double k_area_share = 0.9;   ///< share of the area
 constexpr int k_most_layers = 1000;    ///< as the option's own range
 constexpr int k_too_many = k_most_layers + 1;
 

@@ -45,7 +45,7 @@ EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& optio
 
 double EnvelopeScale::unlimited_height(VertexId v) const {
   const double given = total_height(v);
-  return is_automatic(given) ? height_by_edge(h0(v), base_->layer_edge[v], max_growth(v), n(v), has_common_growth_) : given;
+  return is_automatic(given) ? height_by_edge(first_step(v), base_->layer_edge[v], max_growth(v), n(v), has_common_growth_) : given;
 }
 
 double EnvelopeScale::asked_height(VertexId v) const { return std::min(unlimited_height(v), max_thickness(v)); }

@@ -25,8 +25,8 @@ struct Cells {
 };
 
 double height_of(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
-  const double h0 = scale.h0(v), asked = scale.total_height(v);
-  const double height = is_automatic(asked) ? height_by_edge(h0, base.mean_edge[v], scale.max_growth(v), n, scale.has_common_growth()) : asked;
+  const double asked = scale.total_height(v);
+  const double height = is_automatic(asked) ? height_by_edge(scale.first_step(v), base.mean_edge[v], scale.max_growth(v), n, scale.has_common_growth()) : asked;
   return std::min(height, scale.max_thickness(v));
 }
 
@@ -34,7 +34,7 @@ double height_of(const LayerBase& base, const EnvelopeScale& scale, VertexId v, 
 Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
   const double h0 = scale.h0(v), edge = base.mean_edge[v];
   const double height = height_of(base, scale, v, n);
-  if (height <= n * h0) return {height / n, height / n, edge};
+  if (height <= n * scale.first_step(v)) return {height / n, height / n, edge};
   return {h0, last_height(scale.growth(v), height, n), edge};
 }
 

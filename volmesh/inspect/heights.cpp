@@ -138,7 +138,7 @@ class HeightSurvey {
     for (const VertexId v : base_.wall.points.ids()) {
       if (base_.topology.outgoing(v).empty() || base_.constraint[v].freedom == Freedom::fixed) continue;
       if (envelope_.is_collapsed(v)) collapsed.push_back({v, 1.0});
-      else if (is_compressed(v)) compressed.push_back({v, -envelope_.height[v] / scale_.compressed(v)});
+      else if (is_compressed(v)) compressed.push_back({v, -envelope_.height[v] / room(v)});
       if (!is_full(v)) lowered.push_back({v, -share_of(v)});
     }
     if (!lowered.empty()) add_lowered(lowered);
@@ -149,7 +149,9 @@ class HeightSurvey {
  private:
   /// By the length of the line: what leans here is turned to the normal by the optimiser.
   bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_share * envelope_.target[v]; }
-  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && envelope_.height[v] < room(v); }
+  /// m, what the first cell of the line needs (EnvelopeScale::room_for_first_cell).
+  double room(VertexId v) const { return scale_.room_for_first_cell(v, scale_.n(v)); }
   double share_of(VertexId v) const { return envelope_.target[v] > 0.0 ? envelope_.height[v] / envelope_.target[v] : k_no_value; }
   const std::string& patch_of(VertexId v) const { return survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(v).front()))); }
 
@@ -207,7 +209,7 @@ class HeightSurvey {
 
   void add_compressed(const std::vector<Suspect<VertexId>>& compressed) const {
     const VertexId v = worst(compressed, 1).front().id;
-    const double h = normal_height(base_, envelope_, v);
+    const double h = envelope_.height[v];
     Finding finding{.kind = FindingKind::compressed, .severity = Severity::warn, .limit = 1.0};
     finding.value = h / scale_.compressed(v);
     finding.text = "the layer will be lower than its first cells alone (" + std::to_string(scale_.n(v)) + " of " + in_metres(scale_.h0(v), k_text_digits) +

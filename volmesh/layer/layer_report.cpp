@@ -7,6 +7,7 @@
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/base/print_text.h"
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/layer_room.h"
@@ -28,7 +29,7 @@ std::string_view reason_text(std::size_t reason) {
 
 /// Areas by state, m^2.
 struct Areas {
-  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0, truncated = 0.0;
+  double all = 0.0, full = 0.0, compressed = 0.0, thin = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0, truncated = 0.0;
   int least_layers = std::numeric_limits<int>::max();  ///< of lines that stand
   LostArea lost{};
 };
@@ -97,12 +98,15 @@ class Classifier {
   bool is_full(VertexId v) const { return has_full_height(base_, envelope_, v); }
   int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.room_for_first_cell(v, layers(v)); }
+  /// Lower than its layers' first heights together.
+  bool is_thin(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
   bool is_truncated(VertexId v) const { return !envelope_.is_collapsed(v) && layers(v) < scale_.n(v); }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
     if (is_full(v)) areas.full += area;
     else areas.lost[reason_of(base_, envelope_, v)] += area;
     if (is_compressed(v)) areas.compressed += area;
+    if (is_thin(v)) areas.thin += area;
     if (envelope_.is_collapsed(v)) areas.collapsed += area;
     else areas.least_layers = std::min(areas.least_layers, layers(v));
     if (is_truncated(v)) areas.truncated += area;
@@ -161,7 +165,8 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
 }
 
 /// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
-void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+/// \param thin_area share of the wall area where that is so
+void warn(const Envelope& envelope, const Classifier& classifier, double thin_area, LayerReport& report) {
   // Where the target is tallest over what the first cells alone make.
   const EnvelopeScale& scale = classifier.scale();
   VertexId v(0);
@@ -169,9 +174,16 @@ void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& r
     if (envelope.target[other] * scale.compressed(v) > envelope.target[v] * scale.compressed(other)) v = other;
   const double tallest = envelope.target[v];
   const bool is_target_low = tallest < scale.compressed(v);
-  if (!is_target_low && report.compressed_area <= k_suspicious_share) return;
+  if (!is_target_low && thin_area <= k_suspicious_share) {
+    if (report.compressed_area > k_suspicious_share)
+      report.warnings.push_back(
+          print_text("first cells are lower than first_height on %.0f %% of the wall: the layer is lower there than layers of uniform growth need for "
+                     "it; give fewer layers, or growth = \"local\"",
+                     100.0 * report.compressed_area));
+    return;
+  }
   char share[32];
-  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * report.compressed_area);
+  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * thin_area);
   report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(scale.n(v)) + " layers of first_height " +
                             in_metres(scale.h0(v), k_report_digits) + " are " + in_metres(scale.compressed(v), k_report_digits) + " tall" +
                             (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_report_digits) : "") + " (body length " +
@@ -253,7 +265,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.first_node = first_node_report(base, classify_vertices(base, options, context), options, envelope, extrusion, context);
   report.interface = report_interface(base, classifier, extrusion, context);
   report.reduced_curving = extrusion.curving_shares;
-  warn(envelope, classifier, report);
+  warn(envelope, classifier, areas.thin / areas.all, report);
   return report;
 }
 

@@ -34,7 +34,7 @@ constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better tha
 constexpr int k_newton_steps = 30;
 constexpr double k_sum_tolerance = 1e-12;
 constexpr double k_most_power = 3.0, k_most_exponent = 3.0;
-constexpr double k_most_change = 0.5;  ///< of a ratio, times 20 heights over the edge: faces lean by less than 68 degrees for it
+constexpr double k_most_change = 10.0;  ///< of a ratio, times the height over the edge: faces lean by less than 68 degrees for it
 constexpr double k_growth_rounding = 1e-6;
 constexpr std::uint32_t k_no_tet = 0xffffffffu;
 constexpr std::size_t k_search_chunk = 1 << 13;
@@ -85,7 +85,7 @@ std::optional<std::vector<double>> steps_above_flat_ones(const std::vector<doubl
   std::optional<Solved> solved = solve_sum(steps, weight, sum, 0.0, -k_most_exponent, k_most_exponent);
   if (!solved) return std::nullopt;
   for (std::size_t j = 1; j < steps.size(); ++j)
-    if (std::abs(solved->exponent * (weight[j] - weight[j - 1])) > k_most_change * k_flat_edges * steps[j - 1] / edge) return std::nullopt;
+    if (std::abs(solved->exponent * (weight[j] - weight[j - 1])) > k_most_change * steps[j - 1] / edge) return std::nullopt;
   return std::move(solved->steps);
 }
 

@@ -31,7 +31,7 @@ class LineTruncation {
   /// \pre truncation is not `never`
   LineChoice choose(VertexId v, Truncation truncation) const {
     const int all = scale_.n(v);
-    const double height = normal_height(base_, envelope_, v), h0 = scale_.h0(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
+    const double height = normal_height(base_, envelope_, v), h0 = scale_.first_step(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
     const LineGrowth law = scale_.growth(v);
     const auto last = [&](int n) { return last_height(law, height, n); };
     // Growth and last cell fall with the number of layers.

@@ -222,8 +222,9 @@ TEST_F(Preparing, ForeseesWhatAutoDoes) {
 
 TEST_F(InspectFiles, GiveScriptsATable) {
   const std::string path = write(test::cube(12), "cube.stl");
-  const std::string printed = run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 18, first_height = 1e-4 }\n" +
-                                  "print(pre.ok, pre.errors, #pre.findings, pre.coverage > 0.99, pre.collapsed, pre.is_closed, pre.parts)");
+  const std::string printed =
+      run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 30, first_height = 1e-4, max_thickness = 0.4 }\n" +
+          "print(pre.ok, pre.errors, #pre.findings, pre.coverage > 0.99, pre.collapsed, pre.is_closed, pre.parts)");
   EXPECT_THAT(printed, HasSubstr("volume_mesh will take it"));
   EXPECT_THAT(printed, HasSubstr("true\t0\t1\ttrue\t0.0\ttrue\t1"));
   EXPECT_THAT(run("local pre = inspect(read_surface '" + path + "') print(pre.coverage, pre.findings[1].kind)"), HasSubstr("nil\tnot_looked_at"));
@@ -236,8 +237,9 @@ TEST_F(InspectFiles, GiveScriptsATable) {
 
 TEST_F(InspectFiles, TakeFlowsAndLimits) {
   const std::string wall = "local wall = read_surface '" + write(test::cube(12), "cube.stl") + "'\n";
-  EXPECT_THAT(run(wall + "print(inspect{ wall, layers = 18, first_height = 1e-4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"),
-              HasSubstr("\ny_plus\n"));
+  EXPECT_THAT(
+      run(wall + "print(inspect{ wall, layers = 30, first_height = 1e-4, max_thickness = 0.4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"),
+      HasSubstr("\ny_plus\n"));
   EXPECT_THAT(error(wall + "inspect{ wall, flow = 7 }"), HasSubstr("flow: expected flow{"));
   EXPECT_THAT(error(wall + "inspect{ wall, first_hight = 1e-4 }"), HasSubstr("first_height"));
   EXPECT_THAT(error(wall + "inspect{ wall, unit = mm }"), HasSubstr("unit"));

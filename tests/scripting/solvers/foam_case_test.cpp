@@ -231,8 +231,7 @@ TEST(FoamRun, CorrectionsFollowFromTheMesh) {
   const HybridMesh mesh = test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   const auto made = [&](double degrees) {
-    return foam_case(mesh, {.model = "SpalartAllmaras"}, {}, flow, {.area = 1.0}, {}, RunContext(),
-                     {.non_orthogonality = degrees * k_degree, .place = Point{1, 2, 3}});
+    return foam_case(mesh, {.model = "SpalartAllmaras"}, {}, flow, {.area = 1.0}, {}, RunContext(), {.worst = degrees * k_degree, .place = Point{1, 2, 3}});
   };
   EXPECT_THAT(file_of(made(60), "system/stage.final"), HasSubstr("correction corrected;"));
   EXPECT_THAT(file_of(made(75), "system/stage.final"), HasSubstr("correction limited corrected 0.5;"));

@@ -40,6 +40,7 @@ double box_height(const TriMesh& mesh) {
 
 MeshCase ball_case(const char* truncate, int n_layers = 20) {
   MeshCase mesh_case = layers(n_layers, 1e-4);
+  mesh_case.envelope.max_growth = 1.4;  // so that layers are tall enough to meet in gaps
   mesh_case.farfield.farfield_radius = 20.0;
   mesh_case.prisms.truncate = truncate;
   return mesh_case;

@@ -53,6 +53,18 @@ TEST(UniformGrowth, FacesWithinColumnsDoNotLean) {
   EXPECT_LT(uniform.layer.compressed_area, 0.5);
 }
 
+/// Few layers on a coarse ball, thin against its edges: the height that is asked for has room for the first heights above the facets.
+TEST(UniformGrowth, ThinLayersOnCoarseWallsHaveTheirFirstHeights) {
+  MeshCase mesh_case;
+  mesh_case.envelope.layers = 12;
+  mesh_case.envelope.first_height = 1e-4;
+  mesh_case.farfield.farfield_radius = 20.0;
+  const VolumeMeshResult result = volume_mesh(test::sphere(3, 1.0), mesh_case, k_context);
+  EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
+  EXPECT_EQ(result.layer.compressed_area, 0.0);
+  EXPECT_LT(result.check.gate(Measure::first_height).worst, 0.021) << to_text(result.check);
+}
+
 TEST(UniformGrowth, IsTheSameForAnyNumberOfThreads) {
   const TriMesh wall = two_cubes(0.3);
   const VolumeMeshResult one = volume_mesh(wall, cube_case("uniform"), RunContext({.threads = 1}));

@@ -68,7 +68,7 @@ TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
   EXPECT_EQ(result.mesh.layers.n_layers, 12);
   EXPECT_EQ(result.mesh.layers.layers_of_line(0), 12);
   EXPECT_EQ(result.mesh.layers.layers_of_line(wall.n_vertices() - 1), 5);
-  EXPECT_EQ(result.mesh.request.first_height_of(wall.n_vertices() - 1), 1e-3);
+  EXPECT_NEAR(result.mesh.request.first_height_of(wall.n_vertices() - 1), 1e-3, 2e-5);  // above the facets: 1.6 % more along vertex normals of this sphere
   EXPECT_LT(result.check.gate(Measure::first_height).worst, 0.02);
   EXPECT_EQ(result.layer.first_node.vertex_share, 1.0);
   // Without a first height for all walls each patch needs its own.
@@ -123,7 +123,7 @@ TEST(VolumeMesh, NodesOfALineAreConsecutive) {
     EXPECT_EQ(result.mesh.points[layers.node(line, 0)], wall.points[VertexId(line)]);
     for (int j = 1; j <= layers.n_layers; ++j) EXPECT_EQ(layers.node(line, j).value(), layers.node(line, j - 1).value() + 1);
     EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), h0,
-                1e-3 * h0);  // a line leans by 2 degrees at most there
+                0.02 * h0);  // above the facets; along the vertex normal of this sphere 1.4 % more
   }
 }
 

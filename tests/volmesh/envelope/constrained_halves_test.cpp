@@ -48,6 +48,8 @@ ConstrainedLayer grow(const TriMesh& wall, const EnvelopeOptions& options) { ret
 EnvelopeOptions thin_layers_of(double h0, int n, double thickness = k_automatic) {
   EnvelopeOptions options;
   options.first_height = h0;
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.growth = "local";
   options.layers = n;
   options.max_thickness = thickness;
   return options;

@@ -23,6 +23,8 @@ using test::k_context;
 EnvelopeOptions layers_of(double h0, int n) {
   EnvelopeOptions options;
   options.first_height = h0;
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.growth = "local";
   options.layers = n;
   return options;
 }

@@ -28,6 +28,7 @@ using test::k_degree;
 EnvelopeOptions growing_layers_of(double h0, int n, double growth = 1.4) {
   EnvelopeOptions options;
   options.first_height = h0;
+  options.growth = "local";  // uniform growth has tests of its own
   options.layers = n;
   options.max_growth = growth;
   return options;
@@ -90,6 +91,7 @@ TEST(PatchRules, ANameThatNoPatchHasIsAnErrorWithTheNames) {
 TEST(PatchRules, FirstHeightIsNeededWhereThereAreLayers) {
   const TriMesh room = test::cube_room(1);
   EnvelopeOptions options;
+  options.layers = 30;
   const std::vector<PatchRule> rules = {{.names = "x*", .first_height = 1e-4}, {.names = "y*", .first_height = 1e-4}, {.names = "z0", .layers = 0}};
   try {
     layers_of_patches(room.patches, options, rules);

