@@ -70,6 +70,9 @@ constexpr std::string_view k_scale = R"AWK(# awk -v density=1.2 -f scale.awk FIE
 }
 )AWK";
 
+/// The fields as they were written: Allrun keeps them beside the case while potentialFoam changes them.
+constexpr std::string_view k_restore = "restore() { for field in U Phi; do [ ! -f $field.start ] || mv $field.start 0/$field || return 1; done; }\n";
+
 /// What follows on the variables of steady_variables().
 constexpr std::string_view k_steady_run = R"SH(
 # Times with results, and files of a function object in the order of the parts.
@@ -111,6 +114,8 @@ is_settled() {
   [ "$1" = settled ]
 }
 
+# Of a run that was stopped within potentialFoam, which changes these fields.
+restore
 at=$(latest)
 at=${at:-0}
 if [ "$at" = 0 ]; then
@@ -120,14 +125,14 @@ if [ "$at" = 0 ]; then
     # potentialFoam reconstructs from its fluxes is wrong in Debian's OpenFOAM 1912.
     cp 0/U U.start && cp 0/Phi Phi.start && cp system/stage.start system/stage || exit 1
     # Of a gas they are of mass: potentialFoam gets velocities times the density of the free stream.
-    [ -z "$density" ] || awk -v density="$density" -f system/scale.awk U.start > 0/U || exit 1
+    [ -z "$density" ] || awk -v density="$density" -f system/scale.awk U.start > 0/U || { restore; exit 1; }
     echo "running potentialFoam"
     potentialFoam -writephi -noFunctionObjects > log.potentialFoam 2>&1 || {
       rm -f 0/phi
       echo "potentialFoam failed, see log.potentialFoam: the run starts from uniform flow"
     }
-    [ -z "$density" ] || [ ! -f 0/phi ] || LC_ALL=C sed -i 's/^dimensions .*/dimensions [1 0 -1 0 0 0 0];/' 0/phi || exit 1
-    mv U.start 0/U && mv Phi.start 0/Phi && cp system/stage.final system/stage || exit 1
+    [ -z "$density" ] || [ ! -f 0/phi ] || LC_ALL=C sed -i '0,/^dimensions /s/^dimensions .*/dimensions [1 0 -1 0 0 0 0];/' 0/phi || { restore; exit 1; }
+    restore && cp system/stage.final system/stage || exit 1
   fi
   [ "$tasks" = 1 ] || run decomposePar decomposePar -force
 fi
@@ -178,7 +183,8 @@ class RunFiles {
       add("system/judge.awk", std::string(k_judge));
       if (has_mass_fluxes()) add("system/scale.awk", std::string(k_scale));
     }
-    add("Allrun", head() + (s_.options.steady ? steady_variables() + std::string(k_steady_run) + reset_control() : run_in_time()), true);
+    add("Allrun", head() + (s_.options.steady ? steady_variables() + std::string(k_restore) + std::string(k_steady_run) + reset_control() : run_in_time()),
+        true);
     add("Allclean", clean_script(), true);
     return all;
   }
@@ -248,8 +254,9 @@ class RunFiles {
   }
 
   std::string clean_script() const {
-    return "#!/bin/sh\n# Results and logs; 0/, constant/ and system/ stay.\ncd \"$(dirname \"$0\")\" || exit 1\nrm -rf log.* postProcessing processor[0-9]* "
-           "[1-9]* 0.[0-9]* [0-9]*e-[0-9]* 0/phi U.start Phi.start\n" +
+    return "#!/bin/sh\n# Results and logs; 0/, constant/ and system/ stay.\ncd \"$(dirname \"$0\")\" || exit 1\n" + std::string(k_restore) +
+           "restore || exit 1\nrm -rf log.* postProcessing processor[0-9]* "
+           "[1-9]* 0.[0-9]* [0-9]*e-[0-9]* 0/phi\n" +
            (s_.options.steady ? "cp system/stage.final system/stage\n" + reset_control() : "");
   }
 

@@ -259,11 +259,12 @@ class Configuration {
     const double worst = orthogonality_.worst;
     const March march = worst >= limits.target ? k_usual_march : worst >= limits.hard ? k_careful_march : k_slow_march;
     const double cfl = is_automatic(options_.cfl) ? march.cfl : options_.cfl;
-    const std::string because = fmt::format("% The least angle between a face of the control volumes and its edge is {:.4g} degrees{}, {}.\n",
-                                            worst * k_degrees, at_place(orthogonality_),
-                                            worst >= limits.target ? fmt::format("above {:g}: usual CFL numbers", limits.target * k_degrees)
-                                                                   : fmt::format("below {:g}: lower CFL numbers, and more iterations of the linear solver",
-                                                                                 (worst >= limits.hard ? limits.target : limits.hard) * k_degrees));
+    const std::string because =
+        fmt::format("% The least orthogonality of a control volume (90 degrees: its faces stand on their edges) is {:.4g} degrees{}, {}.\n", worst * k_degrees,
+                    at_place(orthogonality_),
+                    worst >= limits.target ? fmt::format("above {:g}: usual CFL numbers", limits.target * k_degrees)
+                                           : fmt::format("below {:g}: lower CFL numbers, and more iterations of the linear solver",
+                                                         (worst >= limits.hard ? limits.target : limits.hard) * k_degrees));
     std::string text = title("Numerics") + because + "NUM_METHOD_GRAD= WEIGHTED_LEAST_SQUARES\nCFL_NUMBER= " + case_number(cfl) +
                        "\nCFL_ADAPT= YES\nCFL_ADAPT_PARAM= ( 0.1, 1.2, " + case_number(std::min(cfl, march.cfl)) + ", " +
                        case_number(std::max(cfl, march.largest_cfl)) + " )\n" +

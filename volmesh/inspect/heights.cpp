@@ -211,14 +211,19 @@ class HeightSurvey {
     const VertexId v = worst(compressed, 1).front().id;
     const double h = envelope_.height[v];
     Finding finding{.kind = FindingKind::compressed, .severity = Severity::warn, .limit = 1.0};
-    finding.value = h / scale_.compressed(v);
-    finding.text = "the layer will be lower than its first cells alone (" + std::to_string(scale_.n(v)) + " of " + in_metres(scale_.h0(v), k_text_digits) +
-                   ") on about " + percent(area_of(compressed)) + " of the walls' area: first_height is not met there";
-    const int layers = static_cast<int>(std::floor(h / scale_.h0(v)));  // fewer than there are: the layer is lower than they
-    finding.advice =
-        layers >= 2 && layers < scale_.n(v)
-            ? "layers = " + std::to_string(layers) + ", or first_height = " + number_text(h / scale_.n(v), k_advice_digits) + ", would fit at the worst place"
-            : "first_height = " + number_text(h / scale_.n(v), k_advice_digits) + " would fit at the worst place; is it in the unit of the surface?";
+    const int all = scale_.n(v);
+    finding.value = h / room(v);
+    const std::string area = percent(area_of(compressed));
+    finding.text = h < scale_.compressed(v)
+                       ? "the layer will be lower than its first cells alone (" + std::to_string(all) + " of " + in_metres(scale_.h0(v), k_text_digits) +
+                             ") on about " + area + " of the walls' area: first_height is not met there"
+                       : "first_height is not met on about " + area + " of the walls' area: the layer will be lower there than " + std::to_string(all) +
+                             " layers of uniform growth need for it";
+    int layers = all - 1;
+    while (layers > 1 && scale_.room_for_first_cell(v, layers) > h) --layers;
+    const std::string first = "first_height = " + number_text(scale_.h0(v) * finding.value, k_advice_digits);
+    finding.advice = layers > 1 ? "layers = " + std::to_string(layers) + ", or " + first + ", would fit at the worst place"
+                                : first + " would fit at the worst place; is it in the unit of the surface?";
     add(std::move(finding), compressed, -1.0);
   }
 

@@ -99,7 +99,7 @@ class Classifier {
   int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.room_for_first_cell(v, layers(v)); }
   /// Lower than its layers' first heights together.
-  bool is_thin(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
+  bool is_thin(VertexId v) const { return is_compressed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
   bool is_truncated(VertexId v) const { return !envelope_.is_collapsed(v) && layers(v) < scale_.n(v); }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
@@ -173,7 +173,7 @@ void warn(const Envelope& envelope, const Classifier& classifier, double thin_ar
   for (const VertexId other : envelope.target.ids())
     if (envelope.target[other] * scale.compressed(v) > envelope.target[v] * scale.compressed(other)) v = other;
   const double tallest = envelope.target[v];
-  const bool is_target_low = tallest < scale.compressed(v);
+  const bool is_target_low = tallest < scale.compressed(v) && tallest < scale.room_for_first_cell(v, scale.n(v));
   if (!is_target_low && thin_area <= k_suspicious_share) {
     if (report.compressed_area > k_suspicious_share)
       report.warnings.push_back(

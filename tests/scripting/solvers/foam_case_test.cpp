@@ -226,6 +226,42 @@ TEST(FoamRun, ForcesThatHaveSettledAreToldFromThoseThatMove) {
             "diverged 8 nan 8 4 5 6\n");
 }
 
+/// A run that was stopped while potentialFoam had its own fields in 0/: the next Allrun and Allclean put back those of the case first.
+TEST_F(FoamCases, FieldsOfAStoppedStartArePutBack) {
+  run(with_mesh("m:foam_case{ " + at("case") + ", flow{ mach = 0.5, altitude = 0, length = 2 }, reference_area = 1 }"));
+  const std::filesystem::path at_case = folder_ / "case";
+  const std::string velocity = text_of("case/0/U");
+  const auto stop = [&] {
+    std::filesystem::copy_file(at_case / "0/U", at_case / "U.start");
+    io::write_whole(at_case / "0/U", "of potentialFoam");
+  };
+  stop();
+  EXPECT_EQ(test::run_process(at_case / "Allclean", {}, folder_).status, 0);
+  EXPECT_EQ(text_of("case/0/U"), velocity);
+  EXPECT_FALSE(std::filesystem::exists(at_case / "U.start"));
+  // Programs that do nothing: the solver's failure ends the run.
+  std::filesystem::create_directories(folder_ / "bin");
+  for (const auto& [name, status] : {std::pair("potentialFoam", "0"), std::pair("rhoSimpleFoam", "1")}) {
+    io::write_whole(folder_ / "bin" / name, std::string("#!/bin/sh\nexit ") + status + "\n");
+    std::filesystem::permissions(folder_ / "bin" / name, std::filesystem::perms::owner_all);
+  }
+  stop();
+  EXPECT_NE(test::run_process("/usr/bin/env", {"PATH=" + (folder_ / "bin").string() + ":/usr/bin:/bin", (at_case / "Allrun").string()}, folder_).status, 0);
+  EXPECT_EQ(text_of("case/0/U"), velocity);
+}
+
+/// Gases below Mach 1 start from fluxes of mass: potentialFoam gets velocities times the density.
+TEST_F(FoamCases, FluxesOfAGasAreOfMass) {
+  run(with_mesh("m:foam_case{ " + at("case") + ", flow{ mach = 0.5, altitude = 0, length = 2 }, reference_area = 1 }"));
+  const std::string scaled = test::run_process("/usr/bin/awk", {"-v", "density=2", "-f", "case/system/scale.awk", "case/0/U"}, folder_).output;
+  const auto speed = [](const std::string& field) { return std::stod(field.substr(field.find("internalField uniform (") + 23)); };
+  EXPECT_NEAR(speed(scaled), 2.0 * speed(text_of("case/0/U")), 1e-9 * speed(scaled));
+  EXPECT_EQ(std::ranges::count(scaled, '\n'), std::ranges::count(text_of("case/0/U"), '\n'));
+  EXPECT_THAT(text_of("case/Allrun"), AllOf(HasSubstr("has_potential='yes'"), HasSubstr("density='1.2")));
+  run(with_mesh("m:foam_case{ " + at("fast") + ", flow{ mach = 1.2, altitude = 0, length = 2 }, reference_area = 1 }"));
+  EXPECT_THAT(text_of("fast/Allrun"), AllOf(HasSubstr("has_potential='no'"), HasSubstr("density=''")));
+}
+
 /// Corrections of normal gradients by the largest angle that was measured, with the figure in the file.
 TEST(FoamRun, CorrectionsFollowFromTheMesh) {
   const HybridMesh mesh = test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}});

@@ -18,14 +18,9 @@ using test::k_context;
 
 /// Two balls of radius 1, as one wall, so far from each other.
 TriMesh two_balls(double gap) {
-  const TriMesh ball = test::sphere(9);
-  TriMesh wall = ball;
-  for (const Point& p : ball.points) wall.points.push_back(p + Vec3{2.0 + gap, 0.0, 0.0});
-  const auto shifted = [&](VertexId v) { return VertexId(v.index() + ball.n_vertices()); };
-  for (const TriangleVertices& v : ball.triangles) {
-    wall.triangles.push_back({shifted(v[0]), shifted(v[1]), shifted(v[2])});
-    wall.triangle_patch.push_back(PatchId(0));
-  }
+  TriMesh wall = test::sphere(9), other = test::sphere(9);
+  for (Point& p : other.points) p.x += 2.0 + gap;
+  append(wall, other);
   return wall;
 }
 

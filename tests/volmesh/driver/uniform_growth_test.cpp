@@ -13,15 +13,9 @@ using test::k_context;
 
 /// Two cubes of edge 1, as one wall, with a gap that leaves their layers a fraction of their height.
 TriMesh two_cubes(double gap) {
-  const TriMesh cube = test::cube(6);
-  TriMesh wall = cube;
-  for (const Point& p : cube.points) wall.points.push_back(p + Vec3{1.0 + gap, 0.0, 0.0});
-  const auto shifted = [&](VertexId v) { return VertexId(v.index() + cube.n_vertices()); };
-  for (const TriangleId t : cube.triangles.ids()) {
-    const TriangleVertices& v = cube.triangles[t];
-    wall.triangles.push_back({shifted(v[0]), shifted(v[1]), shifted(v[2])});
-    wall.triangle_patch.push_back(cube.triangle_patch[t]);
-  }
+  TriMesh wall = test::cube(6), other = test::cube(6);
+  for (Point& p : other.points) p.x += 1.0 + gap;
+  append(wall, other);
   return wall;
 }
 
