@@ -34,10 +34,10 @@ def surface_mesh(file: str, options: str, refinement: float) -> str:
 
 
 class Aircraft:
-    """`file` in ../shared/data, or none; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well."""
+    """`file` in ../shared/data, or none; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well; `has_engines`: with patches nozzle and fan_face."""
 
-    def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False):
-        self.name, self.make, self.file, self.fast, self.sst = name, make, file, fast, sst
+    def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False, has_engines: bool = False):
+        self.name, self.make, self.file, self.fast, self.sst, self.has_engines = name, make, file, fast, sst, has_engines
 
     def is_there(self) -> bool:
         return not self.file or (DATA / self.file).exists()
@@ -53,7 +53,7 @@ def of_surface(name: str, file: str, options: str, refinement: float, **more) ->
 
 
 AIRCRAFT = [
-    Aircraft("airliner", lambda: script_before("03_airliner.lua", "model:write") + model_mesh("model", 0.1), fast=True, sst=True),
+    Aircraft("airliner", lambda: script_before("03_airliner.lua", "model:write") + model_mesh("model", 0.1), fast=True, sst=True, has_engines=True),
     Aircraft("light", lambda: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", 0.3), fast=True, sst=True),
     of_file("bjet", "read_smx", "smx/bjet.smx", 0.28, fast=True),
     of_file("widebody", "read_smx", "smx/widebody.smx", 0.19),
@@ -76,8 +76,15 @@ cells:write "mesh.sterna"
 print("counts", wall.triangles, wall.length)
 """
 CASE = """local cells = read_mesh "../mesh.sterna"
-cells:foam_case{{ "case", flow{{ mach = {mach}, altitude = 0, length = {length} }}, alpha = 2*deg, reference_area = {area}, model = "{model}", iterations = {iterations} }}
+cells:foam_case{{ "case", flow{{ mach = {mach}, altitude = 0, length = {length} }}, alpha = 2*deg, reference_area = {area}, model = "{model}", iterations = {iterations}{boundaries} }}
 """
+SEA_LEVEL = 101325.0  # Pa
+JET, FACE = 1.1, 0.4  # of the flow's rise of pressure when it is stopped: total pressure in the nozzle, pressure at the fan: engines that hardly push
+
+
+def engine_boundaries(mach: float) -> str:
+    rise = SEA_LEVEL * ((1.0 + 0.2 * mach ** 2) ** 3.5 - 1.0)
+    return f", boundaries = {{ nozzle = {{ total_pressure = {SEA_LEVEL + JET * rise:.0f} }}, fan_face = {{ pressure = {SEA_LEVEL + FACE * rise:.0f} }} }}"
 
 
 class Run:
@@ -144,7 +151,8 @@ def solve(tools, arguments, run: Run, mesh: dict, folder: pathlib.Path, iteratio
         return json.loads(done.read_text())
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    (folder / "case.lua").write_text(CASE.format(mach=run.mach, length=mesh["length"], area=REFERENCE * mesh["length"] ** 2, model=run.model, iterations=iterations))
+    (folder / "case.lua").write_text(CASE.format(mach=run.mach, length=mesh["length"], area=REFERENCE * mesh["length"] ** 2, model=run.model, iterations=iterations,
+                                                        boundaries=engine_boundaries(run.mach) if run.aircraft.has_engines else ""))
     tools.run([arguments.sterna, "run", "case.lua"], folder, "log.sterna")
     angle = re.search(r"largest angle .* is ([\d.]+) degrees", (folder / "case/system/fvSchemes").read_text())
     result = {"cells": tools.mesh_numbers(folder / "case"), "angle": float(angle[1]) if angle else None}
@@ -176,13 +184,17 @@ def aircraft(tools, arguments) -> None:
             print(f"skipped: {body.name}, whose file ../shared/data/{body.file} is not there", flush=True)
             continue
         folder = arguments.folder / "aircraft" / body.name
-        mesh = mesh_of(tools, arguments, body, folder)
-        result = solve(tools, arguments, run, mesh, folder / run.folder(), 60 if arguments.short else arguments.iterations)
+        label = f"{body.name} at Mach {run.mach} with {run.model}"
+        try:
+            mesh = mesh_of(tools, arguments, body, folder)
+            result = solve(tools, arguments, run, mesh, folder / run.folder(), 60 if arguments.short else arguments.iterations)
+        except tools.subprocess.CalledProcessError as failure:
+            arguments.require(False, f"{label}: {failure}; the log is in {folder}")
+            continue
         has_forces = "spread" in result
         print(f"| {body.name} | {run.mach}, {run.model} | {mesh['triangles']}, {mesh['layers']} | {result['cells']} | {result['angle']} | " +
               (f"{result['iterations']:.0f} | {result['CD']:.4f} | {result['CL']:.4f} | {100 * result['spread']:.2f} %" if has_forces else "- | - | - | -") +
               f" | {mesh['seconds']:.0f}, {result.get('seconds', 0):.0f} |", flush=True)
-        label = f"{body.name} at Mach {run.mach} with {run.model}"
         arguments.require(result["outcome"] == "ended" and has_forces, f"{label}: {result['says']}")
         if not arguments.short and has_forces:
             arguments.require(result["spread"] <= BAND, f"{label}: forces change by {100 * result['spread']:.2f} % over the last {WINDOW} iterations")

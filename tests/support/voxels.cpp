@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace sterna::test {
 
@@ -59,6 +60,17 @@ TriMesh voxel_boundary(const std::array<int, 3>& n, double size, const std::func
           }
         }
       }
+  return mesh;
+}
+
+TriMesh chain_of_cubes(int n) {
+  const std::set<std::array<int, 3>> solid = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
+  TriMesh mesh = voxel_boundary(
+      {2 * n, 2 * n, 2 * n}, 1.0 / n, [&](int i, int j, int k) { return solid.contains({i / n, j / n, k / n}); },
+      [](const Point&, const Vec3&) {
+        return Patch{"body", PatchKind::wall};
+      });
+  for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
 

@@ -14,4 +14,8 @@ namespace sterna::test {
 TriMesh voxel_boundary(const std::array<int, 3>& n, double size, const std::function<bool(int, int, int)>& is_fluid,
                        const std::function<Patch(const Point&, const Vec3&)>& patch_of);
 
+/// A body: four cubes of edge 1 of a 2 x 2 x 2 block, in a chain that turns twice, n squares along each edge; normals out of the body. At the vertex (1, 1, 1)
+/// there are facets of every sense, so that no direction sees them all.
+TriMesh chain_of_cubes(int n);
+
 }  // namespace sterna::test

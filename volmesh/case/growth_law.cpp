@@ -24,6 +24,8 @@ constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
 constexpr double k_unbent = 1.0 / 3.0;       ///< of the least height for the first cell: lines that low have the bend of full ones
 constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0
 constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
+constexpr double k_first_step = 1.0;         ///< of the first height's logarithm
+constexpr double k_first_tolerance = 1e-14;  ///< of the same
 constexpr double k_kept_growth = 0.6;        ///< of r - 1 at the top of lines as tall as asked: what lower lines keep before their first cells get lower
 
 /// Heights of the cells of a line with this bend, and the sum's derivative by it.
@@ -91,9 +93,9 @@ double bend_for_height(const LineGrowth& line, double height, int n) {
   return bend;
 }
 
-/// The cells of a line whose flat ones grow by the common ratio: `share` times those that start with h0 and have this bend.
+/// The cells of a line whose flat ones grow by the common ratio: the first is `first`, m, high.
 struct CommonCells {
-  double share = 1.0, bend = 0.0;
+  double first = 0.0, bend = 0.0;
 };
 
 /// Bends of a line as tall as asked (at least 0), and the largest, of a line that is lower.
@@ -107,15 +109,40 @@ Bends bends_of(const LineGrowth& line, int n) {
   return {std::max(0.0, bend), std::max(0.0, line.common / (1.0 + k_kept_growth * (top - 1.0)) - 1.0)};
 }
 
+/// First height, m, with which n cells of this bend are `height` tall, by bisection of its logarithm: the sum grows with it.
+/// \pre the sum with line.h0 is at least `height`
+double first_for_height(LineGrowth line, double bend, double height, int n) {
+  double high = std::log(line.h0), low = high;
+  const auto off_at = [&](double log_first) {
+    line.h0 = std::exp(log_first);
+    return bent_sum(line, bend, n).sum - height;
+  };
+  while (off_at(low) > 0.0) {
+    high = low;
+    low -= k_first_step;
+  }
+  for (int i = 0; i < k_bend_steps && high - low > k_first_tolerance; ++i) {
+    const double middle = 0.5 * (low + high);
+    (off_at(middle) > 0.0 ? high : low) = middle;
+  }
+  return std::exp(0.5 * (low + high));
+}
+
 CommonCells common_cells(const LineGrowth& line, double height, int n) {
-  if (n == 1) return {height / line.h0, 0.0};
+  if (n == 1) return {height, 0.0};
   const Bends bends = bends_of(line, n);
   const double lowest = bent_sum(line, bends.largest, n).sum;
-  if (height > lowest) return {1.0, bend_for_height(line, height, n)};
+  if (height > lowest) return {line.h0, bend_for_height(line, height, n)};
   // The first cell is lower anyway: the lower the line, the more its last cells grow as on a full one.
   const double squeeze = std::clamp((height / lowest - k_unbent) / (1.0 - k_unbent), 0.0, 1.0);
   const double bend = bends.asked + squeeze * (bends.largest - bends.asked);
-  return {height / bent_sum(line, bend, n).sum, bend};
+  return {first_for_height(line, bend, height, n), bend};
+}
+
+/// The line with the first height that its cells have.
+LineGrowth beginning_with(LineGrowth line, double first) {
+  line.h0 = first;
+  return line;
 }
 
 }  // namespace
@@ -172,11 +199,11 @@ void layer_parameters(double h0, double height, int n, double* t) {
 void layer_parameters(const LineGrowth& line, double height, int n, double* t) {
   if (line.common == 0.0) return layer_parameters(line.h0, height, n, t);
   const CommonCells cells = common_cells(line, height, n);
-  double h = line.h0, sum = 0.0;
+  double h = cells.first, sum = 0.0;
   t[0] = 0.0;
   for (int j = 1; j < n; ++j) {
     sum += h;
-    t[j] = cells.share * sum / height;
+    t[j] = sum / height;
     const double share = bend_share(h, line.edge);
     h *= cells.bend >= 0.0 ? std::max(1.0, line.common / (1.0 + cells.bend * share)) : line.common * (1.0 - cells.bend * share);
   }
@@ -185,13 +212,15 @@ void layer_parameters(const LineGrowth& line, double height, int n, double* t) {
 
 double largest_growth(const LineGrowth& line, double height, int n) {
   if (line.common == 0.0) return growth_for_height(line.h0, height, n);
-  return n == 1 ? 1.0 : std::max(line.common, bent_sum(line, common_cells(line, height, n).bend, n).ratio);
+  if (n == 1) return 1.0;
+  const CommonCells cells = common_cells(line, height, n);
+  return std::max(line.common, bent_sum(beginning_with(line, cells.first), cells.bend, n).ratio);
 }
 
 double last_height(const LineGrowth& line, double height, int n) {
   if (line.common > 0.0) {
     const CommonCells cells = common_cells(line, height, n);
-    return cells.share * bent_sum(line, cells.bend, n).last;
+    return bent_sum(beginning_with(line, cells.first), cells.bend, n).last;
   }
   const double growth = growth_for_height(line.h0, height, n);
   return growth > 1.0 ? line.h0 * std::pow(growth, n - 1) : height / n;

@@ -6,6 +6,13 @@
 namespace sterna::volmesh {
 namespace {
 
+/// Of the target height: where all lines grow alike, a line that is lower has first cells lower by as much, beside others of a hundred times their height.
+constexpr double k_least_share = 0.01;
+
+}  // namespace
+
+namespace {
+
 /// Share of n h0 below which a layer is no longer worth its cells (method.md §4).
 constexpr double k_min_height_share = 0.2;
 
@@ -19,7 +26,7 @@ std::string_view to_string(HeightLimit limit) {
     case HeightLimit::gap: return "gap to an opposing wall";
     case HeightLimit::collision: return "layers collide";
     case HeightLimit::prism: return "a prism of the layer would be invalid";
-    case HeightLimit::invisible: return "no direction sees all faces";
+    case HeightLimit::invisible: return "no direction sees all facets well";
     case HeightLimit::fixed: return "fixed on the wall";
   }
   return "";
@@ -64,7 +71,8 @@ double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, Verte
 
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale) {
   if (height >= envelope.height[v]) return;
-  envelope.height[v] = height < scale.h_min(v) ? 0.0 : height;
+  const double least = std::max(scale.h_min(v), scale.has_common_growth() ? k_least_share * envelope.target[v] : 0.0);
+  envelope.height[v] = height < least ? 0.0 : height;
   envelope.limit[v] = reason;
 }
 

@@ -107,7 +107,7 @@ EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options);
 /// Mean length of the envelope's edges at a vertex, m.
 double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, VertexId v);
 
-/// Lowers a height (never raises), remembers why, and collapses below h_min.
+/// Lowers a height (never raises), remembers why, and collapses below h_min, where all lines grow alike also below a hundredth of the target height.
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale);
 
 }  // namespace sterna::volmesh

@@ -47,6 +47,8 @@ Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, doubl
   return pull_towards_visible(base, v, allowed, std::min(cosine, k_cone_share * base.cone_visibility(v)));
 }
 
+Vec3 pull_to_facets(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine) { return pull_towards_visible(base, v, wanted, cosine); }
+
 namespace {
 
 constexpr double k_taper_cosine = 0.2;  ///< at which lines of a fan that is not open yet see their faces, where there is such a direction

@@ -17,4 +17,8 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
 /// min(`cosine`, 0.5 * the best possible).
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
 
+/// `wanted`, or the nearest on the way from it to the visible direction that has at least this cosine with the normals of all facets at the vertex.
+/// \pre the visible direction has it
+Vec3 pull_to_facets(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
+
 }  // namespace sterna::volmesh

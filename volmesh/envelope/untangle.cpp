@@ -24,6 +24,7 @@ constexpr double k_regrow_share = 0.97;    ///< of the height at which growth li
 constexpr int k_regrow_rounds = 12;
 constexpr std::array<double, 4> k_regrow_factors = {1.3, 1.12, 1.05, 1.02};  ///< growth of a height in one step, after so many failures
 constexpr double k_step_gradient = 1.0;                                      ///< slope along edges that may stand beside lowered places
+constexpr double k_ring_gradient = 0.5;                                      ///< the same from a collapsed vertex to those around it
 
 /// The element with its tallest corners cut to `height`.
 MacroElement cut(MacroElement element, double height) {
@@ -189,17 +190,19 @@ std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<Tr
   return lowered;
 }
 
-/// Surrounds collapsed vertices, but for rims of sheets, by a compressed ring (method.md §4), from which the height rises by at most k_step_gradient; returns
-/// what was lowered.
+/// Surrounds collapsed vertices, but for rims of sheets, by a ring of low ones, from which the height rises by at most k_step_gradient; returns what was
+/// lowered. The ring is compressed (method.md §4); where all lines grow alike it rises by k_ring_gradient: lines a few first heights tall would have cells of a
+/// millionth of their neighbours' heights, and faces between stacked cells at 89.9 degrees.
 std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
   std::vector<VertexId> all, front;
   for (const VertexId v : vertices) {
     if (!envelope.is_collapsed(v) || base.is_sheet_rim(v)) continue;
     for (const VertexId other : base.topology.neighbours(v)) {
-      const double compressed = scale.compressed(other);
-      envelope.cap[other] = std::min(envelope.cap[other], compressed);
-      if (envelope.height[other] <= compressed) continue;
-      lower(envelope, other, compressed, envelope.limit[v], scale);
+      const double rise = scale.has_common_growth() ? k_ring_gradient * distance(base.wall.points[v], base.wall.points[other]) : 0.0;
+      const double bound = std::max(scale.compressed(other), rise);
+      envelope.cap[other] = std::min(envelope.cap[other], bound);
+      if (envelope.height[other] <= bound) continue;
+      lower(envelope, other, bound, envelope.limit[v], scale);
       front.push_back(other);
     }
   }

@@ -106,6 +106,26 @@ TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
   }
 }
 
+/// Beside vertices without a layer two lines may be a thousandth of their full height, on edges that differ: what is flat is told by the cells that are made and
+/// not by those of a full line, or the lines bend while their cells are 1e4 times wider than tall (found on bjet and D150: faces at 89.97 degrees).
+TEST(GrowthLaw, LinesFarTooLowKeepTheirProportionsWhateverTheirEdges) {
+  const double h0 = 7e-6, g = 1.25;
+  const int n = 50;
+  const LineGrowth near{.h0 = h0, .common = g, .edge = 0.1, .target = 0.08}, beside{.h0 = h0, .common = g, .edge = 0.3, .target = 0.15};
+  std::vector<double> a(n + 1), b(n + 1);
+  for (const double height : {3e-4, 3e-3, 3e-2}) {
+    layer_parameters(near, height, n, a.data());
+    layer_parameters(beside, 1.7 * height, n, b.data());
+    EXPECT_LE(a[1] * height, h0);
+    for (std::size_t j = 2; j <= n; ++j) {
+      const double h = (a[j - 1] - a[j - 2]) * height;
+      const double ratio = (a[j] - a[j - 1]) / (a[j - 1] - a[j - 2]), other = (b[j] - b[j - 1]) / (b[j - 1] - b[j - 2]);
+      EXPECT_LT(std::atan(std::abs(ratio / other - 1.0) * near.edge / (4.0 * h)), 75.0 * k_degree) << height << ", cell " << j;
+    }
+    EXPECT_NEAR(last_height(near, height, n), (a[n] - a[n - 1]) * height, 1e-9 * height);
+  }
+}
+
 /// Where cells are not flat, and where it is asked for, the law is that of eq. (11).
 TEST(GrowthLaw, WithoutFlatCellsALineHasOneRatio) {
   std::vector<double> common(13), local(13);

@@ -4,6 +4,7 @@
 
 #include "tests/support/constants.h"
 #include "tests/support/shapes.h"
+#include "tests/support/voxels.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
@@ -57,6 +58,16 @@ TEST(UniformGrowth, ThinLayersOnCoarseWallsHaveTheirFirstHeights) {
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_EQ(result.layer.compressed_area, 0.0);
   EXPECT_LT(result.check.gate(Measure::first_height).worst, 0.021) << to_text(result.check);
+}
+
+/// Around a vertex without a layer lines rise from it in proportion to their distance, so that the cells of pyramids beside it grow like all others.
+TEST(UniformGrowth, FacesBesideAVertexWithoutALayerDoNotLean) {
+  const TriMesh wall = test::chain_of_cubes(4);
+  const VolumeMeshResult result = volume_mesh(wall, cube_case("uniform"), k_context);
+  ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);
+  EXPECT_GT(count_cells(result.mesh).pyramids, 0) << "this wall is no test any more";
+  EXPECT_LT(result.check.gate(Measure::stacked_orthogonality).worst, 85.0 * k_degree);
+  EXPECT_GT(result.check.gate(Measure::volume_ratio).worst, 0.003);
 }
 
 TEST(UniformGrowth, IsTheSameForAnyNumberOfThreads) {

@@ -240,17 +240,7 @@ TEST(Inspect, FindsAFoldAndHowBadlyItsEdgeIsSeen) {
 }
 
 TEST(Inspect, FindsAVertexThatNoDirectionServes) {
-  // Four cubes of a 2 x 2 x 2 block, in a chain that turns twice: at the middle there are facets of every sense.
-  const std::set<std::array<int, 3>> solid = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
-  constexpr int n = 4;  // cells along a cube
-  const TriMesh mesh = turned_over(test::voxel_boundary(
-      {2 * n, 2 * n, 2 * n}, 1.0 / n,
-      [&](int i, int j, int k) {
-        return solid.contains({i / n, j / n, k / n});
-      },
-      [](const Point&, const Vec3&) {
-        return Patch{"body", PatchKind::wall};
-      }));
+  const TriMesh mesh = test::chain_of_cubes(4);
   for (const InspectRequest& request : {InspectRequest{}, request_of(15, 1e-3)}) {
     const InspectReport report = inspect(mesh, request);
     const Finding& hidden = the(report, Kind::hidden);
