@@ -148,6 +148,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   complete_flow(setup, context);
   set_turbulence(setup);
   choose_correction(setup, non_orthogonality);
+  setup.has_pyramids = count_cells(mesh).pyramids > 0;
   setup.velocity = setup.flow.speed * direction_of(mesh, site, common);
   setup.area = reference_area(reference, site);
   setup.length = reference_length(reference, setup.flow);

@@ -169,6 +169,25 @@ class FoamSettings {
     return text;
   }
 
+  std::string gradients() const {
+    const bool has_own_pressure = s_.is_turbulent && !s_.is_compressible && !is_transonic();
+    std::string text, scheme = "pointCellsLeastSquares";
+    if (is_transonic()) {
+      text = "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n";
+      scheme = "cellLimited pointCellsLeastSquares 1";
+    } else if (s_.has_pyramids) {
+      text =
+          "// Limited in each direction between the cells around: beside vertices without a layer the cells of all layers share a point, so that the gradient of "
+          "the lowest\n// contains the velocity of the highest, and the cells swing ever more.\n";
+      scheme = "cellMDLimited pointCellsLeastSquares 1";
+    }
+    if (has_own_pressure)
+      text +=
+          "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge become unstable after 100 "
+          "to 200 iterations.\n";
+    return text + "gradSchemes { default " + scheme + ";" + (has_own_pressure ? " grad(p) Gauss linear;" : "") + " }\n\n";
+  }
+
   std::string schemes() const {
     const std::string bounded = is_steady_ ? "bounded " : "";
     std::string text =
@@ -176,13 +195,7 @@ class FoamSettings {
         std::string("ddtSchemes { default ") + (is_steady_ ? "steadyState" : "backward") + "; }\n\n" +
         "// Least squares over all cells that share a point. Gauss linear is not exact for linear fields on tetrahedra and on prisms over curved walls:\n"
         "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n" +
-        (is_transonic() ? "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n"
-                          "gradSchemes { default cellLimited pointCellsLeastSquares 1; }\n\n"
-         : s_.is_turbulent && !s_.is_compressible ? "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a "
-                                                    "sharp trailing edge become unstable after 100 "
-                                                    "to 200 iterations.\n"
-                                                    "gradSchemes { default pointCellsLeastSquares; grad(p) Gauss linear; }\n\n"
-                                                  : "gradSchemes { default pointCellsLeastSquares; }\n\n");
+        gradients();
     text +=
         "// Second order upwind for the velocity. Component by component, laminar flow has it best (along its steepest direction a coarse sphere's drag is 2.5 "
         "% "

@@ -275,6 +275,18 @@ TEST(FoamRun, CorrectionsFollowFromTheMesh) {
   EXPECT_THAT(file_of(made(89), "system/fvSchemes"), AllOf(HasSubstr("is 89 degrees at (1, 2, 3)"), HasSubstr("$correction")));
 }
 
+/// Around a vertex without a layer the cells of all layers share a point: gradients over all cells at a point are limited there. Found on scripts/03, which
+/// diverged beside the border of its nozzle.
+TEST(FoamRun, GradientsAreLimitedWhereALineHasNoHeight) {
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  const auto schemes = [&](const HybridMesh& mesh) {
+    return file_of(foam_case(mesh, {.model = "SpalartAllmaras"}, {}, flow, {.area = 1.0}, {}, RunContext()), "system/fvSchemes");
+  };
+  EXPECT_THAT(schemes(test::sphere_shell(2)), HasSubstr("gradSchemes { default pointCellsLeastSquares; grad(p) Gauss linear; }"));
+  EXPECT_THAT(schemes(test::sphere_shell(2, {.collapsed = {3}})),
+              HasSubstr("gradSchemes { default cellMDLimited pointCellsLeastSquares 1; grad(p) Gauss linear; }"));
+}
+
 TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
   run(with_mesh("m:foam_case{ " + at("case/") + ", flow{ mach = 0.2, altitude = 0, length = 2 }, alpha = 5*deg, model = 'kOmegaSST', tasks = 12 }"));
   std::vector<std::string> files;
