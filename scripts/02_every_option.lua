@@ -284,7 +284,7 @@ mesh:foam_case{ "every_option_case", cruise,  -- a folder; of the rest of the ta
   compressible = "automatic",       -- yes, no; by itself from Mach 0.3 on
   turbulence_intensity = 0.001,     -- of the free stream (kOmegaSST)
   viscosity_ratio = "automatic",    -- of the free stream
-  residual = 1e-6,                  -- below which a steady run ends
+  residual = "automatic",           -- below which a steady run ends: 1e-6 where there are no forces to judge
   end_time = "automatic",           -- seconds, of a run in time
   courant = 2,                      -- of a run in time
   tasks = 1,                        -- processes

@@ -61,6 +61,9 @@ endforeach()
 # OpenFOAM's solvers find the flows that are known on our meshes (docs/verification.md): a flat plate, the potential flow round a sphere.
 add_test(NAME verify_flow COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_flow)
 set_tests_properties(verify_flow PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST 100)
+# Two aircraft as foam_case writes the case stay bounded; all twelve, whole runs: tools/verify_flow aircraft.
+add_test(NAME verify_aircraft COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow aircraft --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_aircraft)
+set_tests_properties(verify_aircraft PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 200)
 
 # A browser without network uses every control of report pages.
 add_test(NAME report_page_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/run_browser_test ${CMAKE_BINARY_DIR} fixtures)

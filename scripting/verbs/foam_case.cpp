@@ -118,7 +118,7 @@ void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
   warn(!is_automatic(given.viscosity_ratio) && !setup.is_turbulent, "viscosity_ratio", "the model " + setup.model + " has no turbulence");
   warn(!is_automatic(given.end_time) && given.steady, "end_time", "the run is steady, and ends after `iterations`");
   warn(given.courant != usual.courant && given.steady, "courant", "the run is steady");
-  warn(given.residual != usual.residual && !given.steady, "residual", "the run is in time, and ends at end_time");
+  warn(!is_automatic(given.residual) && !given.steady, "residual", "the run is in time, and ends at end_time");
   warn(setup.common.iterations != CaseOptions{}.iterations && !given.steady, "iterations", "the run is in time, and ends at end_time");
   warn(!is_automatic(setup.common.wall_temperature) && !setup.is_compressible, "wall_temperature", "the flow is incompressible, and has no temperature");
 }

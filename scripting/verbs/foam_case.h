@@ -21,7 +21,7 @@ struct FoamOptions {
   std::string compressible = "automatic";
   double turbulence_intensity = 0.001;
   double viscosity_ratio = k_automatic;
-  double residual = 1e-6;
+  double residual = k_automatic;
   double end_time = k_automatic;
   double courant = 2.0;
   int tasks = 1;
@@ -84,7 +84,12 @@ struct Schema<scripting::FoamOptions> {
                .max = 1e5,
                .help = "of the free stream: turbulent over molecular viscosity",
                .automatic = "0.21 with SpalartAllmaras, which is nuTilda 3 nu; 1 with kOmegaSST"},
-      Field<O>{.name = "residual", .member = &O::residual, .min = 1e-14, .max = 1.0, .help = "a steady run ends when all initial residuals are below"},
+      Field<O>{.name = "residual",
+               .member = &O::residual,
+               .min = 1e-14,
+               .max = 1.0,
+               .help = "a steady run ends when all initial residuals are below, even if forces still move",
+               .automatic = "1e-6 where there are neither forces nor a pressure drop, which else end the run alone"},
       Field<O>{.name = "end_time",
                .member = &O::end_time,
                .unit = Unit::second,

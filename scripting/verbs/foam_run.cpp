@@ -159,7 +159,7 @@ done
 case $outcome in
   converged) echo "residuals are below their limits at iteration $(latest)" ;;
   settled) echo "$judged_name moved by $moved % in 200 iterations: settled at iteration $at" ;;
-  over) echo "$most iterations are over: residuals are above their limits${moved:+, and $judged_name moved by $moved % over the iterations judged last}" ;;
+  over) echo "$most iterations are over${has_residuals:+: residuals are above their limits}${moved:+, and $judged_name moved by $moved % over the iterations judged last}" ;;
 esac
 [ "$tasks" = 1 ] || run reconstructPar reconstructPar -latestTime
 )SH";
@@ -240,6 +240,7 @@ class RunFiles {
         "iteration at which the start of first order ends at the latest; 0: no such start");
     set("judged", s_.settles_by, "files of the values that end the run when they settle; empty: residuals alone do");
     set("judged_name", s_.settles_by.starts_with("forces") ? "the force" : "the pressure drop", "what they are");
+    set("has_residuals", s_.residual_limit() > 0.0 ? "yes" : "", "limits of residuals end the run as well; empty: they do not");
     set("limit", case_number(limit), "m/s, beyond which the run has diverged");
     set("first_sign", case_number(k_first_sign * limit), "m/s, by which the place is found where that began");
     set("watched", std::to_string(k_first_watched), "iteration from which on the velocity is judged; before, the impulse of the start has not faded");

@@ -177,13 +177,15 @@ class FoamSettings {
       scheme = "cellLimited pointCellsLeastSquares 1";
     } else if (s_.has_pyramids) {
       text =
-          "// Limited in each direction between the cells around: beside vertices without a layer the cells of all layers share a point, so that the gradient of "
+          "// Limited in each direction between the cells around: beside vertices without a layer the cells of all layers share a point, so that the gradient "
+          "of "
           "the lowest\n// contains the velocity of the highest, and the cells swing ever more.\n";
       scheme = "cellMDLimited pointCellsLeastSquares 1";
     }
     if (has_own_pressure)
       text +=
-          "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge become unstable after 100 "
+          "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge become unstable after "
+          "100 "
           "to 200 iterations.\n";
     return text + "gradSchemes { default " + scheme + ";" + (has_own_pressure ? " grad(p) Gauss linear;" : "") + " }\n\n";
   }
@@ -221,7 +223,7 @@ class FoamSettings {
   }
 
   std::string solution() const {
-    const std::string tolerance = case_number(std::min(1e-8, 0.01 * s_.options.residual));
+    const std::string tolerance = case_number(s_.residual_limit() > 0.0 ? std::min(1e-8, 0.01 * s_.residual_limit()) : 1e-8);
     const std::string smooth = "{ solver smoothSolver; smoother symGaussSeidel; tolerance " + tolerance + "; relTol 0.1; maxIter 20; }\n";
     const std::string multigrid = "{ solver GAMG; smoother GaussSeidel; tolerance " + tolerance + "; relTol 0.05; }\n";
     const std::string krylov = "{ solver PBiCGStab; preconditioner DILU; tolerance " + tolerance + "; relTol 0.1; }\n";
@@ -243,9 +245,10 @@ class FoamSettings {
     std::string controls;
     std::string fields = solved() + " ";
     for (std::size_t at = 0, end = fields.find(' '); end != std::string::npos; at = end + 1, end = fields.find(' ', at))
-      controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.options.residual) + ";\n";
+      controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.residual_limit()) + ";\n";
     text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") + ";\n    nNonOrthogonalCorrectors " +
-            std::to_string(s_.n_correctors) + ";\n" + limits + reference + "    residualControl\n    {\n" + controls + "    }\n}\n\n";
+            std::to_string(s_.n_correctors) + ";\n" + limits + reference +
+            (s_.residual_limit() > 0.0 ? "    residualControl\n    {\n" + controls + "    }\n" : "") + "}\n\n";
     return text + (s_.is_compressible
                        ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
                        : std::string(s_.model == "SpalartAllmaras"

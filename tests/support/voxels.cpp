@@ -66,7 +66,10 @@ TriMesh voxel_boundary(const std::array<int, 3>& n, double size, const std::func
 TriMesh chain_of_cubes(int n) {
   const std::set<std::array<int, 3>> solid = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
   TriMesh mesh = voxel_boundary(
-      {2 * n, 2 * n, 2 * n}, 1.0 / n, [&](int i, int j, int k) { return solid.contains({i / n, j / n, k / n}); },
+      {2 * n, 2 * n, 2 * n}, 1.0 / n,
+      [&](int i, int j, int k) {
+        return solid.contains({i / n, j / n, k / n});
+      },
       [](const Point&, const Vec3&) {
         return Patch{"body", PatchKind::wall};
       });

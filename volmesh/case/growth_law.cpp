@@ -24,7 +24,7 @@ constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
 constexpr double k_unbent = 1.0 / 3.0;       ///< of the least height for the first cell: lines that low have the bend of full ones
 constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0
 constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
-constexpr double k_first_step = 1.0;         ///< of the first height's logarithm
+constexpr double k_log_step = 1.0;           ///< of the first height's logarithm
 constexpr double k_first_tolerance = 1e-14;  ///< of the same
 constexpr double k_kept_growth = 0.6;        ///< of r - 1 at the top of lines as tall as asked: what lower lines keep before their first cells get lower
 
@@ -119,7 +119,7 @@ double first_for_height(LineGrowth line, double bend, double height, int n) {
   };
   while (off_at(low) > 0.0) {
     high = low;
-    low -= k_first_step;
+    low -= k_log_step;
   }
   for (int i = 0; i < k_bend_steps && high - low > k_first_tolerance; ++i) {
     const double middle = 0.5 * (low + high);

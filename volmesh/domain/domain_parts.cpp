@@ -20,7 +20,7 @@ namespace {
 
 constexpr double k_chain_sine = 1e-3;      ///< planes at a smaller angle have their line along their common edge
 constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
-constexpr double k_open_cosine = 0.1;      ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
+constexpr double k_open_cosine = 0.03;     ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 178 degrees
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};

@@ -7,7 +7,7 @@ namespace sterna::volmesh {
 namespace {
 
 /// Of the target height: where all lines grow alike, a line that is lower has first cells lower by as much, beside others of a hundred times their height.
-constexpr double k_least_share = 0.01;
+constexpr double k_least_of_target = 0.01;
 
 }  // namespace
 
@@ -71,7 +71,7 @@ double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, Verte
 
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale) {
   if (height >= envelope.height[v]) return;
-  const double least = std::max(scale.h_min(v), scale.has_common_growth() ? k_least_share * envelope.target[v] : 0.0);
+  const double least = std::max(scale.h_min(v), scale.has_common_growth() ? k_least_of_target * envelope.target[v] : 0.0);
   envelope.height[v] = height < least ? 0.0 : height;
   envelope.limit[v] = reason;
 }

@@ -21,8 +21,8 @@ namespace {
 constexpr int k_denoising_sweeps = 3;
 constexpr std::array<std::string_view, 7> k_names = {"classified", "initial", "smoothed", "untangled", "unwarped", "retracted", "finished"};
 
-/// Cosine of the angle from a facet's normal beyond which cells along a line are hardly higher than nothing above the facet; and what of the best possible cosine
-/// counts where there is no better.
+/// Cosine of the angle from a facet's normal beyond which cells along a line are hardly higher than nothing above the facet; and what of the best possible
+/// cosine counts where there is no better.
 constexpr double k_seen_cosine = 0.2, k_seen_share = 0.85;
 /// Of its height, what a line that is set more upright may keep.
 constexpr std::array<double, 3> k_upright_heights = {1.0, 0.7, 0.4};
@@ -30,19 +30,19 @@ constexpr std::array<double, 3> k_upright_heights = {1.0, 0.7, 0.4};
 constexpr double k_lean_cosine = 0.26;
 /// Cosine of 83 degrees: columns whose flat cells lean by more are given up. Solvers diverge on them (docs/heights.md).
 constexpr double k_lost_cosine = 0.122;
-constexpr double k_least_upright = 0.1;         ///< of a line's height along the vertex's normal, as in layer_line.h
-constexpr std::size_t k_column_chunk = 256;
+constexpr double k_least_upright = 0.1;  ///< of a line's height along the vertex's normal, as in layer_line.h
+constexpr std::size_t k_facet_chunk = 256;
 
 /// m, the step along the line at v from the wall to its first node, if it is straight.
-Vec3 first_step(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, VertexId v) {
+Vec3 straight_step(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, VertexId v) {
   if (envelope.is_collapsed(v)) return {};
   const double upright = std::max(dot(envelope.direction[v], base.vertex_normal[v]), k_least_upright);
   const double room = height_for_first_cell(scale.growth(v), scale.n(v));
   return scale.first_step(v) / upright * std::min(1.0, envelope.height[v] * upright / room) * envelope.direction[v];
 }
 
-/// Cosine between a facet's normal and the way from the centre of one flat cell above it to that of the next: corners count by (1 + a_i / (a_1 + a_2 + a_3)) / 4,
-/// where a_i are their heights above the facet (growth_law.h).
+/// Cosine between a facet's normal and the way from the centre of one flat cell above it to that of the next: corners count by (1 + a_i / (a_1 + a_2 + a_3)) /
+/// 4, where a_i are their heights above the facet (growth_law.h).
 double column_cosine(const std::array<Vec3, 3>& steps, const Vec3& normal) {
   std::array<double, 3> a{};
   for (std::size_t k = 0; k < 3; ++k) a[k] = std::max(0.0, dot(steps[k], normal));
@@ -62,13 +62,15 @@ std::vector<VertexId> leaning_lines(const LayerBase& base, const EnvelopeScale& 
         for (std::size_t i = begin; i < end; ++i) {
           const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
           const Vec3& normal = base.unit_normal[TriangleId(i)];
-          const auto step = [&](VertexId w) { return first_step(base, scale, envelope, w); };
+          const auto leans = [&](VertexId w) { return !envelope.is_collapsed(w) && dot(envelope.direction[w], normal) < of_cells; };
+          if (std::ranges::none_of(v, leans)) continue;  // nor does the mean of lines within a cone
+          const auto step = [&](VertexId w) { return straight_step(base, scale, envelope, w); };
           if (column_cosine({step(v[0]), step(v[1]), step(v[2])}, normal) >= of_cells) continue;
           for (const VertexId w : v)
             if (!envelope.is_collapsed(w) && base.fan_of(w) == nullptr && dot(envelope.direction[w], normal) < of_lines) found.push_back(w);
         }
       },
-      k_column_chunk);
+      k_facet_chunk);
   sort_unique(lines);
   return lines;
 }
@@ -89,8 +91,8 @@ void set_upright(const LayerBase& base, const EnvelopeOptions& options, Collider
   }
 }
 
-/// Collapses lines in corners for which cells above some facet still lean too far. A corner is where the mean normal sees a facet from behind: convex edges keep
-/// their lines, which stand half-way between both sides however sharp the edge is.
+/// Collapses lines in corners for which cells above some facet still lean too far. A corner is where the mean normal sees a facet from behind: convex edges
+/// keep their lines, which stand half-way between both sides however sharp the edge is.
 void give_up_leaning(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options);
   std::vector<VertexId> lost = leaning_lines(base, scale, envelope, k_lost_cosine, k_lost_cosine, context);

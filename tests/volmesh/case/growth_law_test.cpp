@@ -106,8 +106,8 @@ TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
   }
 }
 
-/// Beside vertices without a layer two lines may be a thousandth of their full height, on edges that differ: what is flat is told by the cells that are made and
-/// not by those of a full line, or the lines bend while their cells are 1e4 times wider than tall (found on bjet and D150: faces at 89.97 degrees).
+/// Beside vertices without a layer two lines may be a thousandth of their full height, on edges that differ: what is flat is told by the cells that are made
+/// and not by those of a full line, or the lines bend while their cells are 1e4 times wider than tall (found on bjet and D150: faces at 89.97 degrees).
 TEST(GrowthLaw, LinesFarTooLowKeepTheirProportionsWhateverTheirEdges) {
   const double h0 = 7e-6, g = 1.25;
   const int n = 50;
