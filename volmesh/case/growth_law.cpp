@@ -24,6 +24,7 @@ constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
 constexpr double k_unbent = 1.0 / 3.0;       ///< of the least height for the first cell: lines that low have the bend of full ones
 constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0
 constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
+constexpr double k_least_edge_share = 0.4;   ///< of a line's edge, by which the bend of a low line acts at least
 constexpr double k_log_step = 1.0;           ///< of the first height's logarithm
 constexpr double k_first_tolerance = 1e-14;  ///< of the same
 constexpr double k_kept_growth = 0.6;        ///< of r - 1 at the top of lines as tall as asked: what lower lines keep before their first cells get lower
@@ -93,9 +94,11 @@ double bend_for_height(const LineGrowth& line, double height, int n) {
   return bend;
 }
 
-/// The cells of a line whose flat ones grow by the common ratio: the first is `first`, m, high.
+/// The cells of a line whose flat ones grow by the common ratio.
 struct CommonCells {
-  double first = 0.0, bend = 0.0;
+  double first = 0.0;  ///< m, height of the first
+  double bend = 0.0;
+  double edge = 0.0;  ///< m, by which the bend acts (bend_share)
 };
 
 /// Bends of a line as tall as asked (at least 0), and the largest, of a line that is lower.
@@ -129,19 +132,25 @@ double first_for_height(LineGrowth line, double bend, double height, int n) {
 }
 
 CommonCells common_cells(const LineGrowth& line, double height, int n) {
-  if (n == 1) return {height, 0.0};
+  if (n == 1) return {height, 0.0, line.edge};
   const Bends bends = bends_of(line, n);
   const double lowest = bent_sum(line, bends.largest, n).sum;
-  if (height > lowest) return {line.h0, bend_for_height(line, height, n)};
+  if (height > lowest) return {line.h0, bend_for_height(line, height, n), line.edge};
   // The first cell is lower anyway: the lower the line, the more its last cells grow as on a full one.
   const double squeeze = std::clamp((height / lowest - k_unbent) / (1.0 - k_unbent), 0.0, 1.0);
   const double bend = bends.asked + squeeze * (bends.largest - bends.asked);
-  return {first_for_height(line, bend, height, n), bend};
+  const double share = height / bent_sum(line, bend, n).sum;
+  if (share >= k_least_edge_share) return {share * line.h0, bend, share * line.edge};
+  LineGrowth low = line;
+  low.h0 *= k_least_edge_share;
+  low.edge *= k_least_edge_share;
+  return {first_for_height(low, bend, height, n), bend, low.edge};
 }
 
-/// The line with the first height that its cells have.
-LineGrowth beginning_with(LineGrowth line, double first) {
-  line.h0 = first;
+/// The line as its cells are.
+LineGrowth as_made(LineGrowth line, const CommonCells& cells) {
+  line.h0 = cells.first;
+  line.edge = cells.edge;
   return line;
 }
 
@@ -204,7 +213,7 @@ void layer_parameters(const LineGrowth& line, double height, int n, double* t) {
   for (int j = 1; j < n; ++j) {
     sum += h;
     t[j] = sum / height;
-    const double share = bend_share(h, line.edge);
+    const double share = bend_share(h, cells.edge);
     h *= cells.bend >= 0.0 ? std::max(1.0, line.common / (1.0 + cells.bend * share)) : line.common * (1.0 - cells.bend * share);
   }
   t[n] = 1.0;
@@ -214,13 +223,13 @@ double largest_growth(const LineGrowth& line, double height, int n) {
   if (line.common == 0.0) return growth_for_height(line.h0, height, n);
   if (n == 1) return 1.0;
   const CommonCells cells = common_cells(line, height, n);
-  return std::max(line.common, bent_sum(beginning_with(line, cells.first), cells.bend, n).ratio);
+  return std::max(line.common, bent_sum(as_made(line, cells), cells.bend, n).ratio);
 }
 
 double last_height(const LineGrowth& line, double height, int n) {
   if (line.common > 0.0) {
     const CommonCells cells = common_cells(line, height, n);
-    return bent_sum(beginning_with(line, cells.first), cells.bend, n).last;
+    return bent_sum(as_made(line, cells), cells.bend, n).last;
   }
   const double growth = growth_for_height(line.h0, height, n);
   return growth > 1.0 ? line.h0 * std::pow(growth, n - 1) : height / n;

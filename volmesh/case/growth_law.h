@@ -26,8 +26,9 @@ void layer_parameters(double h0, double height, int n, double* t);
 /// e/h = 1e4. Common: ratio_j = g / (1 + b min(1, (100 h_j / e)^2)), at least 1, with one g for all lines and a bend b that follows from the total height of
 /// the line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines; where the bends of neighbours differ by a small d, faces lean by atan(25 d) at most
 /// for it. Lines that are far lower than asked would end with cells too low for the tetrahedra on them: the bend is limited so that the ratio at the top is at
-/// least 1 + 0.6 (r - 1), where r is the ratio there of a line as tall as asked. Still lower lines begin with lower cells, which grow by g as long as they are
-/// flat; a third lower still, they have the bend of a line as tall as asked.
+/// least 1 + 0.6 (r - 1), where r is the ratio there of a line as tall as asked. Still lower lines have lower cells, all by one share, to a share of 0.4;
+/// below that the first cells get lower, and the bend acts where cells have 0.4 of the height at which it acts on full lines: else lines a thousandth of their
+/// height would bend while they are flat. A third lower than the least height for the first cell, they have the bend of a line as tall as asked.
 struct LineGrowth {
   double h0 = 0.0;      ///< m, first height
   double common = 0.0;  ///< g; 0: local

@@ -26,7 +26,7 @@ std::string_view to_string(HeightLimit limit) {
     case HeightLimit::gap: return "gap to an opposing wall";
     case HeightLimit::collision: return "layers collide";
     case HeightLimit::prism: return "a prism of the layer would be invalid";
-    case HeightLimit::invisible: return "no direction sees all facets well";
+    case HeightLimit::invisible: return "no direction sees all faces";
     case HeightLimit::fixed: return "fixed on the wall";
   }
   return "";

@@ -28,8 +28,6 @@ constexpr double k_seen_cosine = 0.2, k_seen_share = 0.85;
 constexpr std::array<double, 3> k_upright_heights = {1.0, 0.7, 0.4};
 /// Cosine of 75 degrees: columns whose flat cells lean by more get lines that are more upright.
 constexpr double k_lean_cosine = 0.26;
-/// Cosine of 83 degrees: columns whose flat cells lean by more are given up. Solvers diverge on them (docs/heights.md).
-constexpr double k_lost_cosine = 0.122;
 constexpr double k_least_upright = 0.1;  ///< of a line's height along the vertex's normal, as in layer_line.h
 constexpr std::size_t k_facet_chunk = 256;
 
@@ -91,21 +89,6 @@ void set_upright(const LayerBase& base, const EnvelopeOptions& options, Collider
   }
 }
 
-/// Collapses lines in corners for which cells above some facet still lean too far. A corner is where the mean normal sees a facet from behind: convex edges
-/// keep their lines, which stand half-way between both sides however sharp the edge is.
-void give_up_leaning(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
-  const EnvelopeScale scale = scale_of(base, options);
-  std::vector<VertexId> lost = leaning_lines(base, scale, envelope, k_lost_cosine, k_lost_cosine, context);
-  std::erase_if(lost, [&](VertexId v) { return base.worst_cosine(v, base.vertex_normal[v]) >= 0.0; });
-  if (lost.empty()) return;
-  for (const VertexId v : lost) lower(envelope, v, 0.0, HeightLimit::invisible, scale);
-  const std::vector<VertexId> lowered = unwarp(base, options, HeightLimit::warp, envelope, context, &lost);
-  std::vector<VertexId> changed = lost;
-  changed.insert(changed.end(), lowered.begin(), lowered.end());
-  sort_unique(changed);
-  retract_collisions(base, options, collider, envelope, context, &changed);
-}
-
 }  // namespace
 
 std::string_view to_string(EnvelopeStep step) { return k_names[static_cast<std::size_t>(step)]; }
@@ -150,10 +133,7 @@ void optimise_step(const LayerBase& base, const EnvelopeOptions& options, Collid
     regrow_clear(base, collider, envelope, context);
     keep_distance(base, options, collider, envelope, context);
   }
-  if (has_common_growth(options)) {
-    set_upright(base, options, collider, envelope, context);
-    give_up_leaning(base, options, collider, envelope, context);
-  }
+  if (has_common_growth(options)) set_upright(base, options, collider, envelope, context);
   seat_on_surfaces(base, options, &collider, envelope, context);
 }
 
