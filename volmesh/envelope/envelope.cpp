@@ -8,11 +8,8 @@ namespace {
 
 /// Of the target height: where all lines grow alike, a line that is lower has first cells lower by as much, beside others of a hundred times their height.
 constexpr double k_least_of_target = 0.01;
-
-}  // namespace
-
-namespace {
-
+/// Of h: the least normal height that the layer law is given (a line at 84 degrees to the wall normal).
+constexpr double k_min_normal_share = 0.1;
 /// Share of n h0 below which a layer is no longer worth its cells (method.md §4).
 constexpr double k_min_height_share = 0.2;
 
@@ -60,6 +57,11 @@ double EnvelopeScale::asked_height(VertexId v) const { return std::min(unlimited
 double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v) * h0(v); }
 
 EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options) { return {base, options}; }
+
+double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  if (base.fan_of(v) != nullptr) return envelope.height[v];
+  return envelope.height[v] * std::max(dot(envelope.direction[v], base.vertex_normal[v]), k_min_normal_share);
+}
 
 double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, VertexId v) {
   const auto around = base.topology.neighbours(v);

@@ -104,6 +104,11 @@ class EnvelopeScale {
 };
 EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options);
 
+/// Height of the layer at a vertex along its wall normal, m: h (d . n). It is what the layer law divides, so that the first node is h0 off the wall whatever
+/// the line's curve and slant; the layer is compressed (h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told
+/// apart. Of a line of a fan: its length, so that nodes of one fan are equally far from their foot, however little it is open.
+double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v);
+
 /// Mean length of the envelope's edges at a vertex, m.
 double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, VertexId v);
 

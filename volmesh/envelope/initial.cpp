@@ -20,8 +20,8 @@ constexpr int k_pull_steps = 20;  ///< halvings: 1e-6 of the angle
 /// Cosines below this are rounding: no direction sees all faces.
 constexpr double k_visible = 1e-9;
 
-/// The direction nearest to `wanted` on the way to the visible one whose worst cosine is at least `needed`.
-/// \pre the visible direction itself satisfies `needed`.
+}  // namespace
+
 Vec3 pull_towards_visible(const LayerBase& base, VertexId v, const Vec3& wanted, double needed) {
   if (base.worst_cosine(v, wanted) >= needed) return wanted;
   double inside = 1.0, outside = 0.0;
@@ -39,15 +39,11 @@ Vec3 pull_towards_visible(const LayerBase& base, VertexId v, const Vec3& wanted,
   return best;
 }
 
-}  // namespace
-
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine) {
   const Vec3 allowed = constrained(base.constraint[v], wanted);
   if (norm2(allowed) == 0.0) return base.visible_direction[v];
   return pull_towards_visible(base, v, allowed, std::min(cosine, k_cone_share * base.cone_visibility(v)));
 }
-
-Vec3 pull_to_facets(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine) { return pull_towards_visible(base, v, wanted, cosine); }
 
 namespace {
 

@@ -13,12 +13,12 @@ inline constexpr double k_rim_slope = 1.0;  ///< of heights beside rims of sheet
 /// Vertices without a direction that sees all their faces start collapsed (HeightLimit::invisible).
 Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 
+/// The direction nearest to `wanted` on the way to the visible one whose worst cosine with the normals of the facets at v is at least `needed`.
+/// \pre the visible direction itself satisfies `needed`.
+Vec3 pull_towards_visible(const LayerBase& base, VertexId v, const Vec3& wanted, double needed);
+
 /// The direction within v's constraint nearest to `wanted` (on the way to the best visible one) that sees every face of v with at least the cosine
 /// min(`cosine`, 0.5 * the best possible).
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
-
-/// `wanted`, or the nearest on the way from it to the visible direction that has at least this cosine with the normals of all facets at the vertex.
-/// \pre the visible direction has it
-Vec3 pull_to_facets(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
 
 }  // namespace sterna::volmesh

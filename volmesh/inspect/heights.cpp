@@ -13,7 +13,6 @@
 #include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/inspect/survey.h"
-#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {

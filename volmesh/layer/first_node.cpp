@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geom/base/parallel.h"
-#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {

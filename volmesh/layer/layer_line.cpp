@@ -14,17 +14,9 @@ constexpr double k_straight = 1e-3;
 /// 0.5 t / c_t from cell to cell, and 11 h / e may (growth_law.h); a cell of height h at t has h = 0.2 t H where cells grow by 1.25: c_t is at least this times
 /// e / H, times the tangent of the line's slant and the sine of the facet's.
 constexpr double k_flat_curving = 0.23;
-/// Tangent of the slant beyond which a straight line has no first height any more, because of k_min_normal_share.
+/// Tangent of the slant beyond which a straight line has no first height any more, because of the floor of normal_height().
 constexpr double k_steepest = 9.9;
-/// Of h: the least normal height that the layer law is given (a line at 84 degrees to the wall normal).
-constexpr double k_min_normal_share = 0.1;
-
 }  // namespace
-
-double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v) {
-  if (base.fan_of(v) != nullptr) return envelope.height[v];
-  return envelope.height[v] * std::max(dot(envelope.direction[v], base.vertex_normal[v]), k_min_normal_share);
-}
 
 LinePlacer::LinePlacer(const LayerBase& base, const EnvelopeScale& scale) : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
 

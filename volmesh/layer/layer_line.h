@@ -7,11 +7,6 @@
 
 namespace sterna::volmesh {
 
-/// Height of the layer at a vertex along its wall normal, m: h (d . n). It is what the layer law divides, so that the first node is h0 off the wall whatever
-/// the line's curve and slant; the layer is compressed (h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told
-/// apart. Of a line of a fan: its length, so that nodes of one fan are equally far from their foot, however little it is open.
-double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v);
-
 /// Nodes p_0 .. p_n of a line: p_j = p + t_j (s_j h_n n + (1 - s_j)(e - p)) with envelope point e, wall normal n, h_n = normal_height and eq. (11) for
 /// h_n: the first node is h0 off the wall along its normal.
 /// Eq. (10) has h in place of h_n; with h_n every node's distance along n is t_j h_n, and curving slides nodes along the wall only.

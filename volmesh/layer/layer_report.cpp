@@ -11,7 +11,6 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/layer_room.h"
-#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {

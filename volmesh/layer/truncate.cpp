@@ -6,7 +6,6 @@
 #include "geom/base/parallel.h"
 #include "geom/math/constants.h"
 #include "volmesh/case/growth_law.h"
-#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -11,7 +11,6 @@
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
-#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {
