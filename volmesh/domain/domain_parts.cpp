@@ -12,6 +12,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/flat_patch.h"
+#include "volmesh/domain/open_rims.h"
 #include "volmesh/domain/wall_reach.h"
 #include "volmesh/envelope/constrain_rims.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 constexpr double k_chain_sine = 1e-3;      ///< planes at a smaller angle have their line along their common edge
 constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
-constexpr double k_open_cosine = 0.03;     ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 178 degrees
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
@@ -269,12 +269,7 @@ class DomainSplitter {
     Column<VertexId, std::uint8_t> is_convex(wall_.mesh.n_vertices(), 0);
     for (const RimEdge& edge : domain_.rim) {
       const HalfedgeId h = surface_halfedge(edge.halfedge);
-      const auto [a, b, c] = corners(surface_, triangle_of(h));
-      const Point from = surface_.points[topology_.from(h)], to = surface_.points[topology_.to(h)];
-      const Point beyond = surface_.points[topology_.from(previous(topology_.twin(h)))];
-      const Vec3 along = normalized(to - from);
-      const Vec3 inward = normalized(beyond - from - dot(beyond - from, along) * along);
-      if (dot(normalized(area_vector(a, b, c)), inward) > k_open_cosine) continue;
+      if (!is_open_rim(surface_, topology_, h)) continue;
       is_convex[wall_.surface2part[topology_.from(h)]] = is_convex[wall_.surface2part[topology_.to(h)]] = 1;
     }
     return is_convex;

@@ -333,6 +333,13 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
+/// What is asked of the patches of a part with layers. Those of another kind than wall (a nozzle at the end of its nacelle) ask for what a wall of their name
+/// would.
+Column<PatchId, PatchLayers> layers_of_part(Column<PatchId, Patch> patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
+  for (Patch& patch : patches) patch.kind = PatchKind::wall;
+  return layers_of_patches(patches, options, rules);
+}
+
 /// Vertices that must grow alike ask for the least that one of them asks for; what is automatic asks for nothing.
 template <class T>
 void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Column<VertexId, T>& column) {
@@ -348,7 +355,7 @@ void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Colu
 
 LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
                       const RunContext& context) {
-  const Column<PatchId, PatchLayers> asked = layers_of_patches(base.wall.patches, options, rules);
+  const Column<PatchId, PatchLayers> asked = layers_of_part(base.wall.patches, options, rules);
   const auto is_as_all = [&](const PatchLayers& layers) {
     return !layers.carries_layers() || (!(by_place && !layers.has_own_first_height) && layers.layers == options.layers &&
                                         layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
@@ -368,7 +375,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
                            const RunContext& context) {
   if (std::ranges::none_of(rules, [](const PatchRule& rule) { return !is_automatic(rule.blend); })) return;
   const Column<PatchId, Patch>& patches = base.wall.patches;
-  const Column<PatchId, PatchLayers> asked = layers_of_patches(patches, options, rules);
+  const Column<PatchId, PatchLayers> asked = layers_of_part(patches, options, rules);
   const auto group_of = [&](PatchId p) {
     const PatchLayers& layers = asked[p];
     return Group{layers.first_height,

@@ -16,6 +16,7 @@
 #include "volmesh/domain/cut_discs.h"
 #include "volmesh/domain/disc_sheets.h"
 #include "volmesh/domain/open_ridges.h"
+#include "volmesh/domain/open_rims.h"
 #include "volmesh/domain/periodic_sides.h"
 #include "volmesh/domain/sheeted_boundary.h"
 #include "volmesh/domain/split_corners.h"
@@ -97,7 +98,21 @@ double least_first_height(const MeshCase& options) {
   return least;
 }
 
-Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options) {
+/// Inflow and outflow patches beyond outer edges of walls (a nozzle at the end of its nacelle) carry the walls' layer, unless a rule says layers = 0 for them:
+/// no layer can end there, and the cells around rim vertices without one made an airliner's flow diverge (docs/measurements/solvers.md).
+void go_on_beyond_open_rims(const TriMesh& boundary, const MeshCase& options, const RunContext& context, Column<PatchId, std::uint8_t>& has_layer) {
+  for (const PatchId p : flow_patches_beyond_open_rims(boundary, has_layer, context)) {
+    const Patch& patch = boundary.patches[p];
+    const PatchLayers asked = request_of({patch.name, PatchKind::wall}, options.envelope, options.patches);
+    if (!asked.carries_layers() || (is_automatic(asked.first_height) && !options.first_heights)) continue;
+    has_layer[p] = 1;
+    context.info("the layer of the walls goes on over the " + std::string(to_string(patch.kind)) + " patch \"" + patch.name +
+                 "\", which begins at an outer edge of a wall, where no layer can end; patches = { [\"" + patch.name +
+                 "\"] = { layers = 0 } } ends it at that edge without a height");
+  }
+}
+
+Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
   // Files of triangles know no kinds: all their patches are walls. Periodic sides are none.
@@ -105,6 +120,7 @@ Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const
     return std::ranges::any_of(options.periodic, [&](const PeriodicNames& pair) { return pair.first == name || pair.second == name; });
   };
   for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() && !is_periodic(boundary.patches[p].name) ? 1 : 0;
+  go_on_beyond_open_rims(boundary, options, context, has_layer);
   return has_layer;
 }
 
@@ -132,7 +148,7 @@ WholeBoundary completed(const TriMesh& given, const MeshCase& options, const Run
   WholeBoundary whole;
   whole.mesh = complete_boundary(given, {options.farfield, options.farfield_surface, options.periodic}, context, &whole.planes);
   apply_patch_kinds(whole.mesh, options.patches);
-  whole.has_layer = patches_with_layers(whole.mesh, options);
+  whole.has_layer = patches_with_layers(whole.mesh, options, context);
   mesh_bare_planes(whole.planes, given.n_triangles(), whole.has_layer, {options.ends, end_sizes(options)}, whole.mesh, context);
   return whole;
 }
@@ -190,7 +206,7 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
     sheeted = with_wake_sheets(boundary, given.n_triangles(), needles, sides, options.wakes, least_first_height(options), complete_again, context);
     apply_patch_kinds(sheeted.boundary, options.patches);
     boundary = sheeted.boundary;
-    has_layer = patches_with_layers(boundary, options);
+    has_layer = patches_with_layers(boundary, options, context);
     needles = sheeted.needles;
   }
   require_own_names(options.discs, boundary.patches, {});
