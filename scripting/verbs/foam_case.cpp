@@ -107,6 +107,20 @@ void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& ref
                     setup.flow.mach, k_supersonic_advice, setup.application));
 }
 
+/// Vertices of walls where the layer has no height: beside such vertices in narrow crevices and gaps runs diverged (docs/measurements/solvers.md).
+void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) {
+  const std::vector<std::uint8_t>& is_collapsed = mesh.layers.is_collapsed;
+  const auto n = std::ranges::count_if(is_collapsed, [](std::uint8_t value) { return value != 0; });
+  if (n == 0) return;
+  const auto first = static_cast<std::size_t>(std::ranges::find_if(is_collapsed, [](std::uint8_t value) { return value != 0; }) - is_collapsed.begin());
+  const Point& place = mesh.points[NodeId(mesh.layers.first_node[first])];
+  context.warn(
+      fmt::format("OpenFOAM: the layer has no height at {} of the walls, the first at ({:.6g}, {:.6g}, {:.6g}): in narrow crevices and gaps runs "
+                  "diverged beside such vertices. Fill the crevice or gap in the geometry, move the parts there apart or into each other, or make the "
+                  "wall finer there; the report of the mesh gives the reason at each vertex",
+                  n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), place.x, place.y, place.z));
+}
+
 /// Options that were given and do nothing in this case.
 void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
   const FoamOptions &given = setup.options, usual;
@@ -148,7 +162,6 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   complete_flow(setup, context);
   set_turbulence(setup);
   choose_correction(setup, non_orthogonality);
-  setup.has_pyramids = count_cells(mesh).pyramids > 0;
   setup.velocity = setup.flow.speed * direction_of(mesh, site, common);
   setup.area = reference_area(reference, site);
   setup.length = reference_length(reference, setup.flow);
@@ -172,6 +185,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   problems.require_none("making a case of OpenFOAM");
   for (CaseFile& file : foam_settings(setup)) result.files.push_back(std::move(file));
   tell(setup, site, reference, context);
+  if (setup.is_viscous) warn_of_collapsed_lines(mesh, context);
   tell_without_effect(setup, context);
   return result;
 }

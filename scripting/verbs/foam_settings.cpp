@@ -170,24 +170,17 @@ class FoamSettings {
   }
 
   std::string gradients() const {
-    const bool has_own_pressure = s_.is_turbulent && !s_.is_compressible && !is_transonic();
-    std::string text, scheme = "pointCellsLeastSquares";
+    std::string text, scheme = "pointCellsLeastSquares", of_pressure;
     if (is_transonic()) {
       text = "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n";
       scheme = "cellLimited pointCellsLeastSquares 1";
-    } else if (s_.has_pyramids) {
+    } else if (s_.is_turbulent && !s_.is_compressible) {
       text =
-          "// Limited in each direction between the cells around: beside vertices without a layer the cells of all layers share a point, so that the gradient "
-          "of "
-          "the lowest\n// contains the velocity of the highest, and the cells swing ever more.\n";
-      scheme = "cellMDLimited pointCellsLeastSquares 1";
+          "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge\n"
+          "// become unstable after 100 to 200 iterations.\n";
+      of_pressure = " grad(p) Gauss linear;";
     }
-    if (has_own_pressure)
-      text +=
-          "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge become unstable after "
-          "100 "
-          "to 200 iterations.\n";
-    return text + "gradSchemes { default " + scheme + ";" + (has_own_pressure ? " grad(p) Gauss linear;" : "") + " }\n\n";
+    return text + "gradSchemes { default " + scheme + ";" + of_pressure + " }\n\n";
   }
 
   std::string schemes() const {

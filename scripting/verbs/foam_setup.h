@@ -33,7 +33,6 @@ struct FoamSetup {
   std::string correction_reason;         ///< a sentence for fvSchemes
   int n_correctors = 0;                  ///< solutions for the pressure beside the first
   std::string settles_by;                ///< files, below postProcessing, whose values end a steady run when they settle; empty: residuals alone do
-  bool has_pyramids = false;             ///< cells of layers around vertices without one, or between layers of different numbers
   bool has_fast_openings = false;        ///< openings or discs, by which velocities far above the flow's are right (contractions, jets)
 
   /// Initial residuals at which a steady run ends; 0: never by them. On layers of thin cells all are below 1e-6 while forces still move by a percent in 100
