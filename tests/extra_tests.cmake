@@ -45,7 +45,7 @@ set_tests_properties(library PROPERTIES TIMEOUT 300)
 
 # From Python.
 add_test(NAME python COMMAND ${STERNA_SYSTEM_PYTHON} -W error ${CMAKE_CURRENT_SOURCE_DIR}/scripting/python/sterna_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna> ${STERNA_TEST_DATA})
-set_tests_properties(python PROPERTIES TIMEOUT 300 LABELS real_data)
+set_tests_properties(python PROPERTIES TIMEOUT 300)
 
 # Links and pictures of the documents lead somewhere, and the index has every page.
 add_test(NAME documents COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/documents_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:sterna>)
@@ -62,7 +62,7 @@ endforeach()
 add_test(NAME verify_flow COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_flow)
 set_tests_properties(verify_flow PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST 100)
 # Two aircraft as foam_case writes the case stay bounded; all twelve, whole runs: tools/verify_flow aircraft.
-add_test(NAME verify_aircraft COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow aircraft --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_aircraft)
+add_test(NAME verify_aircraft COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow aircraft --short --data ${STERNA_TEST_DATA} --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_aircraft)
 set_tests_properties(verify_aircraft PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 200)
 
 # A browser without network uses every control of report pages.
@@ -75,7 +75,7 @@ set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 12
 
 # The same browser uses every control of the workbench.
 add_test(NAME view_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/view/run_view_test ${CMAKE_BINARY_DIR} ${STERNA_TEST_DATA})
-set_tests_properties(view_browser PROPERTIES LABELS real_data SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 250 DEPENDS report_page_browser)
+set_tests_properties(view_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 250 DEPENDS report_page_browser)
 
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)
@@ -124,7 +124,7 @@ add_custom_target(torn_long COMMAND ${CMAKE_COMMAND} -E env STERNA_TORN=200 $<TA
 # Peers of remeshing: CGAL's and Gmsh's.
 target_link_libraries(remesh_peers PRIVATE CGAL::CGAL gmsh gmp mpfr)
 
-# Random cases (docs/soak.md): their judge tells good from bad, and twenty of them are not wrong. The audit shares no code with the program.
+# Random cases (docs/soak.md): their judge tells good from bad, and ten of them are not wrong. The audit shares no code with the program.
 add_executable(soak_mesh_audit soak/mesh_audit_main.cpp)
 set(sanitized_soak)
 set(sanitized_faults)
@@ -136,7 +136,7 @@ if(NOT STERNA_SANITIZE)  # its limits are what it tests
   add_test(NAME soak_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/soak/soak_test.py $<TARGET_FILE:sterna> $<TARGET_FILE:soak_mesh_audit> ${CMAKE_BINARY_DIR}/scratch/soak_self_test)
   set_tests_properties(soak_self_test PROPERTIES TIMEOUT 900 COST 100)
 endif()
-add_test(NAME soak COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --cases 20 --seed 1 --jobs 2 ${sanitized_soak} --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak)
+add_test(NAME soak COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --cases 10 --seed 1 --jobs 2 ${sanitized_soak} --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak)
 file(GLOB soak_cases CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/data/soak/*.json)
 add_test(NAME soak_again COMMAND ${CMAKE_SOURCE_DIR}/tools/soak --again ${soak_cases} --no-reduce ${sanitized_soak} --data none --sterna $<TARGET_FILE:sterna> --audit $<TARGET_FILE:soak_mesh_audit> --keep ${CMAKE_BINARY_DIR}/scratch/soak_again)
 set_tests_properties(soak soak_again PROPERTIES TIMEOUT 900 COST 100)

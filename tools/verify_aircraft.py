@@ -3,7 +3,7 @@ six of them at Mach 0.5 as well, four with k-omega SST. A run has converged when
 or the lift's size over the last 100 iterations, of 600 at most.
 
 Each aircraft and each run keeps its folder. A run whose result.json is there is not repeated, so the tool can be stopped and started again. Aircraft whose file
-is in ../shared/data are skipped with a message where it is absent."""
+is not in the folder of the data (--data, ../shared/data) are skipped with a message."""
 import json
 import os
 import pathlib
@@ -11,7 +11,6 @@ import re
 import shutil
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-DATA = ROOT.parent / "shared" / "data"
 WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged when its forces stay within it
 REFERENCE = 0.1            # reference area over the square of the length
 
@@ -26,36 +25,36 @@ def model_mesh(model: str, refinement: float) -> str:
     return f"local wall = remesh{{ half{{ surface_mesh{{ union{{ {model} }}, refinement = 0.5, curvature_angle = 24*deg }} }}, refinement = {refinement} }}\n"
 
 
-def file_mesh(reader: str, file: str, refinement: float) -> str:
-    return model_mesh(f'{reader} "{DATA / file}"', refinement)
+def file_mesh(reader: str, file: pathlib.Path, refinement: float) -> str:
+    return model_mesh(f'{reader} "{file}"', refinement)
 
 
-def surface_mesh(file: str, options: str, refinement: float) -> str:
-    return f'local wall = remesh{{ half{{ read_surface{{ "{DATA / file}", {options} }} }}, refinement = {refinement} }}\n'
+def surface_mesh(file: pathlib.Path, options: str, refinement: float) -> str:
+    return f'local wall = remesh{{ half{{ read_surface{{ "{file}", {options} }} }}, refinement = {refinement} }}\n'
 
 
 class Aircraft:
-    """`file` in ../shared/data, or none; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well; `has_engines`: with patches nozzle and fan_face."""
+    """`make` writes the script of the wall from the folder of the data; `file` in that folder, or none; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well; `has_engines`: with patches nozzle and fan_face."""
 
     def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False, has_engines: bool = False):
         self.name, self.make, self.file, self.fast, self.sst, self.has_engines = name, make, file, fast, sst, has_engines
 
-    def is_there(self) -> bool:
-        return not self.file or (DATA / self.file).exists()
+    def is_there(self, data: pathlib.Path) -> bool:
+        return not self.file or (data / self.file).exists()
 
 
 def of_file(name: str, reader: str, file: str, refinement: float, **more) -> Aircraft:
-    return Aircraft(name, lambda: file_mesh(reader, file, refinement), file, **more)
+    return Aircraft(name, lambda data: file_mesh(reader, data / file, refinement), file, **more)
 
 
 def of_surface(name: str, file: str, options: str, refinement: float, **more) -> Aircraft:
     file = "surfaces/clean/" + file
-    return Aircraft(name, lambda: surface_mesh(file, options, refinement), file, **more)
+    return Aircraft(name, lambda data: surface_mesh(data / file, options, refinement), file, **more)
 
 
 AIRCRAFT = [
-    Aircraft("airliner", lambda: script_before("03_airliner.lua", "model:write") + model_mesh("model", 0.1), fast=True, sst=True, has_engines=True),
-    Aircraft("light", lambda: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", 0.3), fast=True, sst=True),
+    Aircraft("airliner", lambda _: script_before("03_airliner.lua", "model:write") + model_mesh("model", 0.1), fast=True, sst=True, has_engines=True),
+    Aircraft("light", lambda _: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", 0.3), fast=True, sst=True),
     of_file("bjet", "read_smx", "smx/bjet.smx", 0.28, fast=True),
     of_file("widebody", "read_smx", "smx/widebody.smx", 0.19),
     of_file("delta", "read_smx", "smx/delta.smx", 0.3, fast=True),
@@ -67,8 +66,8 @@ AIRCRAFT = [
     of_surface("cessna", "flowpanel_cessna_cessna.msh", "unit = ft, split_angle = 60*deg", 0.36, sst=True),
     of_surface("airplane", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", 0.5, fast=True),
 ]
-SHORT = ["light", "bjet"]  # without and with vertices that have no layer; bjet diverged at iteration 15 before heights rose from those
-SHORT_ITERATIONS = 40
+SHORT = ["light", "bjet"]  # bjet diverged at iteration 15 while four vertices of its plane of symmetry had no layer
+SHORT_ITERATIONS = 24
 
 MESH = """
 local stream = flow{ mach = 0.2, altitude = 0, length = wall.length }
@@ -115,7 +114,7 @@ def mesh_of(tools, arguments, aircraft: Aircraft, folder: pathlib.Path) -> dict:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     shutil.copytree(ROOT / "scripts" / "data", folder / "data")
-    (folder / "mesh.lua").write_text(aircraft.make() + MESH)
+    (folder / "mesh.lua").write_text(aircraft.make(arguments.data.resolve()) + MESH)
     seconds = tools.run([arguments.sterna, "run", "mesh.lua"], folder, "log.sterna")
     log = (folder / "log.sterna").read_text()
     found = re.search(r"^counts\s+(\d+)\s+(\S+)$", log, re.M)
@@ -178,17 +177,18 @@ def solve(tools, arguments, run: Run, mesh: dict, folder: pathlib.Path, iteratio
 
 def aircraft(tools, arguments) -> None:
     names = arguments.aircraft or (SHORT if arguments.short else [a.name for a in AIRCRAFT])
+    place = arguments.folder / ("aircraft_short" if arguments.short else "aircraft")
     if arguments.short:  # a test is never of another program's meshes
-        shutil.rmtree(arguments.folder / "aircraft", ignore_errors=True)
+        shutil.rmtree(place, ignore_errors=True)
     print("| aircraft | Mach, model | triangles, layers | cells | largest angle | iterations | CD | CL | change over the last 100 | seconds: mesh, solver |\n"
           "|---|---|---|---|---|---|---|---|---|---|")
     for run in runs_of(names, arguments.short):
         body = run.aircraft
-        if not body.is_there():
-            print(f"skipped: {body.name}, whose file ../shared/data/{body.file} is not there", flush=True)
+        if not body.is_there(arguments.data):
+            print(f"skipped: {body.name}, whose file {arguments.data / body.file} is not there", flush=True)
             arguments.require(os.environ.get("STERNA_REQUIRE_DATA") != "1", f"{body.name} was skipped, which STERNA_REQUIRE_DATA=1 does not allow")
             continue
-        folder = arguments.folder / "aircraft" / body.name
+        folder = place / body.name
         label = f"{body.name} at Mach {run.mach} with {run.model}"
         try:
             mesh = mesh_of(tools, arguments, body, folder)

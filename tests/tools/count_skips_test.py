@@ -18,11 +18,11 @@ def results(*outcomes: str) -> str:
 
 
 class CountSkips(unittest.TestCase):
-    def run_count(self, required: str, *options: str, **files: str) -> subprocess.CompletedProcess:
+    def run_count(self, required: str, **files: str) -> subprocess.CompletedProcess:
         with tempfile.TemporaryDirectory() as folder:
             for name, text in files.items():
                 pathlib.Path(folder, name + ".json").write_text(text)
-            return subprocess.run([COUNT, folder, *options], capture_output=True, text=True, check=False, env={**os.environ, "STERNA_REQUIRE_DATA": required})
+            return subprocess.run([COUNT, folder], capture_output=True, text=True, check=False, env={**os.environ, "STERNA_REQUIRE_DATA": required})
 
     def test_counts_over_files(self):
         result = self.run_count("0", a=results("COMPLETED", "SKIPPED"), b=results("SKIPPED"))
@@ -33,11 +33,6 @@ class CountSkips(unittest.TestCase):
     def test_required_data_allow_no_skip(self):
         self.assertEqual(self.run_count("1", a=results("COMPLETED", "SKIPPED")).returncode, 1)
         self.assertEqual(self.run_count("1", a=results("COMPLETED")).returncode, 0)
-
-    def test_more_than_the_limit_is_an_error(self):
-        self.assertEqual(self.run_count("0", "--most", "1", a=results("COMPLETED", "SKIPPED")).returncode, 0)
-        self.assertEqual(self.run_count("0", "--most", "1", a=results("SKIPPED", "SKIPPED")).returncode, 1)
-        self.assertEqual(self.run_count("0", "--most", "1").returncode, 1)
 
     def test_a_torn_result_is_an_error(self):
         self.assertNotEqual(self.run_count("0", a='{"testsuites": [').returncode, 0)
