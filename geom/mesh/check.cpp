@@ -70,11 +70,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
 
     const CellScan scan = scan_explicit_cells(known ? known->columns_joined(options.limits) : scan_columns(mesh, options.quality, options.limits, context),
                                               mesh, cells, options.quality, options.limits, context);
-    for (const std::uint64_t number : scan.invalid)
-      findings.add(Violation::invalid_cell, [&] {
-        const Point center = cells.center(number);
-        return std::pair(center, cells.name(number) + near_patch(mesh, center) + " is inverted or folded");
-      });
+    report_cells(mesh, cells, scan, findings);
     check_volumes(mesh, slots, match, scan, context, report, findings);
     check_symmetry(mesh, context, findings);
     check_periodic(mesh, report, findings);

@@ -15,25 +15,27 @@
 namespace sterna {
 
 enum class Violation {
-  unmatched_face,         ///< G1: a cell face that no other cell and no boundary face shares
-  overmatched_face,       ///< G1: more than two cells at a face, or a boundary face between two cells
-  same_sense_face,        ///< G1: two cells (or cell and boundary face) see the face from the same side
-  stray_boundary_face,    ///< G1: a boundary face of no cell
-  duplicate_marker,       ///< G1: a boundary face that belongs to two patches
-  bad_index,              ///< G1: a node, line or patch index out of range, or a node repeated in one cell or boundary face
-  bad_point,              ///< G1: a coordinate that is not finite
-  unused_node,            ///< G1
-  boundary_intersection,  ///< G2: boundaries cross each other or themselves
-  envelope_intersection,  ///< G2: the surface between layers and tets crosses itself or a boundary
-  invalid_cell,           ///< G3: exact wedge, pyramid, tet or hexahedron test
-  volume_mismatch,        ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
-  broken_line,            ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
-  overlapping_parts,      ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
-  no_cells,               ///< tiling: the mesh has no cell at all
-  negative_sub_volume,    ///< G4: a cell with a dual sub-volume that is not positive (exact)
-  open_dual_cell,         ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
-  off_symmetry_plane,     ///< G20: a node of a symmetry patch off the patch's plane
-  periodic_mismatch,      ///< G20: periodic sides that are not each other's image, node by node and face by face
+  unmatched_face,              ///< G1: a cell face that no other cell and no boundary face shares
+  overmatched_face,            ///< G1: more than two cells at a face, or a boundary face between two cells
+  same_sense_face,             ///< G1: two cells (or cell and boundary face) see the face from the same side
+  stray_boundary_face,         ///< G1: a boundary face of no cell
+  duplicate_marker,            ///< G1: a boundary face that belongs to two patches
+  bad_index,                   ///< G1: a node, line or patch index out of range, or a node repeated in one cell or boundary face
+  bad_point,                   ///< G1: a coordinate that is not finite
+  unused_node,                 ///< G1
+  boundary_intersection,       ///< G2: boundaries cross each other or themselves
+  envelope_intersection,       ///< G2: the surface between layers and tets crosses itself or a boundary
+  invalid_cell,                ///< G3: exact wedge, pyramid, tet or hexahedron test
+  volume_mismatch,             ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
+  broken_line,                 ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
+  overlapping_parts,           ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
+  no_cells,                    ///< tiling: the mesh has no cell at all
+  cell_within_rounding,        ///< G3: a valid cell whose volume or Jacobian is not above k_solver_margin in double precision (computed_volumes.h)
+  negative_sub_volume,         ///< G4: a cell with a dual sub-volume that is not positive (exact)
+  sub_volume_within_rounding,  ///< G4: the same for dual sub-volumes as SU2 computes them
+  open_dual_cell,              ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
+  off_symmetry_plane,          ///< G20: a node of a symmetry patch off the patch's plane
+  periodic_mismatch,           ///< G20: periodic sides that are not each other's image, node by node and face by face
 };
 std::string_view to_string(Violation v);
 /// "G1", "G2", "G3", "G4", "G20" or "tiling".

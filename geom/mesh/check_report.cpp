@@ -166,7 +166,9 @@ std::string_view to_string(Violation v) {
     case Violation::broken_line: return "broken_line";
     case Violation::overlapping_parts: return "overlapping_parts";
     case Violation::no_cells: return "no_cells";
+    case Violation::cell_within_rounding: return "cell_within_rounding";
     case Violation::negative_sub_volume: return "negative_sub_volume";
+    case Violation::sub_volume_within_rounding: return "sub_volume_within_rounding";
     case Violation::open_dual_cell: return "open_dual_cell";
     case Violation::off_symmetry_plane: return "off_symmetry_plane";
     case Violation::periodic_mismatch: return "periodic_mismatch";
@@ -187,8 +189,10 @@ std::string_view gate_of(Violation v) {
   switch (v) {
     case Violation::boundary_intersection:
     case Violation::envelope_intersection: return "G2";
-    case Violation::invalid_cell: return "G3";
+    case Violation::invalid_cell:
+    case Violation::cell_within_rounding: return "G3";
     case Violation::negative_sub_volume:
+    case Violation::sub_volume_within_rounding:
     case Violation::open_dual_cell: return "G4";
     case Violation::off_symmetry_plane:
     case Violation::periodic_mismatch: return "G20";
