@@ -5,6 +5,7 @@
 #include "geom/mesh/cell_centred.h"
 #include "geom/mesh/check_moved.h"
 #include "geom/mesh/check_parts.h"
+#include "geom/mesh/gate_items.h"
 #include "geom/mesh/layer_scans.h"
 
 namespace sterna {
@@ -89,6 +90,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
       LazyGivenLayer given(mesh);
       judge_gates(mesh, cells, slots, match, scan, dual ? &*dual : nullptr, options.limits, given, context, report);
       judge_cell_centres(known, mesh, cells, slots, match, neighbours, options, given, context, report);
+      count_places(mesh, cells, context, report);
       report.quality_measured = true;
     }
 

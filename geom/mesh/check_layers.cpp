@@ -6,6 +6,7 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/math/spherical_cap.h"
+#include "geom/mesh/gate_items.h"
 #include "geom/mesh/layer_room.h"
 #include "geom/mesh/line_measures.h"
 
@@ -41,6 +42,28 @@ struct LayerScan {
     step.merge(other.step);
   }
   GateScan growth, angle, first_height, step;  ///< ids are lines
+};
+
+/// Ids are lines; their nodes are the feet, their cells those beside the wall where lines are columns.
+struct LineItems {
+  const HybridMesh& mesh;
+  const LayerLines& lines;
+  const Fans& fans;
+
+  std::pair<Point, std::string> operator()(std::uint64_t id) const {
+    const auto k = static_cast<std::uint32_t>(id);
+    const NodeId foot = lines.node(k, 0);
+    std::string what = (lines.are_columns() ? "line " + std::to_string(k) : "node " + std::to_string(foot.value()) + " of the wall");
+    if (!fans.around(k).empty() && lines.patch(fans.around(k).front()).is_valid()) what += ", patch " + patch_name(mesh, lines.patch(fans.around(k).front()));
+    return {mesh.points[foot], what};
+  }
+  void gather(std::uint64_t id, GateExtent& extent) const {
+    const auto k = static_cast<std::uint32_t>(id);
+    extent.nodes.push_back(lines.node(k, 0).value());
+    if (!lines.are_columns()) return;
+    for (const std::uint32_t column : fans.around(k))
+      if (mesh.layers.layers_of_column(column) > 0) extent.cells.push_back(std::uint64_t{column} * static_cast<std::uint64_t>(mesh.layers.n_layers));
+  }
 };
 
 class LineScanner {
@@ -145,7 +168,8 @@ class LineScanner {
   void add_first_height(std::uint32_t line) {
     if (line_heights_[line].is_compressed) return;
     const double asked = mesh_.request.first_height_of(line);
-    scan_.first_height.add(std::abs(dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0), line);
+    const double excess = dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0;
+    scan_.first_height.add(std::abs(excess), line | (excess < 0.0 ? GateScan::k_too_small : 0));
   }
 
   const HybridMesh& mesh_;
@@ -300,6 +324,8 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
     if (total > 0.0) scan.add(share, 0, total);
     GateResult result = scan.result([](std::uint64_t) { return std::pair(Point{}, std::string()); });
     result.places.clear();  // it is of the whole wall; patches and gate G13 say where
+    result.n_too_small = result.n_too_large = 0;
+    result.share_beyond = 0.0;
     report.gates[static_cast<std::size_t>(measure)] = std::move(result);
   };
   put(Measure::coverage, total > 0.0 ? attained / total : 0.0);
@@ -346,13 +372,7 @@ std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots,
         return all;
       },
       k_gate_line_chunk);
-  const auto line = [&](std::uint64_t id) {
-    const auto k = static_cast<std::uint32_t>(id);
-    const NodeId foot = lines.node(k, 0);
-    std::string what = (lines.are_columns() ? "line " + std::to_string(k) : "node " + std::to_string(foot.value()) + " of the wall");
-    if (!fans.around(k).empty() && lines.patch(fans.around(k).front()).is_valid()) what += ", patch " + patch_name(mesh, lines.patch(fans.around(k).front()));
-    return std::pair(mesh.points[foot], what);
-  };
+  const LineItems line{mesh, lines, fans};
   put(scan.growth.result(line));
   put(scan.angle.result(line));
   put(scan.step.result(line));

@@ -55,6 +55,28 @@ std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   return text;
 }
 
+/// "prisms"; where areas are counted the items are lines of the layer.
+std::string_view items_of(const MeasureInfo& info) { return info.counted == "area" ? "lines" : info.counted; }
+
+/// "1 place", "3 places"
+std::string places_text(std::int64_t n) { return std::to_string(n) + (n == 1 ? " place" : " places"); }
+
+/// "; 12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target"
+std::string counts_text(const GateResult& gate) {
+  const MeasureInfo& info = info_of(gate.measure);
+  const std::int64_t n = gate.n_too_small + gate.n_too_large;
+  if (n == 0) return {};
+  const bool is_hard = gate.n_beyond_hard > gate.n_forced;
+  const std::string soft_limit = std::isnan(gate.limits.target) ? "the usual limit" : "the target";
+  std::string text = "; " + std::to_string(n) + " " + std::string(items_of(info)) + " beyond " + (is_hard ? "the hard limit" : soft_limit);
+  if (gate.share_beyond > 0.0) text += print_text(", %.2g %% of the ", 100.0 * gate.share_beyond) + (info.counted == "area" ? "area" : "volume");
+  if (gate.n_places) text += ", at " + places_text(*gate.n_places);
+  if (gate.n_too_large > 0) text += gate.n_too_small > 0 ? ", " + std::to_string(gate.n_too_large) + " too large" : ", too large";
+  if (gate.n_too_small > 0) text += gate.n_too_large > 0 ? ", " + std::to_string(gate.n_too_small) + " too small" : ", too small";
+  if (is_hard && gate.n_beyond_target > gate.n_beyond_hard) text += "; " + std::to_string(gate.n_beyond_target) + " beyond " + soft_limit;
+  return text;
+}
+
 std::string gate_text(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   const std::string head = print_text("  %-4s %-32s ", std::string(info.gate).c_str(), std::string(info.title).c_str());
@@ -64,6 +86,7 @@ std::string gate_text(const GateResult& gate) {
     text += print_text("; %.4g %% of %s ", 100.0 * gate.share_within, std::string(info.counted).c_str()) + (info.is_low_bad ? ">= " : "<= ") +
             shown_text(info, gate.limits.usual);
   if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
+  text += counts_text(gate);
   if (gate.n_forced > 0)
     text += "; " + std::to_string(gate.n_forced) + " of " + std::to_string(gate.n_beyond_hard) + " beyond the hard limit are forced by the given surface";
   text += "\n";
@@ -111,6 +134,12 @@ Json to_json(const GateResult& gate) {
   json["share_within"] = gate.share_within;
   json["beyond_hard"] = gate.n_beyond_hard;
   json["forced"] = gate.n_forced;
+  json["beyond_target"] = gate.n_beyond_target;
+  json["too_small"] = gate.n_too_small;
+  json["too_large"] = gate.n_too_large;
+  json["separate_places"] = gate.n_places ? Json(*gate.n_places) : Json(nullptr);
+  json["share_beyond"] = gate.share_beyond;
+  json["share_of"] = info.counted == "area" ? "area" : "volume";
   json["histogram"] = histogram_json(gate, info);
   json["places"] = Json::array();
   for (const GatePlace& place : gate.places)

@@ -218,6 +218,20 @@ GateScan::GateScan(const MeasureInfo& info, const GateLimits& limits)
   hard_ = badness_of(limits.hard);
   target_ = badness_of(limits.target);
   usual_ = is_none(limits.usual) ? target_ : badness_of(limits.usual);
+  soft_ = is_none(limits.target) ? usual_ : target_;
+}
+
+void GateScan::add_soft(double badness, std::uint64_t id, double weight) {
+  ++n_soft_;
+  if (badness > hard_) return;
+  ++n_soft_within_;
+  soft_weight_ += weight;
+  if ((id & k_too_small) != 0) ++n_soft_small_;
+  if (has_dropped_soft_) return;
+  soft_ids_.push_back(id);
+  if (soft_ids_.size() <= k_most_soft) return;
+  has_dropped_soft_ = true;
+  soft_ids_ = {};
 }
 
 void GateScan::remember(const Item& item) {
@@ -233,6 +247,13 @@ void GateScan::merge(const GateScan& other) {
   within_ += other.within_;
   worst_within_ = std::max(worst_within_, other.worst_within_);
   beyond_.insert(beyond_.end(), other.beyond_.begin(), other.beyond_.end());
+  n_soft_ += other.n_soft_;
+  n_soft_within_ += other.n_soft_within_;
+  n_soft_small_ += other.n_soft_small_;
+  soft_weight_ += other.soft_weight_;
+  has_dropped_soft_ = has_dropped_soft_ || other.has_dropped_soft_ || soft_ids_.size() + other.soft_ids_.size() > k_most_soft;
+  if (has_dropped_soft_) soft_ids_ = {};
+  else soft_ids_.insert(soft_ids_.end(), other.soft_ids_.begin(), other.soft_ids_.end());
   for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += other.histogram_[i];
   for (const Item& item : other.worst_) remember(item);
 }
@@ -249,6 +270,19 @@ std::vector<GateScan::Beyond> GateScan::beyond_hard() const {
   return sorted;
 }
 
+std::vector<std::uint64_t> GateScan::decide(std::vector<std::uint64_t> own, double own_weight, GateResult& result) const {
+  const bool is_hard = !own.empty();
+  const auto n = is_hard ? static_cast<std::int64_t>(own.size()) : n_soft_within_;
+  const auto is_small = [](std::uint64_t id) { return (id & k_too_small) != 0; };
+  const std::int64_t n_small = is_hard ? std::count_if(own.begin(), own.end(), is_small) : n_soft_small_;
+  result.n_too_small = sign_ < 0.0 ? n : n_small;
+  result.n_too_large = n - result.n_too_small;
+  result.share_beyond = total_ > 0.0 ? (is_hard ? own_weight : soft_weight_) / total_ : 0.0;
+  std::vector<std::uint64_t> ids = is_hard ? std::move(own) : soft_ids_;
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
   GateResult result;
   result.measure = measure_;
@@ -256,6 +290,7 @@ GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
   result.total = total_;
   result.n_beyond_hard = static_cast<std::int64_t>(beyond_.size());
   result.n_forced = n_forced;
+  result.n_beyond_target = n_soft_;
   result.histogram.assign(histogram_.begin(), histogram_.begin() + classes_->n);
   if (worst_.empty()) {
     result.reason = "the mesh has none";

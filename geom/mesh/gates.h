@@ -123,19 +123,34 @@ struct GatePlace {
   Forcing forcing;   ///< empty: ours to mend
 };
 
+/// Nodes and cells of the items of a measure that are beyond a limit; check_places.cpp makes places and shares of them.
+struct GateExtent {
+  std::vector<std::uint32_t> nodes;        ///< item after item
+  std::vector<std::uint32_t> first = {0};  ///< of each item in `nodes`, and the end
+  std::vector<std::uint64_t> cells;        ///< numbers (check_parts::CellNumbers) of the cells that the items are or belong to; none of items that are nodes
+  void end_item() { first.push_back(static_cast<std::uint32_t>(nodes.size())); }
+  bool empty() const { return nodes.empty(); }
+};
+
 struct GateResult {
   Measure measure = Measure::scaled_jacobian;
   GateLimits limits{};
   GateState state = GateState::not_checked;
   std::string reason;  ///< why it was not checked
   double worst = 0.0;
-  double total = 0.0;              ///< number of items, or m^2 where areas are counted
-  double share_within = 0.0;       ///< share of it within limits.usual; within limits.target where there is no usual limit
-  std::int64_t n_beyond_hard = 0;  ///< items
-  std::int64_t n_forced = 0;       ///< of them, proven to be forced by the given boundary: they do not FAIL
-  std::vector<GatePlace> places;   ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
-  std::vector<GatePlace> forced;   ///< the worst ten that are forced, worst first
-  std::vector<double> histogram;   ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
+  double total = 0.0;                ///< number of items, or m^2 where areas are counted
+  double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
+  std::int64_t n_beyond_hard = 0;    ///< items
+  std::int64_t n_forced = 0;         ///< of them, proven to be forced by the given boundary: they do not FAIL
+  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual where there is no target; those beyond the hard limit are among them
+  // Of the items that decide: those beyond the hard limit that are not forced, or where there are none those beyond the target.
+  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values on either side of what they should be
+  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none where items have no place, or are too many to be kept
+  double share_beyond = 0.0;                      ///< of the wall's area where areas are counted, else of the fluid's volume
+  GateExtent extent;                              ///< of them; empty after check()
+  std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
+  std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
+  std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
@@ -150,11 +165,16 @@ class GateScan {
   };
 
   GateScan(const MeasureInfo& info, const GateLimits& limits);
+  /// In the id of an item whose measure is a deviation to either side: the value is below what it should be.
+  static constexpr std::uint64_t k_too_small = std::uint64_t{1} << 62;
+  /// Items beyond the target whose ids are kept for counting places: 800 KB of each measure.
+  static constexpr std::size_t k_most_soft = 100'000;
   /// A value that is not a number counts as infinitely bad.
   void add(double value, std::uint64_t id, double weight = 1.0) {
     const double badness = value == value ? sign_ * value : std::numeric_limits<double>::infinity();
     total_ += weight;
     if (badness <= usual_) within_ += weight;
+    if (badness > soft_) add_soft(badness, id, weight);
     if (badness > hard_) beyond_.push_back({{badness, id}, weight});
     else worst_within_ = std::max(worst_within_, badness);
     if (classes_->n > 0) histogram_[static_cast<std::size_t>(classes_->of(value))] += weight;
@@ -165,7 +185,8 @@ class GateScan {
   /// Worst first; equal ones by ascending id.
   const std::vector<Item>& worst() const { return worst_; }
   double value_of(const Item& item) const { return sign_ * item.badness; }
-  /// `describe(id) -> pair(Point, string)` names the places.
+  /// `describe(id) -> pair(Point, string)` names the places; where it has `gather(id, GateExtent&)`, which adds the nodes and cells of an item, the result has
+  /// an extent.
   template <class Describe>
   GateResult result(const Describe& describe) const {
     return result(describe, [](std::uint64_t, double) { return std::optional<Forcing>(); });
@@ -176,16 +197,20 @@ class GateScan {
     std::vector<GatePlace> places, forced;
     const auto list = [&](std::vector<GatePlace>& to, const Item& item, Forcing forcing) {
       if (to.size() == k_most_places) return;
-      auto [position, what] = describe(item.id);
+      auto [position, what] = describe(item.id & ~k_too_small);
       to.push_back({value_of(item), position, std::move(what), std::move(forcing)});
     };
     std::int64_t n_forced = 0;
-    double forced_weight = 0.0;
+    double forced_weight = 0.0, own_weight = 0.0;
+    std::vector<std::uint64_t> own;
     for (const Beyond& beyond : beyond_hard()) {
-      std::optional<Forcing> forcing = prove(beyond.item.id, value_of(beyond.item));
+      std::optional<Forcing> forcing = prove(beyond.item.id & ~k_too_small, value_of(beyond.item));
       if (forcing) {
         ++n_forced;
         forced_weight += beyond.weight;
+      } else {
+        own.push_back(beyond.item.id);
+        own_weight += beyond.weight;
       }
       const bool is_forced = forcing.has_value();
       list(is_forced ? forced : places, beyond.item, std::move(forcing).value_or(Forcing{}));
@@ -195,6 +220,13 @@ class GateScan {
     GateResult result = judge(n_forced, forced_weight);
     result.places = std::move(places);
     result.forced = std::move(forced);
+    const std::vector<std::uint64_t> deciding = decide(std::move(own), own_weight, result);
+    if constexpr (requires { describe.gather(std::uint64_t{}, result.extent); }) {
+      for (const std::uint64_t id : deciding) {
+        describe.gather(id & ~k_too_small, result.extent);
+        result.extent.end_item();
+      }
+    }
     return result;
   }
   bool has_beyond_hard() const { return !beyond_.empty(); }
@@ -205,6 +237,9 @@ class GateScan {
     double weight;
   };
   void remember(const Item& item);
+  void add_soft(double badness, std::uint64_t id, double weight);
+  /// Fills what GateResult says of the items that decide; \p own are those beyond the hard limit that are not forced. Returns the ids of them that are kept.
+  std::vector<std::uint64_t> decide(std::vector<std::uint64_t> own, double own_weight, GateResult& result) const;
   bool is_notable(const Item& item) const;
   /// Worst first; equal ones by ascending id.
   std::vector<Beyond> beyond_hard() const;
@@ -214,10 +249,16 @@ class GateScan {
   GateLimits limits_;
   double sign_;
   double hard_, target_, usual_;  ///< as badness; infinity where there is none
+  double soft_;                   ///< the target, or the usual limit where there is none
   double entry_ = -std::numeric_limits<double>::infinity();
   double total_ = 0.0, within_ = 0.0;
   double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of what keeps the hard limit
   std::vector<Beyond> beyond_;                                      ///< all beyond the hard limit
+  // Beyond the soft limit: all, and those that keep the hard limit.
+  std::int64_t n_soft_ = 0, n_soft_within_ = 0, n_soft_small_ = 0;
+  double soft_weight_ = 0.0;
+  bool has_dropped_soft_ = false;
+  std::vector<std::uint64_t> soft_ids_;  ///< of those that keep the hard limit; none where they are more than k_most_soft
   const HistogramClasses* classes_;
   std::array<double, HistogramClasses::k_most> histogram_{};
   std::vector<Item> worst_;

@@ -97,6 +97,7 @@ double stack_angle(const HybridMesh& mesh, const LayerLines& lines, std::uint32_
 double deviation(double ratio) { return ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : std::numeric_limits<double>::infinity(); }
 
 double interface_jump(double last_height, double mean_edge) { return deviation(last_height / (k_regular_height * mean_edge)); }
+bool is_interface_low(double last_height, double mean_edge) { return last_height < k_regular_height * mean_edge; }
 
 bool is_request_usable(const HybridMesh& mesh) {
   const LayerRequest& request = mesh.request;
