@@ -175,8 +175,39 @@ class PlaceCount {
 
 }  // namespace
 
+namespace {
+
+/// The gates that decide the verdict for a consumer, in one set of items.
+struct ConsumerItems {
+  GateExtent extent;
+  bool is_complete = true;  ///< no gate of them keeps fewer items than it has
+  std::int64_t n_beyond(Consumer consumer) const {
+    std::vector<std::uint64_t> items = extent.cells;
+    if (consumer == Consumer::node_centred) items.assign(extent.nodes.begin(), extent.nodes.end());
+    std::sort(items.begin(), items.end());
+    return std::unique(items.begin(), items.end()) - items.begin();
+  }
+};
+
+ConsumerItems deciding_items(const CheckReport& report, Consumer consumer) {
+  ConsumerItems all;
+  const GateState worst = report.quality_state(consumer);
+  if (worst != GateState::warn && worst != GateState::fail) return all;
+  for (const GateResult& gate : report.gates) {
+    if (state_for(gate, consumer) != worst) continue;
+    all.is_complete = all.is_complete && (!gate.extent.empty() || gate.n_too_small + gate.n_too_large == 0);
+    const auto shift = static_cast<std::uint32_t>(all.extent.nodes.size());
+    for (std::size_t item = 1; item < gate.extent.first.size(); ++item) all.extent.first.push_back(shift + gate.extent.first[item]);
+    all.extent.nodes.insert(all.extent.nodes.end(), gate.extent.nodes.begin(), gate.extent.nodes.end());
+    all.extent.cells.insert(all.extent.cells.end(), gate.extent.cells.begin(), gate.extent.cells.end());
+  }
+  return all;
+}
+
+}  // namespace
+
 void count_places(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, CheckReport& report) {
-  static_assert(k_n_measures <= 64);  // bits of FlaggedNodes::sets_of
+  static_assert(k_n_measures + k_consumers.size() <= 64);  // bits of FlaggedNodes::sets_of
   std::vector<GateResult*> gates;
   std::vector<const GateExtent*> sets;
   for (GateResult& gate : report.gates) {
@@ -184,12 +215,21 @@ void count_places(const HybridMesh& mesh, const CellNumbers& cells, const RunCon
     gates.push_back(&gate);
     sets.push_back(&gate.extent);
   }
-  if (sets.empty()) return;
+  std::array<ConsumerItems, k_consumers.size()> verdicts;
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    verdicts[k] = deciding_items(report, k_consumers[k]);
+    sets.push_back(&verdicts[k].extent);
+  }
   PlaceCount count(mesh, sets);
-  count.walk(cells, context);
+  if (!gates.empty()) count.walk(cells, context);
   for (std::size_t i = 0; i < gates.size(); ++i) {
     gates[i]->n_places = count.n_places(i);
     if (info_of(gates[i]->measure).counted != "area" && report.total_volume > 0.0) gates[i]->share_beyond = count.volume(i, cells) / report.total_volume;
+  }
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    ConsumerPlaces& places = report.verdict_places.emplace_back(ConsumerPlaces{.consumer = k_consumers[k], .n_places = {}});
+    places.n_beyond = verdicts[k].n_beyond(k_consumers[k]);
+    if (verdicts[k].is_complete) places.n_places = count.n_places(gates.size() + k);
   }
   for (GateResult* gate : gates) gate->extent = {};
 }

@@ -50,6 +50,38 @@ enum class Measure : std::uint8_t {
 };
 inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
 
+/// Solvers by what their control volumes are.
+enum class Consumer : std::uint8_t {
+  cell_centred,  ///< the cells: OpenFOAM, Fluent
+  node_centred,  ///< the dual cells of the nodes: SU2, TAU, Edge
+};
+inline constexpr std::array k_consumers = {Consumer::cell_centred, Consumer::node_centred};
+/// "cell-centred", "node-centred"
+std::string_view to_string(Consumer consumer);
+
+/// Some of them.
+struct Consumers {
+  bool cell_centred = true, node_centred = true;
+  bool has(Consumer consumer) const { return consumer == Consumer::cell_centred ? cell_centred : node_centred; }
+  bool has_any_of(const Consumers& other) const { return (cell_centred && other.cell_centred) || (node_centred && other.node_centred); }
+  friend bool operator==(const Consumers&, const Consumers&) = default;
+};
+
+/// Why a hard limit is where it is.
+enum class Evidence : std::uint8_t {
+  none,        ///< there is no hard limit, or the consumer does not use the measure
+  definition,  ///< beyond it the mesh cannot be used, or is not what was asked for
+  measured,    ///< runs of a solver; the source names the page
+  cited,       ///< a program's or guideline's limit that no run has tested here
+};
+/// "definition", ...; "" for none
+std::string_view to_string(Evidence evidence);
+struct LimitEvidence {
+  Evidence cell_centred, node_centred;
+  std::string_view source;  ///< of the limit, for people
+  Evidence of(Consumer consumer) const { return consumer == Consumer::cell_centred ? cell_centred : node_centred; }
+};
+
 /// Classes of a measure's histogram: values below the first edge are in the first class, above the last edge (and no numbers) in the last.
 struct HistogramClasses {
   double from = 0.0, to = 0.0;  ///< of logarithmic classes: powers of two
@@ -80,6 +112,8 @@ struct MeasureInfo {
   bool is_low_bad;           ///< limits are lower bounds
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
+  Consumers consumers;       ///< whose solutions depend on it
+  LimitEvidence evidence;    ///< of the hard limit
 };
 
 /// The table of quality.md §6, in the order of Measure.
@@ -135,8 +169,10 @@ struct GateExtent {
 struct GateResult {
   Measure measure = Measure::scaled_jacobian;
   GateLimits limits{};
-  GateState state = GateState::not_checked;
-  std::string reason;  ///< why it was not checked
+  GateState state = GateState::not_checked;  ///< the worst of state_for() the consumers that are asked about
+  bool is_hard_missed = false;               ///< by an item that is not forced
+  bool is_soft_missed = false;               ///< target or usual limit
+  std::string reason;                        ///< why it was not checked
   double worst = 0.0;
   double total = 0.0;                ///< number of items, or m^2 where areas are counted
   double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
@@ -152,6 +188,10 @@ struct GateResult {
   std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
   std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
+
+/// What a result says to one kind of solver: beyond a hard limit FAIL, but warn where the consumer is node-centred and the limit is neither by definition, nor
+/// measured, nor the user's own. not_checked where the consumer does not use the measure.
+GateState state_for(const GateResult& gate, Consumer consumer);
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
 /// but for the rounding of weights that are not whole numbers.

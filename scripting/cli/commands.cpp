@@ -491,7 +491,7 @@ int execute(const MeshCommand& command, const CommandContext& context) {
 
   context.console.end_progress();
   if (!command.outputs.empty()) context.run.info(wrote_text(command.outputs));
-  context.run.info(summary_text(mesh));
+  context.run.info(summary_text(mesh, consumers_of_files(command.outputs)));
   context.run.info(measure_text(mesh, measure));
   context.run.debug(stages_text(measure));
   if (!command.stats.empty()) io::write_whole(command.stats, stats_json(mesh, measure));
@@ -693,12 +693,14 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
   if (!command.cells.empty()) require_cells_output(command.cells, command.input);
+  const std::array files = {std::filesystem::path(command.input)};
+  const CheckOptions options = command.options.to_options(limits, consumers_of_files(files), "--for");
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
     refuse_to_check_surface(command.input,
                             "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
   const double checked = command.models.empty() ? 1.0 : 0.5;
-  CheckReport report = check(mesh.mesh, command.options.to_options(limits), context.run.part("check", 0.3, checked));
+  CheckReport report = check(mesh.mesh, options, context.run.part("check", 0.3, checked));
   if (!command.models.empty() && report.quality_measured) {
     std::vector<InputPath> models;
     for (const std::string& model : command.models) models.push_back({model, model});

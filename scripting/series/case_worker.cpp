@@ -45,7 +45,7 @@ MeshNote note_of(const MeshValue& mesh) {
   if (!mesh.check) return note;
   note.figures.verdict = mesh.check->is_valid() ? "VALID" : "INVALID";
   if (mesh.check->quality_measured) {
-    note.figures.quality = quality_text(*mesh.check).substr(std::string_view("quality ").size());
+    note.figures.quality = std::string(to_string(mesh.check->quality_state())) + "; " + quality_text(*mesh.check);
     note.figures.worst = worst_quality_text(*mesh.check);
   }
   note.check_json = to_json(*mesh.check);

@@ -88,6 +88,7 @@ export function summary_tab(app) {
   for (const gate of quality) counts[gate.state] = (counts[gate.state] ?? 0) + 1;
   return [
     h("h2", null, "Mesh"),
+    report.verdict_line ? h("p", { id: "verdict_line" }, report.verdict_line) : null,
     h("table.facts", null, h("tbody", null, (report.facts ?? []).map(([name, value]) => h("tr", null, h("th", { scope: "row" }, name), h("td", null, value))))),
     changes(app),
     verdict.length ? [h("h2", null, "Validity"), h("div.gates", null, verdict.map((gate) => verdict_row(app, gate)))] : null,
