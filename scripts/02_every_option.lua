@@ -110,6 +110,7 @@ local mesh = volume_mesh{ wall,
     growth = "uniform",             -- flat layers grow by max_growth on all lines; local: each line by one ratio of its own
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
     solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
+    boundary_layer = "automatic",   -- metres that the layers have to cover (gate G12); automatic: total_height, or of the flow that first_height is of
     max_thickness = "automatic",
     max_relative_height = "automatic",  -- total height over the length of the wall's edges there; automatic: no limit
     feature_angle = 35*deg,

@@ -140,17 +140,18 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0, 0.5, 50},
      k_of_both,
      {Evidence::definition, Evidence::definition, "the first height that was asked for"}},
-    {M::coverage,
+    {M::boundary_layer,
      "G12",
-     "coverage",
-     "area at its attainable height",
+     "boundary_layer",
+     "area that covers the boundary layer",
      "area",
      false,
      true,
      {0.95, 0.99, k_nan, 1.0},
      {},
      k_of_both,
-     {Evidence::definition, Evidence::definition, "the layer that was asked for"}},
+     {Evidence::definition, Evidence::definition, "total_height, boundary_layer, or the flow that first_height is of"}},
+    {M::coverage, "G12", "coverage", "area at its edge-matching height", "area", false, true, {k_nan, 0.99, k_nan, 1.0}, {}, k_of_both, k_no_limit},
     {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_nan, 0.0, k_nan, 1.0}, {}, k_of_both, k_no_limit},
     {M::layer_step,
      "G13",
@@ -387,7 +388,8 @@ std::string_view trouble_of(Measure measure) {
     case M::interface_volume: return "the last cells of the layer do not fit the tetrahedra on them in volume";
     case M::stack_angle: return "lines of the layer lean away from the wall's normal";
     case M::first_height: return "first cells are not as high as asked for";
-    case M::coverage: return "the layer is lower than the geometry permits";
+    case M::boundary_layer: return "the layer is lower than the boundary layer";
+    case M::coverage: return "the layer is lower than the geometry permits, so that its last cells do not match the edges of the tetrahedra";
     case M::collapsed: return "parts of the wall have no layer";
     case M::layer_step: return "numbers of layers differ too much across an edge";
     case M::min_dihedral: return "tetrahedra are flat: sharp angles";
@@ -440,6 +442,7 @@ std::string_view remedy_of(Measure measure) {
     case M::interface_volume:
       return "more layers or a larger max_growth; in corners and narrow places shorter edges there alone (narrow, intersection_factor = 1, a smaller min_edge)";
     case M::first_height:
+    case M::boundary_layer:
     case M::coverage:
     case M::collapsed:
     case M::layer_step: return "fewer layers, or a smaller first_height or max_thickness, where walls are near";

@@ -27,6 +27,7 @@ enum class Measure : std::uint8_t {
   interface_volume,          ///< G9: thrice the tet's over the prism's volume, or its inverse
   stack_angle,               ///< G10: steepest of the first cells against the wall's facets, less the best possible
   first_height,              ///< G11: relative deviation of the first height along the vertex normal
+  boundary_layer,            ///< G12: share of the area on which a boundary layer was asked for with its thickness, or what the geometry permits of it
   coverage,                  ///< G12: share of the wall's area with the height along the normal that the geometry permits
   collapsed,                 ///< G12: share of the wall's area without cells
   layer_step,                ///< G13: difference of the number of layers over an edge

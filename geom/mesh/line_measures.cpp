@@ -104,8 +104,9 @@ bool is_request_usable(const HybridMesh& mesh) {
   const std::size_t n = mesh.layers.n_lines();
   return request.is_known() && request.target_height.size() == n && request.reason.size() == n &&
          (request.line_first_height.empty() || request.line_first_height.size() == n) &&
-         (request.line_first_room.empty() || request.line_first_room.size() == n) && (request.line_max_growth.empty() || request.line_max_growth.size() == n) &&
-         (request.line_layers.empty() || request.line_layers.size() == n) &&
+         (request.line_first_room.empty() || request.line_first_room.size() == n) &&
+         (request.line_boundary_layer.empty() || request.line_boundary_layer.size() == n) &&
+         (request.line_max_growth.empty() || request.line_max_growth.size() == n) && (request.line_layers.empty() || request.line_layers.size() == n) &&
          std::all_of(request.reason.begin(), request.reason.end(), [&](std::uint8_t r) { return r < request.reasons.size(); });
 }
 

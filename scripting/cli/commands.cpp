@@ -289,8 +289,10 @@ void complete_options(volmesh::MeshCase& options, const MeshCommand& command, co
   choose_solve_for(
       options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
   choose_family_wake(options, is_given(command, "family", "refinement"));
-  for (const auto& [name, text] : command.options)
+  for (const auto& [name, text] : command.options) {
     if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
+    if (name == "first_height" || name == "envelope.first_height") choose_boundary_layer(options, text);
+  }
   for (const auto& [names, of_patch] : command.patches)
     for (const auto& [name, text] : of_patch)
       if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);

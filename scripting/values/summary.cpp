@@ -112,6 +112,19 @@ std::string troubles_text(const CheckReport& report, const HybridMesh* mesh) {
   return text;
 }
 
+/// " G5 G9": the gates with a measure for which `is_meant` holds, each once.
+template <class IsMeant>
+std::string gate_names(const CheckReport& report, const IsMeant& is_meant) {
+  std::string names;
+  std::string_view last;
+  for (const GateResult& gate : report.gates) {
+    if (!is_meant(gate) || info_of(gate.measure).gate == last) continue;
+    last = info_of(gate.measure).gate;
+    names += " " + std::string(last);
+  }
+  return names;
+}
+
 /// Time outside the engine: what this program itself needs.
 double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
 
@@ -159,6 +172,14 @@ std::string worst_quality_text(const CheckReport& report) {
   return fmt::format("{} {:.4g}{}", info.name, in_report_unit(info, told_value(*troubles.front())), info.is_angle ? " deg" : "");
 }
 
+std::string worst_gates_text(const CheckReport& report) {
+  const GateState worst = report.quality_state();
+  std::string text(to_string(worst));
+  if (worst != GateState::warn && worst != GateState::fail) return text;
+  const auto is_of_worst = [&](const GateResult& gate) { return gate.state == worst; };
+  return text + ":" + gate_names(report, is_of_worst);
+}
+
 std::string quality_text(const CheckReport& report) {
   if (!report.quality_measured) return "quality not checked";
   std::string text;
@@ -167,14 +188,7 @@ std::string quality_text(const CheckReport& report) {
     const GateState worst = report.quality_state(consumer);
     text += (text.empty() ? "" : "; ") + std::string(to_string(consumer)) + ": " + verdict_of(report, consumer);
     if (worst != GateState::warn && worst != GateState::fail) continue;
-    std::string names;
-    std::string_view last;
-    for (const GateResult& gate : report.gates) {
-      if (state_for(gate, consumer) != worst || info_of(gate.measure).gate == last) continue;
-      last = info_of(gate.measure).gate;
-      names += " " + std::string(last);
-    }
-    text += ":" + names;
+    text += ":" + gate_names(report, [&](const GateResult& gate) { return state_for(gate, consumer) == worst; });
   }
   return text;
 }

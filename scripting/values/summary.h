@@ -32,6 +32,8 @@ double peak_memory_bytes();
 
 /// "cell-centred: FAIL at 3 places (12 of 3.2 M cells): G9 OF; node-centred: pass", "quality not checked".
 std::string quality_text(const CheckReport& report);
+/// "FAIL: G9 OF", "pass": the worst state of the gates and which have it.
+std::string worst_gates_text(const CheckReport& report);
 /// "skew 63.1 deg": the measure that the summary names first and its worst value there; empty where all limits are kept.
 std::string worst_quality_text(const CheckReport& report);
 /// A dozen lines at most: verdict, sizes, coverage, the worst three measures that miss a limit with their worst place and a remedy. The rest is in `check`, the
