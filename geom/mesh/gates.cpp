@@ -11,6 +11,12 @@ namespace {
 
 bool is_none(double limit) { return limit != limit; }
 
+/// Worst first; equal ones by ascending id, whichever side they are on.
+bool is_before(const GateScan::Item& a, const GateScan::Item& b) {
+  if (a.badness != b.badness) return a.badness > b.badness;
+  return (a.id & ~GateScan::k_too_small) < (b.id & ~GateScan::k_too_small);
+}
+
 }  // namespace
 
 int HistogramClasses::of(double value) const {
@@ -80,7 +86,7 @@ void GateScan::add_soft(double badness, std::uint64_t id, double weight) {
 }
 
 void GateScan::remember(const Item& item) {
-  const auto is_worse = [](const Item& a, const Item& b) { return a.badness != b.badness ? a.badness > b.badness : a.id < b.id; };
+  const auto is_worse = [](const Item& a, const Item& b) { return is_before(a, b); };
   if (worst_.size() == k_most_places && !is_worse(item, worst_.back())) return;
   worst_.insert(std::upper_bound(worst_.begin(), worst_.end(), item, is_worse), item);
   if (worst_.size() > k_most_places) worst_.pop_back();
@@ -110,8 +116,7 @@ bool GateScan::is_notable(const Item& item) const {
 
 std::vector<GateScan::Beyond> GateScan::beyond_hard() const {
   std::vector<Beyond> sorted = beyond_;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const Beyond& a, const Beyond& b) { return a.item.badness != b.item.badness ? a.item.badness > b.item.badness : a.item.id < b.item.id; });
+  std::sort(sorted.begin(), sorted.end(), [](const Beyond& a, const Beyond& b) { return is_before(a.item, b.item); });
   return sorted;
 }
 

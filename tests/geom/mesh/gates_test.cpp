@@ -104,7 +104,7 @@ void jump(HybridMesh& mesh, std::uint32_t line) { mesh.points[mesh.layers.node(l
 
 TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   HybridMesh mesh = regular_plate_of_steps();
-  ask_for(mesh, 0.01, 0.1, 1.3);
+  ask_for(mesh, 0.1 / 6.187, 0.1, 1.3);
   jump(mesh, 8);
   jump(mesh, 9);   // beside it
   jump(mesh, 40);  // far away
@@ -124,7 +124,7 @@ TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
 
 TEST(Gates, AVerdictForOneKindOfSolverLeavesTheOthersOut) {
   HybridMesh mesh = regular_plate_of_steps();
-  ask_for(mesh, 0.01, 0.1, 1.3);
+  ask_for(mesh, 0.1 / 6.187, 0.1, 1.3);
   jump(mesh, 8);
   const CheckReport both = checked(mesh), nodes = checked(mesh, {.consumers = {.cell_centred = false, .node_centred = true}}),
                     cells = checked(mesh, {.consumers = {.cell_centred = true, .node_centred = false}});
