@@ -200,7 +200,7 @@ local mesh = volume_mesh{ wall,
   },
 }
 
-mesh:check{ intersections = true, quality = true, cell_centred = true, findings_per_kind = 10, strict = false,
+mesh:check{ intersections = true, quality = true, cell_centred = true, solvers = "automatic", findings_per_kind = 10, strict = false,
   details = false,                                                                                                    -- true: all gates with their places
   gates = { orthogonality = { hard = 3*deg, target = 15*deg, usual = 30*deg, share = 0.99 }, face_weight = false },  -- other limits of quality; false: none
   cells = "every_option.cells.vtu" }                                                                                  -- quality of each cell, as VTK has it
