@@ -76,7 +76,9 @@ std::string counts_text(const GateResult& gate) {
   if (n == 0) return {};
   const bool is_hard = gate.n_beyond_hard > gate.n_forced;
   const std::string soft_limit = std::isnan(gate.limits.target) ? "the usual limit" : "the target";
-  std::string text = "; " + std::to_string(n) + " " + std::string(items_of(info)) + " beyond " + (is_hard ? "the hard limit" : soft_limit);
+  std::string_view items = items_of(info);
+  if (n == 1) items.remove_suffix(1);  // "1 prism"
+  std::string text = "; " + std::to_string(n) + " " + std::string(items) + " beyond " + (is_hard ? "the hard limit" : soft_limit);
   if (gate.share_beyond > 0.0) text += print_text(", %.2g %% of the ", 100.0 * gate.share_beyond) + (info.counted == "area" ? "area" : "volume");
   if (gate.n_places) text += ", at " + places_text(*gate.n_places);
   if (gate.n_too_large > 0) text += gate.n_too_small > 0 ? ", " + std::to_string(gate.n_too_large) + " too large" : ", too large";

@@ -430,24 +430,28 @@ std::string_view remedy_of(Measure measure) {
     case M::cell_aspect_ratio:
     case M::cell_openness:
     case M::face_tets:
-    case M::cell_determinant: return "remesh the wall there: triangles without needles that change slowly in size";
+    case M::cell_determinant:
+      return "remesh the wall there: triangles without needles that change slowly in size, in gaps with gap_cells; where a layer collapses at a sharp edge, "
+             "give the "
+             "edge a width or use fewer layers";
     case M::orthogonality:
     case M::stack_angle:
-    case M::non_orthogonality:
-    case M::skewness: return "several normals at the sharp edge (open_ridges = \"always\"), finer triangles along it, or round it";
+    case M::non_orthogonality: return "give the sharp edge a width (trailing_edge of a wing), or round it";
+    case M::skewness: return "several normals at the sharp edge (open_ridges = \"always\"), or a width of the edge (trailing_edge of a wing)";
     case M::stacked_orthogonality:
     case M::stacked_skewness: return "growth = \"uniform\", a smaller max_growth, and shorter edges of the wall where heights differ";
     case M::stack_growth:
     case M::interface_height:
     case M::interface_volume:
-      return "more layers or a larger max_growth; in corners and narrow places shorter edges there alone (narrow, intersection_factor = 1, a smaller min_edge)";
-    case M::first_height:
-    case M::boundary_layer:
-    case M::coverage:
+      return "more layers or a larger max_growth; in corners and narrow places less refinement along them (narrow = 20, intersection_factor = 1), or truncate "
+             "= \"auto\"";
+    case M::first_height: return "truncate = \"auto\" or fewer layers; where parts meet, narrow = 20. A smaller first_height does not help";
+    case M::boundary_layer: return "total_height = boundary_layer{ ... }, more layers or a larger max_growth; in gaps shorter edges of the walls (gap_cells)";
+    case M::coverage: return "shorter edges of the wall there, or fewer layers";
     case M::collapsed:
-    case M::layer_step: return "fewer layers, or a smaller first_height or max_thickness, where walls are near";
-    case M::cad_distance:
-    case M::cad_normal: return "smaller chord_error of surface_mesh";
+    case M::layer_step: return "give the sharp edge there a width (trailing_edge of a wing), or fewer layers";
+    case M::cad_distance: return "mesh the model itself (surface_mesh, sterna mesh model.step), not its triangles";
+    case M::cad_normal: return "a smaller chord_error or curvature_angle of surface_mesh";
   }
   return "";
 }

@@ -78,7 +78,8 @@ std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
   const std::string_view reason = lowered_at(*mesh, gate.places.front().position);
   if (reason.empty()) return "more layers, a larger max_growth, or shorter edges on the wall there";
   return "the layer is squeezed there (" + std::string(reason) +
-         "): shorter edges at this place alone (surface_mesh: narrow, where parts meet intersection_factor = 1, a smaller min_edge), or truncate = \"auto\"";
+         "): less refinement along the corner (surface_mesh: narrow = 20, where parts meet intersection_factor = 1), in a gap gap_cells, or truncate = "
+         "\"auto\"";
 }
 
 /// A measure that misses a limit, in one line: what is wrong in plain words, its worst place that is ours, and what would mend it.
