@@ -110,6 +110,7 @@ local mesh = volume_mesh{ wall,
     growth = "uniform",             -- flat layers grow by max_growth on all lines; local: each line by one ratio of its own
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
     solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
+    boundary_layer = "automatic",   -- metres that the layers have to cover (gate G12); automatic: total_height, or of the flow that first_height is of
     max_thickness = "automatic",
     max_relative_height = "automatic",  -- total height over the length of the wall's edges there; automatic: no limit
     feature_angle = 35*deg,
@@ -199,7 +200,7 @@ local mesh = volume_mesh{ wall,
   },
 }
 
-mesh:check{ intersections = true, quality = true, cell_centred = true, findings_per_kind = 10, strict = false,
+mesh:check{ intersections = true, quality = true, cell_centred = true, solvers = "automatic", findings_per_kind = 10, strict = false,
   details = false,                                                                                                    -- true: all gates with their places
   gates = { orthogonality = { hard = 3*deg, target = 15*deg, usual = 30*deg, share = 0.99 }, face_weight = false },  -- other limits of quality; false: none
   cells = "every_option.cells.vtu" }                                                                                  -- quality of each cell, as VTK has it

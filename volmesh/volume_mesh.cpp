@@ -222,7 +222,14 @@ void merge_equal_patches(HybridMesh& mesh) {
 
 void require_valid(const CheckReport& report) {
   if (report.is_valid()) return;
-  ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = "checking the finished mesh", .hint = "report this surface"};
+  const bool is_rounding_alone = std::ranges::all_of(report.counts, [](const auto& of_kind) {
+    return of_kind.first == Violation::cell_within_rounding || of_kind.first == Violation::sub_volume_within_rounding;
+  });
+  ErrorInfo info{.code = ErrorCode::mesh_invalid,
+                 .attempted = "checking the finished mesh",
+                 .hint = is_rounding_alone ? "these cells are too flat for the double precision of solvers: remesh the wall there without sliver triangles, or "
+                                             "move the model towards the origin if it is far from it"
+                                           : "report this surface"};
   for (const auto& [violation, count] : report.counts) {
     info.problem += (info.problem.empty() ? "" : ", ") + std::to_string(count) + " x " + std::string(to_string(violation));
     info.n_places += count;

@@ -7,6 +7,7 @@
 #include "geom/mesh/cell_lanes.h"
 #include "geom/mesh/column_shapes.h"
 #include "geom/mesh/forced_layer.h"
+#include "geom/mesh/gate_items.h"
 #include "geom/mesh/layer_scans.h"
 
 namespace sterna::check_parts {
@@ -388,6 +389,40 @@ class OtherCentres {
   std::vector<Place> kept_;  ///< of explicit cells but tetrahedra
 };
 
+/// Ids as CellCentredScan has them.
+struct CentredFaceItems {
+  const HybridMesh& mesh;
+  const CellNumbers& cells;
+  const FaceSlots& slots;
+
+  std::pair<Point, std::string> operator()(std::uint64_t id) const {
+    if (id >= CellCentredScan::k_of_slot) return SlotItems{slots, "face of "}(id - CellCentredScan::k_of_slot);
+    return {face_shape(corners_of_column(id).span()).centre, (id % 8 == k_top ? "top of " : "side of ") + cells.name(id / 8)};
+  }
+  void gather(std::uint64_t id, GateExtent& extent) const {
+    if (id >= CellCentredScan::k_of_slot) return SlotItems{slots, {}}.gather(id - CellCentredScan::k_of_slot, extent);
+    const auto [column, layer] = place_of(id);
+    if (id % 8 == k_top) {
+      std::array<NodeId, 3> nodes;
+      for (std::size_t k = 0; k < 3; ++k) nodes[k] = mesh.layers.node(mesh.layers.base[column][k], layer + 1);
+      gather_face(nodes, id / 8, extent);
+    } else {
+      const LayerBlock::Side side = mesh.layers.side(column, id % 8, layer);
+      gather_face(std::span(side.nodes).first(side.size), id / 8, extent);
+    }
+  }
+
+ private:
+  std::pair<std::size_t, int> place_of(std::uint64_t id) const {
+    const std::uint64_t number = id / 8, n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
+    return {number / n_layers, static_cast<int>(number % n_layers)};
+  }
+  Corners corners_of_column(std::uint64_t id) const {
+    const auto [column, layer] = place_of(id);
+    return id % 8 == k_top ? top_of(mesh, column, layer) : side_of(mesh, column, id % 8, layer);
+  }
+};
+
 GateScan scan_of(Measure measure, const GateTable& limits) { return {info_of(measure), limits[measure]}; }
 
 }  // namespace
@@ -455,19 +490,8 @@ CellCentredScan scan_cell_centred(CellCentredScan scan, const HybridMesh& mesh, 
 
 void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots,
                         std::span<const std::uint32_t> neighbours, const GateTable& limits, LazyGivenLayer& given, CheckReport& report) {
-  const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
-  const auto face = [&](std::uint64_t id) {
-    if (id >= CellCentredScan::k_of_slot) {
-      const auto slot = static_cast<std::uint32_t>(id - CellCentredScan::k_of_slot);
-      return std::pair(slots.center(slot), "face of " + slots.name(slot));
-    }
-    const std::uint64_t number = id / 8, n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
-    const std::size_t column = number / n_layers;
-    const int layer = static_cast<int>(number % n_layers);
-    const bool is_top = id % 8 == k_top;
-    const Corners corners = is_top ? top_of(mesh, column, layer) : side_of(mesh, column, id % 8, layer);
-    return std::pair(face_shape(corners.span()).centre, (is_top ? "top of " : "side of ") + cells.name(number));
-  };
+  const CellItems cell{cells};
+  const CentredFaceItems face{mesh, cells, slots};
   const auto put = [&](const GateScan& measure, const auto& describe) {
     GateResult result = measure.result(describe);
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,25 +16,27 @@
 namespace sterna {
 
 enum class Violation {
-  unmatched_face,         ///< G1: a cell face that no other cell and no boundary face shares
-  overmatched_face,       ///< G1: more than two cells at a face, or a boundary face between two cells
-  same_sense_face,        ///< G1: two cells (or cell and boundary face) see the face from the same side
-  stray_boundary_face,    ///< G1: a boundary face of no cell
-  duplicate_marker,       ///< G1: a boundary face that belongs to two patches
-  bad_index,              ///< G1: a node, line or patch index out of range, or a node repeated in one cell or boundary face
-  bad_point,              ///< G1: a coordinate that is not finite
-  unused_node,            ///< G1
-  boundary_intersection,  ///< G2: boundaries cross each other or themselves
-  envelope_intersection,  ///< G2: the surface between layers and tets crosses itself or a boundary
-  invalid_cell,           ///< G3: exact wedge, pyramid, tet or hexahedron test
-  volume_mismatch,        ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
-  broken_line,            ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
-  overlapping_parts,      ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
-  no_cells,               ///< tiling: the mesh has no cell at all
-  negative_sub_volume,    ///< G4: a cell with a dual sub-volume that is not positive (exact)
-  open_dual_cell,         ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
-  off_symmetry_plane,     ///< G20: a node of a symmetry patch off the patch's plane
-  periodic_mismatch,      ///< G20: periodic sides that are not each other's image, node by node and face by face
+  unmatched_face,              ///< G1: a cell face that no other cell and no boundary face shares
+  overmatched_face,            ///< G1: more than two cells at a face, or a boundary face between two cells
+  same_sense_face,             ///< G1: two cells (or cell and boundary face) see the face from the same side
+  stray_boundary_face,         ///< G1: a boundary face of no cell
+  duplicate_marker,            ///< G1: a boundary face that belongs to two patches
+  bad_index,                   ///< G1: a node, line or patch index out of range, or a node repeated in one cell or boundary face
+  bad_point,                   ///< G1: a coordinate that is not finite
+  unused_node,                 ///< G1
+  boundary_intersection,       ///< G2: boundaries cross each other or themselves
+  envelope_intersection,       ///< G2: the surface between layers and tets crosses itself or a boundary
+  invalid_cell,                ///< G3: exact wedge, pyramid, tet or hexahedron test
+  volume_mismatch,             ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
+  broken_line,                 ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
+  overlapping_parts,           ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
+  no_cells,                    ///< tiling: the mesh has no cell at all
+  cell_within_rounding,        ///< G3: a valid cell whose volume or Jacobian is not above k_solver_margin in double precision (computed_volumes.h)
+  negative_sub_volume,         ///< G4: a cell with a dual sub-volume that is not positive (exact)
+  sub_volume_within_rounding,  ///< G4: the same for dual sub-volumes as SU2 computes them
+  open_dual_cell,              ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
+  off_symmetry_plane,          ///< G20: a node of a symmetry patch off the patch's plane
+  periodic_mismatch,           ///< G20: periodic sides that are not each other's image, node by node and face by face
 };
 std::string_view to_string(Violation v);
 /// "G1", "G2", "G3", "G4", "G20" or "tiling".
@@ -77,6 +80,13 @@ struct PeriodicMatchReport {
   double worst = 0.0;                     ///< m, largest distance of an image from its partner
 };
 
+/// Places of the gates that decide the verdict for one kind of solver: those that FAIL, or where none does those that warn.
+struct ConsumerPlaces {
+  Consumer consumer = Consumer::cell_centred;
+  std::optional<std::int64_t> n_places;  ///< separate ones; none where these gates have no places, or some have too many to be kept
+  std::int64_t n_beyond = 0;             ///< cells, for node-centred solvers nodes
+};
+
 struct CheckReport {
   CellCounts cells;
   std::int64_t n_nodes = 0;
@@ -88,16 +98,24 @@ struct CheckReport {
   double total_volume = 0.0;
   double dual_volume = 0.0;  ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
-  std::vector<GateResult> gates;              ///< QUALITY, in the order of Measure; empty when quality was not asked for
-  std::vector<PatchCoverage> coverage;        ///< of wall patches under layers, where the mesh says what was asked for
-  std::vector<PeriodicMatchReport> periodic;  ///< those of HybridMesh::periodic that match
-  bool is_complete = true;                    ///< false: indices out of range or points not finite, so that nothing else could be checked
-  bool intersections_checked = false;         ///< G2 was asked for and tried
-  bool dual_checked = false;                  ///< G4 was tried: faces conform
-  bool quality_measured = false;              ///< `quality` and `gates` are filled
+  std::vector<GateResult> gates;               ///< QUALITY, in the order of Measure; empty when quality was not asked for
+  std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty as `gates`
+  Consumers consumers;                         ///< that the states of `gates` are about
+  std::vector<PatchCoverage> coverage;         ///< of wall patches under layers, where the mesh says what was asked for
+  std::vector<PeriodicMatchReport> periodic;   ///< those of HybridMesh::periodic that match
+  bool is_complete = true;                     ///< false: indices out of range or points not finite, so that nothing else could be checked
+  bool intersections_checked = false;          ///< G2 was asked for and tried
+  bool dual_checked = false;                   ///< G4 was tried: faces conform
+  bool quality_measured = false;               ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
   /// Worst state of the QUALITY gates; not_checked when none was.
   GateState quality_state() const;
+  /// Worst state for one kind of solver.
+  GateState quality_state(Consumer consumer) const;
+  /// Leaves the states of gates that some of these consumers use; the others are "not checked". Values stay.
+  void restrict_to(Consumers asked);
+  /// Whether the measure belongs to a consumer that is asked about.
+  bool is_shown(const GateResult& gate) const { return info_of(gate.measure).consumers.has_any_of(consumers); }
   /// Violations of hard limits that the given boundary is proven to force, over all measures: they do not FAIL.
   std::int64_t n_forced() const;
   /// \pre quality_measured
@@ -111,6 +129,7 @@ struct CheckOptions {
   bool intersections = true;  ///< G2, the exact triangle-triangle tests
   bool quality = true;        ///< fill CheckReport::quality and gates
   bool cell_centred = true;   ///< with quality: OpenFOAM's measures, too
+  Consumers consumers;        ///< gates of others are "not checked"
   GateTable limits;           ///< of the QUALITY gates
   int findings_per_kind = 10;
   std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
@@ -144,6 +163,10 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
 /// The part of check() that needs columns and boundary faces only, for a mesh that does not have its other cells and their points yet.
 LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context);
 
+/// "VALID; cell-centred: FAIL at 3 places (12 of 3.2 M cells); node-centred: pass"
+std::string verdict_line(const CheckReport& report);
+/// The part of it about one kind of solver, without the name: "FAIL at 3 places (12 of 3.2 M cells)", "warn, 2 forced".
+std::string verdict_of(const CheckReport& report, Consumer consumer);
 /// Several lines for people: both verdicts, gates with counts and worst places, the findings with coordinates.
 std::string to_text(const CheckReport& report);
 /// The lines of one measure in it.

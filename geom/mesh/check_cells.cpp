@@ -1,7 +1,9 @@
 // One pass over all cells: the exact test of each kind (G3), the volumes for the divergence theorem, and quality while the points are at hand.
+#include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"
 #include "geom/mesh/column_scan.h"
+#include "geom/mesh/computed_volumes.h"
 #include "geom/mesh/layer_scans.h"
 
 namespace sterna::check_parts {
@@ -30,7 +32,7 @@ class CellScanner {
         add_pyramid(number, points_of<5>(cell.nodes));
       } else {
         const auto p = points_of<4>(cell.nodes);
-        note(number, is_tet_valid(p));
+        note(number, is_tet_valid(p), CellKind::tetrahedron, p);
         scan_.layer_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
         if (with_quality_) add_dihedrals(number, tet_dihedral_range(p));
       }
@@ -42,12 +44,12 @@ class CellScanner {
   void add_explicit(std::uint64_t number, const std::array<NodeId, 5>& nodes) { add_pyramid(number, points_of<5>(nodes)); }
   void add_explicit(std::uint64_t number, const std::array<NodeId, 8>& nodes) {
     const auto p = points_of<8>(nodes);
-    note(number, is_hexahedron_valid(p));
+    note(number, is_hexahedron_valid(p), CellKind::hexahedron, p);
     scan_.layer_volume.add(hexahedron_volume(p));
   }
   void add_explicit(std::uint64_t number, const std::array<NodeId, 4>& nodes) {
     const auto p = points_of<4>(nodes);
-    note(number, is_tet_valid(p));
+    note(number, is_tet_valid(p), CellKind::tetrahedron, p);
     scan_.tet_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
     if (!with_quality_) return;
     const auto range = tet_dihedral_range(p);
@@ -62,15 +64,17 @@ class CellScanner {
     for (std::size_t k = 0; k < N; ++k) p[k] = mesh_.points[nodes[k]];
     return p;
   }
-  void note(std::uint64_t number, bool is_valid) {
+  void note(std::uint64_t number, bool is_valid, double least_jacobian) {
     if (!is_valid) scan_.invalid.push_back(number);
+    else if (!(least_jacobian > k_solver_margin)) scan_.within_rounding.push_back(number);
   }
+  void note(std::uint64_t number, bool is_valid, CellKind kind, std::span<const Vec3> p) { note(number, is_valid, least_computed_jacobian(kind, p)); }
   void add_prisms(std::uint64_t first_number, std::size_t column) {
     const auto& measures = columns_.measure(column);
     for (std::size_t j = 0; j < measures.size(); ++j) {
       const PrismMeasures& prism = measures[j];
       const auto points = [&] { return points_of<6>(mesh_.layers.cell(column, static_cast<int>(j)).nodes); };
-      if (!prism.is_surely_valid) note(first_number + j, is_wedge_valid(points()));
+      note(first_number + j, prism.is_surely_valid || is_wedge_valid(points()), prism.quality);
       scan_.layer_volume.add(prism.volume);
       if (!with_quality_) continue;
       scan_.quality.add_prism(prism.quality, prism.skew, points);
@@ -78,15 +82,15 @@ class CellScanner {
     }
   }
   void add_prism(std::uint64_t number, const WedgePoints& p) {
-    note(number, is_wedge_valid(p));
+    const double quality = wedge_quality(p);
+    note(number, is_wedge_valid(p), quality);
     scan_.layer_volume.add(wedge_volume(p));
     if (!with_quality_) return;
-    const double quality = wedge_quality(p);
     scan_.quality.add_prism(quality, skew_angle(p), [&] { return p; });
     scan_.scaled_jacobian.add(quality, number);
   }
   void add_pyramid(std::uint64_t number, const std::array<Vec3, 5>& p) {
-    note(number, is_pyramid_valid(p));
+    note(number, is_pyramid_valid(p), CellKind::pyramid, p);
     scan_.layer_volume.add(pyramid_volume(p));
   }
 
@@ -105,6 +109,7 @@ class CellScanner {
 
 CellScan joined(CellScan all, CellScan more) {
   all.invalid = concatenate(std::move(all.invalid), std::move(more.invalid));
+  all.within_rounding = concatenate(std::move(all.within_rounding), std::move(more.within_rounding));
   all.layer_volume.add(more.layer_volume);
   all.tet_volume.add(more.tet_volume);
   all.quality.merge(more.quality);
@@ -118,6 +123,23 @@ CellScan::CellScan(const GateTable& limits)
     : scaled_jacobian(info_of(Measure::scaled_jacobian), limits[Measure::scaled_jacobian]),
       min_dihedral(info_of(Measure::min_dihedral), limits[Measure::min_dihedral]),
       max_dihedral(info_of(Measure::max_dihedral), limits[Measure::max_dihedral]) {}
+
+void report_cells(const HybridMesh& mesh, const CellNumbers& cells, const CellScan& scan, Findings& findings) {
+  const auto report = [&](Violation violation, std::uint64_t number, const auto& what) {
+    findings.add(violation, [&] {
+      const Point center = cells.center(number);
+      return std::pair(center, cells.name(number) + near_patch(mesh, center) + what(cells.cell(number)));
+    });
+  };
+  for (const std::uint64_t number : scan.invalid) report(Violation::invalid_cell, number, [](const Cell&) { return std::string(" is inverted or folded"); });
+  for (const std::uint64_t number : scan.within_rounding)
+    report(Violation::cell_within_rounding, number, [&](const Cell& cell) {
+      std::array<Vec3, 8> p;
+      for (std::size_t k = 0; k < cell.span().size(); ++k) p[k] = mesh.points[cell.nodes[k]];
+      return " has a volume or Jacobian of " + number_text(least_computed_jacobian(cell.kind, std::span(p).first(cell.span().size())), 2) +
+             " of the product of its edges in double precision; the limit is " + number_text(k_solver_margin, 2);
+    });
+}
 
 std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context) {
   std::vector<double> volumes(mesh.tetrahedra.size());

@@ -3,6 +3,7 @@
 
 #include "geom/mesh/forced.h"
 #include "geom/mesh/forced_layer.h"
+#include "geom/mesh/gate_items.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -26,11 +27,9 @@ std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_
 
 void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
                  const GateTable& limits, LazyGivenLayer& layer, const RunContext& context, CheckReport& report) {
-  const auto node = [&](std::uint64_t id) { return describe_node(mesh, id); };
-  const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
-  const auto face = [&](std::uint64_t id) {
-    return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id)));
-  };
+  const NodeItems node{mesh};
+  const CellItems cell{cells};
+  const SlotItems face{slots, "face of "};
   for (const MeasureInfo& info : measures())
     report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has none"));
   for (const Measure measure : {Measure::cad_distance, Measure::cad_normal}) report.gates[static_cast<std::size_t>(measure)].reason = k_no_model;

@@ -6,6 +6,7 @@
 
 #include "geom/math/measures.h"
 #include "geom/mesh/forced_layer.h"
+#include "geom/mesh/gate_items.h"
 #include "geom/mesh/line_measures.h"
 
 namespace sterna::check_parts {
@@ -18,6 +19,9 @@ struct InterfaceScan {
   explicit InterfaceScan(const GateTable& limits)
       : height(info_of(Measure::interface_height), limits[Measure::interface_height]),
         volume(info_of(Measure::interface_volume), limits[Measure::interface_volume]) {}
+  void add_height(double last_height, double mean_edge, std::uint64_t slot) {
+    height.add(interface_jump(last_height, mean_edge), slot | (is_interface_low(last_height, mean_edge) ? GateScan::k_too_small : 0));
+  }
   GateScan height, volume;  ///< ids are slots of the prism's face
 };
 
@@ -68,7 +72,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const Cell cell = cells.cell(slots.owner(slot));
           if (face.size != 3) continue;
           if (cell.kind != CellKind::prism) {  // beside a line that ends a layer below the others
-            if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.height.add(interface_jump(*height, edge_of(mesh, face)), slot);
+            if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.add_height(*height, edge_of(mesh, face), slot);
             continue;
           }
           if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // a fan's, beside its first cells
@@ -78,8 +82,9 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const double height = (distance(p[0], p[3]) + distance(p[1], p[4]) + distance(p[2], p[5])) / 3.0;
           const auto& t = mesh.tetrahedra[slots.tet_of(match.interface_tets[i])];
           const double tet = tet_volume(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]);
-          part.height.add(interface_jump(height, edge), slot);
-          part.volume.add(deviation(k_regular_volumes * tet / wedge_volume(p)), slot);
+          part.add_height(height, edge, slot);
+          const double ratio = k_regular_volumes * tet / wedge_volume(p);
+          part.volume.add(deviation(ratio), slot | (ratio < 1.0 ? GateScan::k_too_small : 0));
         }
         return part;
       },
@@ -88,9 +93,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
         all.volume.merge(more.volume);
         return all;
       });
-  const auto face = [&](std::uint64_t id) {
-    return std::pair(slots.center(static_cast<std::uint32_t>(id)), "top of " + slots.name(static_cast<std::uint32_t>(id)));
-  };
+  const SlotItems face{slots, "top of "};
   const auto prove_height = [&](std::uint64_t id, double) {
     const std::uint64_t number = slots.owner(static_cast<std::uint32_t>(id));
     if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // not of a column, or nobody says what was asked for

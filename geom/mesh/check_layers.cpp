@@ -6,6 +6,7 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/math/spherical_cap.h"
+#include "geom/mesh/gate_items.h"
 #include "geom/mesh/layer_room.h"
 #include "geom/mesh/line_measures.h"
 
@@ -17,6 +18,7 @@ constexpr double k_growth_slack = 0.01;
 /// Relative slack of n h0, the height below which a layer is compressed: rounding of the line's end.
 constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_gate_line_chunk = 1024;
+constexpr const char* k_no_boundary_layer = "no boundary layer was asked for: total_height, boundary_layer, or a first_height of flow conditions";
 constexpr const char* k_no_request = "the mesh does not say what was asked for";
 
 /// What the coverage needs of a line.
@@ -41,6 +43,28 @@ struct LayerScan {
     step.merge(other.step);
   }
   GateScan growth, angle, first_height, step;  ///< ids are lines
+};
+
+/// Ids are lines; their nodes are the feet, their cells those beside the wall where lines are columns.
+struct LineItems {
+  const HybridMesh& mesh;
+  const LayerLines& lines;
+  const Fans& fans;
+
+  std::pair<Point, std::string> operator()(std::uint64_t id) const {
+    const auto k = static_cast<std::uint32_t>(id);
+    const NodeId foot = lines.node(k, 0);
+    std::string what = (lines.are_columns() ? "line " + std::to_string(k) : "node " + std::to_string(foot.value()) + " of the wall");
+    if (!fans.around(k).empty() && lines.patch(fans.around(k).front()).is_valid()) what += ", patch " + patch_name(mesh, lines.patch(fans.around(k).front()));
+    return {mesh.points[foot], what};
+  }
+  void gather(std::uint64_t id, GateExtent& extent) const {
+    const auto k = static_cast<std::uint32_t>(id);
+    extent.nodes.push_back(lines.node(k, 0).value());
+    if (!lines.are_columns()) return;
+    for (const std::uint32_t column : fans.around(k))
+      if (mesh.layers.layers_of_column(column) > 0) extent.cells.push_back(std::uint64_t{column} * static_cast<std::uint64_t>(mesh.layers.n_layers));
+  }
 };
 
 class LineScanner {
@@ -145,7 +169,8 @@ class LineScanner {
   void add_first_height(std::uint32_t line) {
     if (line_heights_[line].is_compressed) return;
     const double asked = mesh_.request.first_height_of(line);
-    scan_.first_height.add(std::abs(dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0), line);
+    const double excess = dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0;
+    scan_.first_height.add(std::abs(excess), line | (excess < 0.0 ? GateScan::k_too_small : 0));
   }
 
   const HybridMesh& mesh_;
@@ -227,6 +252,7 @@ PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lin
 /// Areas of one patch by what became of the layer there.
 struct PatchAreas {
   double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
+  double asked = 0.0, covered = 0.0;  ///< where a boundary layer was asked for; where the line has its thickness or what the geometry permits of it
   std::map<std::string, double> lost;
   double total() const { return full + reduced + compressed + collapsed; }
   void add(const PatchAreas& more) {
@@ -236,13 +262,23 @@ struct PatchAreas {
     collapsed += more.collapsed;
     attainable += more.attainable;
     attained += more.attained;
+    asked += more.asked;
+    covered += more.covered;
     for (const auto& [reason, area] : more.lost) lost[reason] += area;
   }
 };
 
+/// Whether a line has 0.9 of the boundary layer that was asked for, or of what a gap or a corner permits of it.
+bool covers_boundary_layer(double height, double thickness, double target, double permitted, double in_gap) {
+  const bool is_limited = permitted < k_full_height_share * target;
+  const double possible = std::min({thickness, in_gap, is_limited ? permitted : k_infinity});
+  return height >= k_full_height_share * possible * (1.0 - k_height_slack);
+}
+
 /// Each corner of a wall triangle stands for a third of it.
 std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights,
-                                                     const std::vector<double>& permitted, const RunContext& context) {
+                                                     const PermittedHeights& possible, const RunContext& context) {
+  const std::vector<double>& permitted = possible.heights;
   const LayerRequest& request = mesh.request;
   using Areas = std::map<std::uint32_t, PatchAreas>;
   return parallel_reduce(
@@ -259,6 +295,11 @@ std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, con
             (lines.n_layers(line) == 0 ? patch.collapsed : own.is_full ? patch.full : own.is_compressed ? patch.compressed : patch.reduced) += third;
             if (permitted[line] >= k_full_height_share * request.target_height[line]) patch.attainable += third;
             if (own.is_full || own.height >= k_full_height_share * permitted[line]) patch.attained += third;
+            if (!request.line_boundary_layer.empty() && request.line_boundary_layer[line] > 0.0) {
+              patch.asked += third;
+              if (covers_boundary_layer(own.height, request.line_boundary_layer[line], request.target_height[line], permitted[line], possible.gaps[line]))
+                patch.covered += third;
+            }
             if (!own.is_full) patch.lost[request.reasons[request.reason[line]]] += third;
           }
         }
@@ -286,24 +327,30 @@ PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const Patch
   return result;
 }
 
-void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights, const std::vector<double>& permitted,
+void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights, const PermittedHeights& permitted,
                     const GateTable& limits, const RunContext& context, CheckReport& report) {
-  double attained = 0.0, collapsed = 0.0, total = 0.0;
+  double attained = 0.0, collapsed = 0.0, total = 0.0, asked = 0.0, covered = 0.0;
   for (const auto& [patch, areas] : measure_coverage(mesh, lines, heights, permitted, context)) {
     report.coverage.push_back(share_out(mesh, patch, areas));
     attained += areas.attained;
+    asked += areas.asked;
+    covered += areas.covered;
     collapsed += areas.collapsed;
     total += areas.total();
   }
-  const auto put = [&](Measure measure, double share) {
+  const auto put = [&](Measure measure, double part, double whole) {
     GateScan scan(info_of(measure), limits[measure]);
-    if (total > 0.0) scan.add(share, 0, total);
+    if (whole > 0.0) scan.add(part / whole, 0, whole);
     GateResult result = scan.result([](std::uint64_t) { return std::pair(Point{}, std::string()); });
     result.places.clear();  // it is of the whole wall; patches and gate G13 say where
+    result.n_too_small = result.n_too_large = 0;
+    result.share_beyond = 0.0;
     report.gates[static_cast<std::size_t>(measure)] = std::move(result);
   };
-  put(Measure::coverage, total > 0.0 ? attained / total : 0.0);
-  put(Measure::collapsed, total > 0.0 ? collapsed / total : 0.0);
+  put(Measure::boundary_layer, covered, asked);
+  if (asked == 0.0) report.gates[static_cast<std::size_t>(Measure::boundary_layer)].reason = k_no_boundary_layer;
+  put(Measure::coverage, attained, total);
+  put(Measure::collapsed, collapsed, total);
 }
 
 /// The growth that was asked for replaces the default limit.
@@ -324,8 +371,8 @@ std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots,
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
   const LayerLines lines(mesh, slots, match, context);
   if (!lines.reason().empty()) {
-    for (const Measure measure :
-         {Measure::stack_growth, Measure::stack_angle, Measure::first_height, Measure::coverage, Measure::collapsed, Measure::layer_step})
+    for (const Measure measure : {Measure::stack_growth, Measure::stack_angle, Measure::first_height, Measure::boundary_layer, Measure::coverage,
+                                  Measure::collapsed, Measure::layer_step})
       put(not_checked(measure, limits, lines.reason()));
     return {};
   }
@@ -346,23 +393,18 @@ std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots,
         return all;
       },
       k_gate_line_chunk);
-  const auto line = [&](std::uint64_t id) {
-    const auto k = static_cast<std::uint32_t>(id);
-    const NodeId foot = lines.node(k, 0);
-    std::string what = (lines.are_columns() ? "line " + std::to_string(k) : "node " + std::to_string(foot.value()) + " of the wall");
-    if (!fans.around(k).empty() && lines.patch(fans.around(k).front()).is_valid()) what += ", patch " + patch_name(mesh, lines.patch(fans.around(k).front()));
-    return std::pair(mesh.points[foot], what);
-  };
+  const LineItems line{mesh, lines, fans};
   put(scan.growth.result(line));
   put(scan.angle.result(line));
   put(scan.step.result(line));
   if (!is_usable) {
-    for (const Measure measure : {Measure::first_height, Measure::coverage, Measure::collapsed}) put(not_checked(measure, limits, k_no_request));
+    for (const Measure measure : {Measure::first_height, Measure::boundary_layer, Measure::coverage, Measure::collapsed})
+      put(not_checked(measure, limits, k_no_request));
     return {};
   }
   put(scan.first_height.result(line));
   PermittedHeights permitted = permitted_heights(mesh, lines, fans, heights, context);
-  judge_coverage(mesh, lines, heights, permitted.heights, limits, context, report);
+  judge_coverage(mesh, lines, heights, permitted, limits, context, report);
   return std::move(permitted.gaps);
 }
 

@@ -200,7 +200,8 @@ inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
 /// What one pass over all cells finds.
 struct CellScan {
   explicit CellScan(const GateTable& limits);
-  std::vector<std::uint64_t> invalid;  ///< cell numbers, ascending
+  std::vector<std::uint64_t> invalid;          ///< cell numbers, ascending
+  std::vector<std::uint64_t> within_rounding;  ///< of valid cells that are not above k_solver_margin; ascending
   CompensatedSum layer_volume, tet_volume;
   QualityScan quality;
   GateScan scaled_jacobian, min_dihedral, max_dihedral;  ///< ids are cell numbers
@@ -222,6 +223,8 @@ CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable
 /// Adds the explicit cells to what was found in the columns.
 CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits,
                              const RunContext& context);
+/// invalid_cell, cell_within_rounding (G3).
+void report_cells(const HybridMesh& mesh, const CellNumbers& cells, const CellScan& scan, Findings& findings);
 /// Volumes of the explicit tets, m^3; zero where not positive.
 std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context);
 /// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.

@@ -55,6 +55,38 @@ std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   return text;
 }
 
+/// "prisms"; where areas are counted the items are lines of the layer.
+std::string_view items_of(const MeasureInfo& info) { return info.counted == "area" ? "lines" : info.counted; }
+
+/// "12", "320 k", "3.2 M"
+std::string rounded_count(std::int64_t n) {
+  constexpr double k_thousand = 1e3, k_million = 1e6;
+  const auto value = static_cast<double>(n);
+  if (n >= 1'000'000) return number_text(value / k_million, 3) + " M";
+  return n >= 10'000 ? number_text(value / k_thousand, 3) + " k" : std::to_string(n);
+}
+
+/// "1 place", "3 places"
+std::string places_text(std::int64_t n) { return std::to_string(n) + (n == 1 ? " place" : " places"); }
+
+/// "; 12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target"
+std::string counts_text(const GateResult& gate) {
+  const MeasureInfo& info = info_of(gate.measure);
+  const std::int64_t n = gate.n_too_small + gate.n_too_large;
+  if (n == 0) return {};
+  const bool is_hard = gate.n_beyond_hard > gate.n_forced;
+  const std::string soft_limit = std::isnan(gate.limits.target) ? "the usual limit" : "the target";
+  std::string_view items = items_of(info);
+  if (n == 1) items.remove_suffix(1);  // "1 prism"
+  std::string text = "; " + std::to_string(n) + " " + std::string(items) + " beyond " + (is_hard ? "the hard limit" : soft_limit);
+  if (gate.share_beyond > 0.0) text += print_text(", %.2g %% of the ", 100.0 * gate.share_beyond) + (info.counted == "area" ? "area" : "volume");
+  if (gate.n_places) text += ", at " + places_text(*gate.n_places);
+  if (gate.n_too_large > 0) text += gate.n_too_small > 0 ? ", " + std::to_string(gate.n_too_large) + " too large" : ", too large";
+  if (gate.n_too_small > 0) text += gate.n_too_large > 0 ? ", " + std::to_string(gate.n_too_small) + " too small" : ", too small";
+  if (is_hard && gate.n_beyond_target > gate.n_beyond_hard) text += "; " + std::to_string(gate.n_beyond_target) + " beyond " + soft_limit;
+  return text;
+}
+
 std::string gate_text(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   const std::string head = print_text("  %-4s %-32s ", std::string(info.gate).c_str(), std::string(info.title).c_str());
@@ -64,6 +96,7 @@ std::string gate_text(const GateResult& gate) {
     text += print_text("; %.4g %% of %s ", 100.0 * gate.share_within, std::string(info.counted).c_str()) + (info.is_low_bad ? ">= " : "<= ") +
             shown_text(info, gate.limits.usual);
   if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
+  text += counts_text(gate);
   if (gate.n_forced > 0)
     text += "; " + std::to_string(gate.n_forced) + " of " + std::to_string(gate.n_beyond_hard) + " beyond the hard limit are forced by the given surface";
   text += "\n";
@@ -92,15 +125,32 @@ Json histogram_json(const GateResult& gate, const MeasureInfo& info) {
   return json;
 }
 
+/// As JSON spells them: "fail".
+std::string_view state_name(GateState state) { return state == GateState::fail ? "fail" : to_string(state); }
+
+/// Of the hard limit, by consumer; null where there is none.
+Json evidence_json(const MeasureInfo& info) {
+  Json json = Json::object();
+  for (const Consumer consumer : k_consumers)
+    if (const Evidence evidence = info.evidence.of(consumer); evidence != Evidence::none) json[std::string(to_string(consumer))] = to_string(evidence);
+  if (json.empty()) return nullptr;
+  json["source"] = info.evidence.source;
+  return json;
+}
+
 Json to_json(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   Json json = {
       {"gate", info.gate}, {"measure", info.name}, {"title", info.title}, {"unit", info.is_angle ? "deg" : ""}, {"bound", info.is_low_bad ? "lower" : "upper"}};
-  json["state"] = gate.state == GateState::fail ? "fail" : to_string(gate.state);
+  json["state"] = state_name(gate.state);
+  json["states"] = Json::object();
+  for (const Consumer consumer : k_consumers)
+    if (info.consumers.has(consumer)) json["states"][std::string(to_string(consumer))] = state_name(state_for(gate, consumer));
   json["limits"] = {{"hard", number(in_report_unit(info, gate.limits.hard))},
                     {"target", number(in_report_unit(info, gate.limits.target))},
                     {"usual", number(in_report_unit(info, gate.limits.usual))},
                     {"usual_share", std::isnan(gate.limits.usual) ? Json(nullptr) : Json(gate.limits.usual_share)}};
+  json["evidence"] = evidence_json(info);
   if (gate.state == GateState::not_checked) {
     json["reason"] = gate.reason;
     return json;
@@ -111,6 +161,12 @@ Json to_json(const GateResult& gate) {
   json["share_within"] = gate.share_within;
   json["beyond_hard"] = gate.n_beyond_hard;
   json["forced"] = gate.n_forced;
+  json["beyond_target"] = gate.n_beyond_target;
+  json["too_small"] = gate.n_too_small;
+  json["too_large"] = gate.n_too_large;
+  json["separate_places"] = gate.n_places ? Json(*gate.n_places) : Json(nullptr);
+  json["share_beyond"] = gate.share_beyond;
+  json["share_of"] = info.counted == "area" ? "area" : "volume";
   json["histogram"] = histogram_json(gate, info);
   json["places"] = Json::array();
   for (const GatePlace& place : gate.places)
@@ -166,7 +222,9 @@ std::string_view to_string(Violation v) {
     case Violation::broken_line: return "broken_line";
     case Violation::overlapping_parts: return "overlapping_parts";
     case Violation::no_cells: return "no_cells";
+    case Violation::cell_within_rounding: return "cell_within_rounding";
     case Violation::negative_sub_volume: return "negative_sub_volume";
+    case Violation::sub_volume_within_rounding: return "sub_volume_within_rounding";
     case Violation::open_dual_cell: return "open_dual_cell";
     case Violation::off_symmetry_plane: return "off_symmetry_plane";
     case Violation::periodic_mismatch: return "periodic_mismatch";
@@ -187,8 +245,10 @@ std::string_view gate_of(Violation v) {
   switch (v) {
     case Violation::boundary_intersection:
     case Violation::envelope_intersection: return "G2";
-    case Violation::invalid_cell: return "G3";
+    case Violation::invalid_cell:
+    case Violation::cell_within_rounding: return "G3";
     case Violation::negative_sub_volume:
+    case Violation::sub_volume_within_rounding:
     case Violation::open_dual_cell: return "G4";
     case Violation::off_symmetry_plane:
     case Violation::periodic_mismatch: return "G20";
@@ -217,6 +277,29 @@ GateState CheckReport::quality_state() const {
   return worst;
 }
 
+GateState CheckReport::quality_state(Consumer consumer) const {
+  GateState worst = GateState::not_checked;
+  for (const GateState state : {GateState::pass, GateState::warn, GateState::fail})
+    for (const GateResult& gate : gates)
+      if (state_for(gate, consumer) == state) worst = state;
+  return worst;
+}
+
+void CheckReport::restrict_to(Consumers asked) {
+  consumers = asked;
+  for (GateResult& gate : gates) {
+    if (gate.state == GateState::not_checked) continue;
+    if (!is_shown(gate)) {
+      gate.state = GateState::not_checked;
+      gate.reason = "no solver that is asked about uses it";
+      continue;
+    }
+    gate.state = GateState::pass;
+    for (const Consumer consumer : k_consumers)
+      if (const GateState state = state_for(gate, consumer); asked.has(consumer) && state != GateState::not_checked) gate.state = std::max(gate.state, state);
+  }
+}
+
 std::int64_t CheckReport::n_forced() const {
   std::int64_t n = 0;
   for (const GateResult& gate : gates) n += gate.n_forced;
@@ -225,12 +308,34 @@ std::int64_t CheckReport::n_forced() const {
 
 std::string to_text(const GateResult& gate) { return gate_text(gate); }
 
+std::string verdict_of(const CheckReport& report, Consumer consumer) {
+  const GateState state = report.quality_state(consumer);
+  std::string text(to_string(state));
+  const auto known = std::find_if(report.verdict_places.begin(), report.verdict_places.end(), [&](const ConsumerPlaces& p) { return p.consumer == consumer; });
+  if ((state == GateState::warn || state == GateState::fail) && known != report.verdict_places.end() && known->n_places && *known->n_places > 0) {
+    const bool is_of_cells = consumer == Consumer::cell_centred;
+    text += " at " + places_text(*known->n_places);
+    if (known->n_beyond > 0)
+      text += " (" + rounded_count(known->n_beyond) + " of " + rounded_count(is_of_cells ? report.cells.total() : report.n_nodes) +
+              (is_of_cells ? " cells)" : " nodes)");
+  }
+  std::int64_t n_forced = 0;
+  for (const GateResult& gate : report.gates)
+    if (info_of(gate.measure).consumers.has(consumer)) n_forced += gate.n_forced;
+  return n_forced > 0 ? text + ", " + std::to_string(n_forced) + " forced" : text;
+}
+
+std::string verdict_line(const CheckReport& report) {
+  std::string text = report.is_valid() ? "VALID" : "INVALID";
+  if (!report.quality_measured) return text;
+  for (const Consumer consumer : k_consumers)
+    if (report.consumers.has(consumer)) text += "; " + std::string(to_string(consumer)) + ": " + verdict_of(report, consumer);
+  return text;
+}
+
 std::string to_text(const CheckReport& report) {
   const auto n = [](std::int64_t value) { return std::to_string(value); };
-  std::string text = report.is_valid() ? "VALID" : "INVALID";
-  if (report.quality_measured) text += ", quality " + std::string(to_string(report.quality_state()));
-  if (const std::int64_t forced = report.n_forced(); forced > 0) text += ", " + n(forced) + " forced";
-  text += "\n";
+  std::string text = verdict_line(report) + "\n";
   text += "  cells: " + n(report.cells.prisms) + " prisms, " + n(report.cells.pyramids) + " pyramids, " + n(report.cells.hexahedra) + " hexahedra, " +
           n(report.cells.tetrahedra) + " tetrahedra; " + n(report.n_nodes) + " nodes; boundary: " + n(report.n_boundary_triangles) + " triangles, " +
           n(report.n_boundary_quads) + " quads\n";
@@ -252,6 +357,7 @@ std::string to_text(const CheckReport& report) {
             print_text(" to %.2f deg at ", q.max_dihedral * k_degrees) + format_point(q.most_obtuse_tet) + "\n";
   }
   for (const GateResult& gate : report.gates) {
+    if (!report.is_shown(gate)) continue;
     text += gate_text(gate);
     if (gate.measure != Measure::coverage) continue;
     for (const PatchCoverage& patch : report.coverage) text += coverage_text(patch);
@@ -273,6 +379,18 @@ std::string to_json(const CheckReport& report) {
   Json json;
   json["schema"] = "sterna-check-2";
   json["verdict"] = report.is_valid() ? "VALID" : "INVALID";
+  json["verdict_line"] = verdict_line(report);
+  json["verdicts"] = Json::array();
+  for (const ConsumerPlaces& places : report.verdict_places) {
+    if (!report.consumers.has(places.consumer)) continue;
+    const bool is_of_cells = places.consumer == Consumer::cell_centred;
+    json["verdicts"].push_back({{"consumer", to_string(places.consumer)},
+                                {"state", state_name(report.quality_state(places.consumer))},
+                                {"separate_places", places.n_places ? Json(*places.n_places) : Json(nullptr)},
+                                {"beyond", places.n_beyond},
+                                {"total", is_of_cells ? report.cells.total() : report.n_nodes},
+                                {"items", is_of_cells ? "cells" : "nodes"}});
+  }
   json["quality_verdict"] = report.quality_measured ? to_string(report.quality_state()) : "not checked";
   json["forced"] = report.n_forced();
   json["is_complete"] = report.is_complete;

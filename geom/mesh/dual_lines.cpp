@@ -79,7 +79,7 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
     upward_.add(j, piece(at_bottom_b, at_bottom_c, from_bottom, half_up));
     const Packed shared_lowest = lowest, shared_highest = highest, shared_sum = sum;
     const Packed size2 = dot(b0, b0) + dot(c0, c0) + dot(b1, b1) + dot(c1, c1) + dot(up, up);
-    const Packed bound = k_certain * size2 * root(size2);
+    const Packed bound = certain_sub_volume(root(dot(a0, a0)), root(size2), size2);
 
     to_b.above.add(j, piece(bottom, at_bottom_b, from_bottom, 0.5 * b0));
     to_c.above.add(j, piece(at_bottom_c, bottom, from_bottom, 0.5 * c0));

@@ -36,7 +36,7 @@ struct DualScan {
   explicit DualScan(const GateTable& limits);
   GateScan closure, orthogonality, sub_volume_ratio, face_area_ratio, relative_face_area_ratio, edge_ratio;
   CompensatedSum volume;
-  std::vector<std::uint64_t> suspects;  ///< cells (numbers of check_parts::CellNumbers) with a sub-tet that rounding leaves undecided or not positive
+  std::vector<std::uint64_t> suspects;  ///< cells (numbers of check_parts::CellNumbers) with a sub-tet that may not be positive in double precision
   void add(std::uint64_t node, const NodeMetrics& metrics);
   void merge(DualScan&& other);
 };

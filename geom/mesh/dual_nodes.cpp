@@ -85,7 +85,7 @@ void NodeDual::add_sub_volume(double six_times) {
   sum_ += six_times;
 }
 
-void NodeDual::add_tet(std::span<const NodeId> nodes) {
+void NodeDual::add_tet(std::span<const NodeId> nodes, std::uint64_t number) {
   // Others in the order that sees the corner's tet positive; all sub-tets have a 24th of the volume, and the dual faces close in three cross products.
   constexpr std::array<std::array<std::uint8_t, 3>, 4> k_others = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   std::size_t corner = 0;
@@ -96,6 +96,8 @@ void NodeDual::add_tet(std::span<const NodeId> nodes) {
   const Vec3 sum = c[0] + c[1] + c[2];
   for (std::size_t k = 0; k < 3; ++k) edge_to(nodes[k_others[corner][k]].value()).normal += (sum + c[k]) / 24.0;
   const double piece = dot(u[0], c[0]) / 24.0;
+  const double size2 = norm2(u[0]) + norm2(u[1]) + norm2(u[2]);
+  if (!(piece > certain_sub_volume(reach_, std::sqrt(size2), size2))) suspects_.push_back(number);
   for (int k = 0; k < 6; ++k) add_sub_volume(piece);
 }
 
@@ -111,7 +113,7 @@ void NodeDual::add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint6
     if (nodes[k].value() == node_) corner = k;
   }
   g *= 1.0 / static_cast<double>(nodes.size());
-  const double bound = k_certain * size2 * std::sqrt(size2);
+  const double bound = certain_sub_volume(reach_, std::sqrt(size2), size2);
   bool is_suspect = false;
   for (const Corner& face : corners_[static_cast<std::size_t>(kind)][corner]) {
     Vec3 f;
@@ -146,7 +148,7 @@ void NodeDual::add_columns(std::uint32_t line, std::uint32_t layer) {
     for (std::uint32_t j = begin; j < end; ++j) {
       const Cell cell = layers.cell(column, static_cast<int>(j));
       if (cell.kind == CellKind::tetrahedron) {
-        add_tet(cell.span());
+        add_tet(cell.span(), std::uint64_t{column} * per_column + j);
       } else {
         add_cell(cell.kind, cell.span(), std::uint64_t{column} * per_column + j);
       }
@@ -222,6 +224,7 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
 NodeMetrics NodeDual::measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells) {
   node_ = node;
   origin_ = mesh_.points.raw()[node];
+  reach_ = norm(origin_);
   edges_.clear();
   pieces_.clear();
   least_ = k_infinity;
@@ -239,7 +242,7 @@ NodeMetrics NodeDual::measure(std::uint32_t node, std::uint32_t line, std::span<
       add_cell(CellKind::hexahedron, mesh_.hexahedra[i - first_[2]], first_explicit + i);
       has_hexahedron_ = true;
     } else if (i < first_[4]) {
-      add_tet(mesh_.tetrahedra[i - first_[3]]);
+      add_tet(mesh_.tetrahedra[i - first_[3]], first_explicit + i);
     } else if (i < first_[5]) {
       add_boundary(mesh_.boundary_triangles[i - first_[4]].nodes, mesh_.boundary_triangles[i - first_[4]].patch);
     } else {

@@ -12,10 +12,18 @@
 
 namespace sterna::dual_parts {
 
-/// A sub-tet's volume is certainly positive when six times it exceeds this times the cube of the cell's size as seen from the corner (root of the sum of
-/// squared edges from there): three factors of at most that size, each within 7 roundings of its exact value, some 10 more when they are multiplied and
-/// summed; doubled. Sub-tets of a prism of aspect ratio 1e9 are still certain.
-inline constexpr double k_certain = 64 * 0x1p-53;
+/// A sub-tet is certainly above k_solver_margin (computed_volumes.h), and so positive, when six times its volume exceeds this times the cube of the cell's size
+/// as seen from the corner (root of the sum of squared edges from there): two of its three vectors are at most that long, the third half of it. Rounding of the
+/// formulas here, 64 units at most, is less than the difference. Sub-tets of a prism of aspect ratio 1e9 are still certain.
+inline constexpr double k_certain = 1e-13;
+/// Plus this times the distance of the cell from the origin and the square of the size: solvers round midpoints and centroids as coordinates, one to eight
+/// units of the distance each.
+inline constexpr double k_place_rounding = 32 * 0x1p-53;
+/// Bound of six times the volume of a sub-tet that is certain. \p reach: distance of the corner from the origin; \p size2: square of the size.
+template <class T>
+T certain_sub_volume(const T& reach, const T& size, const T& size2) {
+  return size2 * (k_certain * size + k_place_rounding * (reach + size));
+}
 /// Rounding of the dual faces around a node, as a share of its number of edges times the square of the longest: six cross products of such edges for each, with
 /// the differences before them.
 inline constexpr double k_face_rounding = 96 * 0x1p-53;
@@ -94,7 +102,7 @@ class NodeDual {
   Edge& edge_to(std::uint32_t other);
   void add_columns(std::uint32_t line, std::uint32_t layer);
   void add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint64_t number);
-  void add_tet(std::span<const NodeId> nodes);
+  void add_tet(std::span<const NodeId> nodes, std::uint64_t number);
   void add_boundary(std::span<const NodeId> nodes, PatchId patch);
   void add_sub_volume(double six_times);
   NodeMetrics result(std::uint32_t line) const;
@@ -105,6 +113,7 @@ class NodeDual {
   std::array<std::uint64_t, 6> first_;                         ///< numbers of explicit prisms, pyramids, hexahedra, tets, boundary triangles, quads
   std::uint32_t node_ = 0;
   Point origin_;
+  double reach_ = 0.0;  ///< m, distance of the node from the origin of coordinates
   std::vector<Edge> edges_;
   std::vector<BoundaryPiece> pieces_;
   double least_ = 0.0, most_ = 0.0, sum_ = 0.0;

@@ -27,6 +27,7 @@ enum class Measure : std::uint8_t {
   interface_volume,          ///< G9: thrice the tet's over the prism's volume, or its inverse
   stack_angle,               ///< G10: steepest of the first cells against the wall's facets, less the best possible
   first_height,              ///< G11: relative deviation of the first height along the vertex normal
+  boundary_layer,            ///< G12: share of the area on which a boundary layer was asked for with its thickness, or what the geometry permits of it
   coverage,                  ///< G12: share of the wall's area with the height along the normal that the geometry permits
   collapsed,                 ///< G12: share of the wall's area without cells
   layer_step,                ///< G13: difference of the number of layers over an edge
@@ -49,6 +50,38 @@ enum class Measure : std::uint8_t {
   cad_normal,                ///< G18: facet normal against the model's at the facet's centroid (the same)
 };
 inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
+
+/// Solvers by what their control volumes are.
+enum class Consumer : std::uint8_t {
+  cell_centred,  ///< the cells: OpenFOAM, Fluent
+  node_centred,  ///< the dual cells of the nodes: SU2, TAU, Edge
+};
+inline constexpr std::array k_consumers = {Consumer::cell_centred, Consumer::node_centred};
+/// "cell-centred", "node-centred"
+std::string_view to_string(Consumer consumer);
+
+/// Some of them.
+struct Consumers {
+  bool cell_centred = true, node_centred = true;
+  bool has(Consumer consumer) const { return consumer == Consumer::cell_centred ? cell_centred : node_centred; }
+  bool has_any_of(const Consumers& other) const { return (cell_centred && other.cell_centred) || (node_centred && other.node_centred); }
+  friend bool operator==(const Consumers&, const Consumers&) = default;
+};
+
+/// Why a hard limit is where it is.
+enum class Evidence : std::uint8_t {
+  none,        ///< there is no hard limit, or the consumer does not use the measure
+  definition,  ///< beyond it the mesh cannot be used, or is not what was asked for
+  measured,    ///< runs of a solver; the source names the page
+  cited,       ///< a program's or guideline's limit that no run has tested here
+};
+/// "definition", ...; "" for none
+std::string_view to_string(Evidence evidence);
+struct LimitEvidence {
+  Evidence cell_centred, node_centred;
+  std::string_view source;  ///< of the limit, for people
+  Evidence of(Consumer consumer) const { return consumer == Consumer::cell_centred ? cell_centred : node_centred; }
+};
 
 /// Classes of a measure's histogram: values below the first edge are in the first class, above the last edge (and no numbers) in the last.
 struct HistogramClasses {
@@ -80,6 +113,8 @@ struct MeasureInfo {
   bool is_low_bad;           ///< limits are lower bounds
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
+  Consumers consumers;       ///< whose solutions depend on it
+  LimitEvidence evidence;    ///< of the hard limit
 };
 
 /// The table of quality.md §6, in the order of Measure.
@@ -123,20 +158,41 @@ struct GatePlace {
   Forcing forcing;   ///< empty: ours to mend
 };
 
+/// Nodes and cells of the items of a measure that are beyond a limit; check_places.cpp makes places and shares of them.
+struct GateExtent {
+  std::vector<std::uint32_t> nodes;        ///< item after item
+  std::vector<std::uint32_t> first = {0};  ///< of each item in `nodes`, and the end
+  std::vector<std::uint64_t> cells;        ///< numbers (check_parts::CellNumbers) of the cells that the items are or belong to; none of items that are nodes
+  void end_item() { first.push_back(static_cast<std::uint32_t>(nodes.size())); }
+  bool empty() const { return nodes.empty(); }
+};
+
 struct GateResult {
   Measure measure = Measure::scaled_jacobian;
   GateLimits limits{};
-  GateState state = GateState::not_checked;
-  std::string reason;  ///< why it was not checked
+  GateState state = GateState::not_checked;  ///< the worst of state_for() the consumers that are asked about
+  bool is_hard_missed = false;               ///< by an item that is not forced
+  bool is_soft_missed = false;               ///< target or usual limit
+  std::string reason;                        ///< why it was not checked
   double worst = 0.0;
-  double total = 0.0;              ///< number of items, or m^2 where areas are counted
-  double share_within = 0.0;       ///< share of it within limits.usual; within limits.target where there is no usual limit
-  std::int64_t n_beyond_hard = 0;  ///< items
-  std::int64_t n_forced = 0;       ///< of them, proven to be forced by the given boundary: they do not FAIL
-  std::vector<GatePlace> places;   ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
-  std::vector<GatePlace> forced;   ///< the worst ten that are forced, worst first
-  std::vector<double> histogram;   ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
+  double total = 0.0;                ///< number of items, or m^2 where areas are counted
+  double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
+  std::int64_t n_beyond_hard = 0;    ///< items
+  std::int64_t n_forced = 0;         ///< of them, proven to be forced by the given boundary: they do not FAIL
+  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual where there is no target; those beyond the hard limit are among them
+  // Of the items that decide: those beyond the hard limit that are not forced, or where there are none those beyond the target.
+  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values on either side of what they should be
+  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none where items have no place, or are too many to be kept
+  double share_beyond = 0.0;                      ///< of the wall's area where areas are counted, else of the fluid's volume
+  GateExtent extent;                              ///< of them; empty after check()
+  std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
+  std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
+  std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
+
+/// What a result says to one kind of solver: beyond a hard limit FAIL, but warn where the consumer is node-centred and the limit is neither by definition, nor
+/// measured, nor the user's own. not_checked where the consumer does not use the measure.
+GateState state_for(const GateResult& gate, Consumer consumer);
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
 /// but for the rounding of weights that are not whole numbers.
@@ -150,11 +206,16 @@ class GateScan {
   };
 
   GateScan(const MeasureInfo& info, const GateLimits& limits);
+  /// In the id of an item whose measure is a deviation to either side: the value is below what it should be.
+  static constexpr std::uint64_t k_too_small = std::uint64_t{1} << 62;
+  /// Items beyond the target whose ids are kept for counting places: 800 KB of each measure.
+  static constexpr std::size_t k_most_soft = 100'000;
   /// A value that is not a number counts as infinitely bad.
   void add(double value, std::uint64_t id, double weight = 1.0) {
     const double badness = value == value ? sign_ * value : std::numeric_limits<double>::infinity();
     total_ += weight;
     if (badness <= usual_) within_ += weight;
+    if (badness > soft_) add_soft(badness, id, weight);
     if (badness > hard_) beyond_.push_back({{badness, id}, weight});
     else worst_within_ = std::max(worst_within_, badness);
     if (classes_->n > 0) histogram_[static_cast<std::size_t>(classes_->of(value))] += weight;
@@ -165,7 +226,8 @@ class GateScan {
   /// Worst first; equal ones by ascending id.
   const std::vector<Item>& worst() const { return worst_; }
   double value_of(const Item& item) const { return sign_ * item.badness; }
-  /// `describe(id) -> pair(Point, string)` names the places.
+  /// `describe(id) -> pair(Point, string)` names the places; where it has `gather(id, GateExtent&)`, which adds the nodes and cells of an item, the result has
+  /// an extent.
   template <class Describe>
   GateResult result(const Describe& describe) const {
     return result(describe, [](std::uint64_t, double) { return std::optional<Forcing>(); });
@@ -176,16 +238,20 @@ class GateScan {
     std::vector<GatePlace> places, forced;
     const auto list = [&](std::vector<GatePlace>& to, const Item& item, Forcing forcing) {
       if (to.size() == k_most_places) return;
-      auto [position, what] = describe(item.id);
+      auto [position, what] = describe(item.id & ~k_too_small);
       to.push_back({value_of(item), position, std::move(what), std::move(forcing)});
     };
     std::int64_t n_forced = 0;
-    double forced_weight = 0.0;
+    double forced_weight = 0.0, own_weight = 0.0;
+    std::vector<std::uint64_t> own;
     for (const Beyond& beyond : beyond_hard()) {
-      std::optional<Forcing> forcing = prove(beyond.item.id, value_of(beyond.item));
+      std::optional<Forcing> forcing = prove(beyond.item.id & ~k_too_small, value_of(beyond.item));
       if (forcing) {
         ++n_forced;
         forced_weight += beyond.weight;
+      } else {
+        own.push_back(beyond.item.id);
+        own_weight += beyond.weight;
       }
       const bool is_forced = forcing.has_value();
       list(is_forced ? forced : places, beyond.item, std::move(forcing).value_or(Forcing{}));
@@ -195,6 +261,13 @@ class GateScan {
     GateResult result = judge(n_forced, forced_weight);
     result.places = std::move(places);
     result.forced = std::move(forced);
+    const std::vector<std::uint64_t> deciding = decide(std::move(own), own_weight, result);
+    if constexpr (requires { describe.gather(std::uint64_t{}, result.extent); }) {
+      for (const std::uint64_t id : deciding) {
+        describe.gather(id & ~k_too_small, result.extent);
+        result.extent.end_item();
+      }
+    }
     return result;
   }
   bool has_beyond_hard() const { return !beyond_.empty(); }
@@ -205,6 +278,9 @@ class GateScan {
     double weight;
   };
   void remember(const Item& item);
+  void add_soft(double badness, std::uint64_t id, double weight);
+  /// Fills what GateResult says of the items that decide; \p own are those beyond the hard limit that are not forced. Returns the ids of them that are kept.
+  std::vector<std::uint64_t> decide(std::vector<std::uint64_t> own, double own_weight, GateResult& result) const;
   bool is_notable(const Item& item) const;
   /// Worst first; equal ones by ascending id.
   std::vector<Beyond> beyond_hard() const;
@@ -214,10 +290,16 @@ class GateScan {
   GateLimits limits_;
   double sign_;
   double hard_, target_, usual_;  ///< as badness; infinity where there is none
+  double soft_;                   ///< the target, or the usual limit where there is none
   double entry_ = -std::numeric_limits<double>::infinity();
   double total_ = 0.0, within_ = 0.0;
   double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of what keeps the hard limit
   std::vector<Beyond> beyond_;                                      ///< all beyond the hard limit
+  // Beyond the soft limit: all, and those that keep the hard limit.
+  std::int64_t n_soft_ = 0, n_soft_within_ = 0, n_soft_small_ = 0;
+  double soft_weight_ = 0.0;
+  bool has_dropped_soft_ = false;
+  std::vector<std::uint64_t> soft_ids_;  ///< of those that keep the hard limit; none where they are more than k_most_soft
   const HistogramClasses* classes_;
   std::array<double, HistogramClasses::k_most> histogram_{};
   std::vector<Item> worst_;

@@ -116,11 +116,12 @@ struct LayerRequest {
   double max_growth = 0.0;                ///< largest ratio of heights of consecutive cells; the largest where lines differ
   std::vector<double> line_first_height;  ///< m, along the vertex's normal, per line; empty: first_height everywhere
   std::vector<double> line_first_room;  ///< m, least height of the whole line with which its first height is met to 2 %, per line; empty: layers x first height
-  std::vector<double> line_max_growth;  ///< per line; empty: max_growth everywhere
-  std::vector<std::uint16_t> line_layers;  ///< per line; empty: as many as it has, so that none was truncated
-  std::vector<double> target_height;       ///< m, of the whole layer, per line
-  std::vector<std::uint8_t> reason;        ///< per line: why it is lower than its target, index of `reasons`
-  std::vector<std::string> reasons;        ///< for people
+  std::vector<double> line_boundary_layer;  ///< m, thickness of the boundary layer that the line has to cover; 0: none is asked for; empty: of no line
+  std::vector<double> line_max_growth;      ///< per line; empty: max_growth everywhere
+  std::vector<std::uint16_t> line_layers;   ///< per line; empty: as many as it has, so that none was truncated
+  std::vector<double> target_height;        ///< m, of the whole layer, per line
+  std::vector<std::uint8_t> reason;         ///< per line: why it is lower than its target, index of `reasons`
+  std::vector<std::string> reasons;         ///< for people
   bool is_known() const { return first_height > 0.0; }
   /// m, of a line with n layers
   double first_room_of(std::size_t line, int n) const { return line_first_room.empty() ? n * first_height_of(line) : line_first_room[line]; }
@@ -131,8 +132,9 @@ struct LayerRequest {
 template <class Request>
 requires std::is_same_v<std::remove_const_t<Request>, LayerRequest>
 auto columns_of(Request& request) {
-  auto& [first_height, max_growth, line_first_height, line_first_room, line_max_growth, line_layers, target_height, reason, reasons] = request;
-  return std::tie(line_first_height, line_first_room, line_max_growth, line_layers, target_height, reason);
+  auto& [first_height, max_growth, line_first_height, line_first_room, line_boundary_layer, line_max_growth, line_layers, target_height, reason, reasons] =
+      request;
+  return std::tie(line_first_height, line_first_room, line_boundary_layer, line_max_growth, line_layers, target_height, reason);
 }
 
 struct BoundaryTriangle {

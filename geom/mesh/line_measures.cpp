@@ -97,14 +97,16 @@ double stack_angle(const HybridMesh& mesh, const LayerLines& lines, std::uint32_
 double deviation(double ratio) { return ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : std::numeric_limits<double>::infinity(); }
 
 double interface_jump(double last_height, double mean_edge) { return deviation(last_height / (k_regular_height * mean_edge)); }
+bool is_interface_low(double last_height, double mean_edge) { return last_height < k_regular_height * mean_edge; }
 
 bool is_request_usable(const HybridMesh& mesh) {
   const LayerRequest& request = mesh.request;
   const std::size_t n = mesh.layers.n_lines();
   return request.is_known() && request.target_height.size() == n && request.reason.size() == n &&
          (request.line_first_height.empty() || request.line_first_height.size() == n) &&
-         (request.line_first_room.empty() || request.line_first_room.size() == n) && (request.line_max_growth.empty() || request.line_max_growth.size() == n) &&
-         (request.line_layers.empty() || request.line_layers.size() == n) &&
+         (request.line_first_room.empty() || request.line_first_room.size() == n) &&
+         (request.line_boundary_layer.empty() || request.line_boundary_layer.size() == n) &&
+         (request.line_max_growth.empty() || request.line_max_growth.size() == n) && (request.line_layers.empty() || request.line_layers.size() == n) &&
          std::all_of(request.reason.begin(), request.reason.end(), [&](std::uint8_t r) { return r < request.reasons.size(); });
 }
 

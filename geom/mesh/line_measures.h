@@ -63,6 +63,8 @@ double stack_angle(const HybridMesh& mesh, const LayerLines& lines, std::uint32_
 double deviation(double ratio);
 /// Last height of a column against that of a regular tet on the envelope's mean edge: deviation of their ratio (G9), at least 1.
 double interface_jump(double last_height, double mean_edge);
+/// Whether the last height is below that of the regular tet.
+bool is_interface_low(double last_height, double mean_edge);
 /// Whether HybridMesh::request has one entry per line of the columns.
 bool is_request_usable(const HybridMesh& mesh);
 

@@ -68,6 +68,8 @@ std::filesystem::path edge_kinds_path(const std::filesystem::path& path) {
   return std::filesystem::exists(text, ignored) ? text : binary;
 }
 
+constexpr Consumers k_cell_solvers{.cell_centred = true, .node_centred = false}, k_node_solvers{.cell_centred = false, .node_centred = true};
+
 // One line for each format; the order counts where extensions are shared.
 constexpr std::array k_formats = {
     Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .write_surface = write_stl, .carries_patch_names = true},
@@ -93,6 +95,7 @@ constexpr std::array k_formats = {
            .write_volume = write_volume_fluent,
            .carries_patch_names = true,
            .carries_patch_kinds = true,
+           .consumers = k_cell_solvers,
            .write_numbered = write_numbered_fluent},
     Format{.name = "Medit",
            .extensions = ".mesh .meshb",
@@ -126,14 +129,16 @@ constexpr std::array k_formats = {
            .read_volume = read_volume_tau,
            .write_volume = write_volume_tau,
            .carries_patch_names = true,
-           .kinds_beside = bmap_path},
+           .kinds_beside = bmap_path,
+           .consumers = k_node_solvers},
     Format{.name = "SU2",
            .extensions = ".su2",
            .read_surface = read_su2,
            .write_surface = write_su2,
            .read_volume = read_volume_su2,
            .write_volume = write_volume_su2,
-           .carries_patch_names = true},
+           .carries_patch_names = true,
+           .consumers = k_node_solvers},
     Format{.name = "VTKHDF",
            .extensions = ".vtkhdf .hdf",
            .read_surface = read_surface_vtkhdf,
@@ -189,14 +194,21 @@ constexpr std::array k_formats = {
            .files = polymesh_files,
            .require_output = require_foam_place,
            .carries_patch_kinds = true,
+           .consumers = k_cell_solvers,
            .write_numbered = write_numbered_foam},
     Format{.name = "Edge",
            .extensions = ".bmsh .v2.bmsh",
            .read_volume = read_volume_edge,
            .write_volume = write_volume_edge,
            .carries_patch_names = true,
-           .kinds_beside = edge_kinds_path},
-    Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true, .kinds_beside = edge_kinds_path},
+           .kinds_beside = edge_kinds_path,
+           .consumers = k_node_solvers},
+    Format{.name = "Edge text",
+           .extensions = ".amsh",
+           .read_volume = read_volume_edge,
+           .carries_patch_names = true,
+           .kinds_beside = edge_kinds_path,
+           .consumers = k_node_solvers},
 };
 
 /// Calls f(extension) for each blank-separated word.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/mesh/gates.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/numbering.h"
 #include "geom/mesh/surface_soup.h"
@@ -44,6 +45,7 @@ struct Format {
   OutputTest require_output = nullptr;
   bool carries_patch_kinds = false;         ///< what patches are (wall, inflow ...) stands in the file
   KindsPath kinds_beside = nullptr;         ///< or in this second file, which hash_input does not cover
+  Consumers consumers;                      ///< kinds of solvers that read the format
   NumberedWriter write_numbered = nullptr;  ///< of formats that number the cells of all kinds as one: the same as write_volume, with an order of the cells
 
   bool is_read() const { return read_surface || read_volume; }

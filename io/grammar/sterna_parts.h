@@ -33,7 +33,8 @@ inline constexpr std::uint32_t k_truncated_version = 3;
 inline constexpr std::string_view k_request = "mesh/request/first_height_max_growth", k_request_target = "mesh/request/target_height",
                                   k_request_reason = "mesh/request/reason", k_request_reasons = "mesh/request/reasons",
                                   k_request_first_height = "mesh/request/first_height", k_request_first_room = "mesh/request/first_room",
-                                  k_request_max_growth = "mesh/request/max_growth", k_request_layers = "mesh/request/layers";
+                                  k_request_boundary_layer = "mesh/request/boundary_layer", k_request_max_growth = "mesh/request/max_growth",
+                                  k_request_layers = "mesh/request/layers";
 /// Before the names of a mesh: the layer that its tetrahedra were made around, where ridges are opened or wakes have sheets.
 inline constexpr std::string_view k_opened = "opened/";
 /// Version of files with it: readers that do not know it would take the layers of the mesh for that.

@@ -220,6 +220,7 @@ class PartReader {
     result.reason = bytes(part::k_request_reason, n_lines);
     if (has(part::k_request_first_height)) result.line_first_height = reals(part::k_request_first_height, n_lines);
     if (has(part::k_request_first_room)) result.line_first_room = reals(part::k_request_first_room, n_lines);
+    if (has(part::k_request_boundary_layer)) result.line_boundary_layer = reals(part::k_request_boundary_layer, n_lines);
     if (has(part::k_request_max_growth)) result.line_max_growth = reals(part::k_request_max_growth, n_lines);
     if (has(part::k_request_layers)) result.line_layers = line_layers(part::k_request_layers, n_lines, std::numeric_limits<std::uint16_t>::max());
     for (std::size_t i = 0; i < result.reason.size(); ++i)

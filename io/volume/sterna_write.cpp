@@ -136,7 +136,7 @@ class PartWriter {
     text(part::k_request_reasons, joined(request.reasons));
     for (const auto& [name, values] :
          {std::pair(part::k_request_first_height, &request.line_first_height), std::pair(part::k_request_first_room, &request.line_first_room),
-          std::pair(part::k_request_max_growth, &request.line_max_growth)}) {
+          std::pair(part::k_request_boundary_layer, &request.line_boundary_layer), std::pair(part::k_request_max_growth, &request.line_max_growth)}) {
       if (values->empty()) continue;
       require_size(values->size(), layers.n_lines(), "requests of lines");
       reals(name, 1, *values);

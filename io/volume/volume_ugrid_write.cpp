@@ -1,10 +1,13 @@
 // UGRID writer: seven counts, nodes, faces (inwards, as NASA's tools have them), their patch numbers, cells. Text and binary differ in how a number is put.
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
+#include "geom/base/error.h"
+#include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
+#include "geom/mesh/computed_volumes.h"
 #include "io/grammar/ugrid_source.h"
 #include "io/names/name_rules.h"
 #include "io/output/cell_sections.h"
@@ -142,24 +145,42 @@ std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const 
   return std::to_string(n) + "\n" + lines;
 }
 
-/// Warns of how far single precision moves the nodes, and of how many then lie on the same place.
-void tell_rounding(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  std::vector<std::array<float, 3>> places;
-  places.reserve(mesh.points.size());
-  double moved = 0.0;
-  for (const Point& p : mesh.points) {
-    const std::array<float, 3> place = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    moved = std::max(moved, distance(p, Point{static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2])}));
-    places.push_back(place);
-  }
+/// The coordinates as a reader of single precision has them.
+std::vector<Point> in_single_precision(const HybridMesh& mesh, const RunContext& context) {
+  const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+  std::vector<Point> places(mesh.points.size());
+  parallel_for(context, places.size(), [&](std::size_t i) {
+    const Point& p = mesh.points.raw()[i];
+    places[i] = {rounded(p.x), rounded(p.y), rounded(p.z)};
+  });
+  return places;
+}
+
+/// Warns of how far single precision moves the nodes.
+/// \throws Error mesh_invalid where cells are flat or folded at the coordinates of the file.
+void require_single_precision_cells(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const std::vector<Point> places = in_single_precision(mesh, context);
+  const double moved = parallel_reduce(
+      context, places.size(), 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double largest = 0.0;
+        for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, distance(mesh.points.raw()[i], places[i]));
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
   if (moved == 0.0) return;
-  std::sort(places.begin(), places.end());
-  std::size_t n_merged = 0;
-  for (std::size_t i = 1; i < places.size(); ++i) n_merged += places[i] == places[i - 1] ? 1 : 0;
-  std::array<char, 32> number;
-  std::snprintf(number.data(), number.size(), "%.2g", moved);
-  context.warn(path.string() + ": the file is single precision: nodes move by up to " + number.data() + " m" +
-               (n_merged > 0 ? ", " + std::to_string(n_merged) + " nodes coincide with others" : "") + "; .b8.ugrid and .lb8.ugrid are double precision");
+  LostCells lost = cells_lost_by_rounding(mesh, places, context);
+  if (lost.n > 0) {
+    throw Error({.code = ErrorCode::mesh_invalid,
+                 .attempted = "writing " + path.string(),
+                 .problem = "single precision moves nodes by up to " + number_text(moved, 2) + " m, which makes " + std::to_string(lost.n) +
+                            (lost.n == 1 ? " cell" : " cells") + " flat or folded",
+                 .places = std::move(lost.places),
+                 .n_places = lost.n,
+                 .hint = "write double precision: .lb8.ugrid, .b8.ugrid, .lb8l.ugrid or .b8l.ugrid"});
+  }
+  context.warn(path.string() + ": the file is single precision: nodes move by up to " + number_text(moved, 2) +
+               " m; .b8.ugrid and .lb8.ugrid are double precision");
 }
 
 }  // namespace
@@ -175,7 +196,7 @@ void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& pat
     require_count(std::max(mesh.boundary_triangles.size(), mesh.boundary_quads.size()), k_limit, "boundary faces", format, path.string());
     for (const CellKind kind : k_ugrid_kinds) require_count(cells.count(kind), k_limit, "cells of kind " + std::string(to_string(kind)), format, path.string());
   }
-  if (variant.is_single) tell_rounding(mesh, path, context);
+  if (variant.is_single) require_single_precision_cells(mesh, path, context);
   AtomicFile conditions(mapbc_path(path));
   conditions.append(mapbc_text(mesh, faces, context));
   AtomicFile file(path);

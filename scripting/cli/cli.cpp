@@ -405,7 +405,11 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
       ->allow_extra_args(false)
       ->take_all();
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
-  command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
+  command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs for the solvers of --for");
+  command
+      ->add_option("--for", check.options.solvers,
+                   "solvers that the verdict is for, e.g. --for su2,openfoam: " + known_solvers() + "; without it those that read the format of the file")
+      ->type_name("SOLVER,...");
   command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred,
                     "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
   command

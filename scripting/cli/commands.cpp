@@ -289,8 +289,10 @@ void complete_options(volmesh::MeshCase& options, const MeshCommand& command, co
   choose_solve_for(
       options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
   choose_family_wake(options, is_given(command, "family", "refinement"));
-  for (const auto& [name, text] : command.options)
+  for (const auto& [name, text] : command.options) {
     if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
+    if (name == "first_height" || name == "envelope.first_height") choose_boundary_layer(options, text);
+  }
   for (const auto& [names, of_patch] : command.patches)
     for (const auto& [name, text] : of_patch)
       if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);
@@ -491,7 +493,7 @@ int execute(const MeshCommand& command, const CommandContext& context) {
 
   context.console.end_progress();
   if (!command.outputs.empty()) context.run.info(wrote_text(command.outputs));
-  context.run.info(summary_text(mesh));
+  context.run.info(summary_text(mesh, consumers_of_files(command.outputs)));
   context.run.info(measure_text(mesh, measure));
   context.run.debug(stages_text(measure));
   if (!command.stats.empty()) io::write_whole(command.stats, stats_json(mesh, measure));
@@ -693,12 +695,14 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
   if (!command.cells.empty()) require_cells_output(command.cells, command.input);
+  const std::array files = {std::filesystem::path(command.input)};
+  const CheckOptions options = command.options.to_options(limits, consumers_of_files(files), "--for");
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
     refuse_to_check_surface(command.input,
                             "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
   const double checked = command.models.empty() ? 1.0 : 0.5;
-  CheckReport report = check(mesh.mesh, command.options.to_options(limits), context.run.part("check", 0.3, checked));
+  CheckReport report = check(mesh.mesh, options, context.run.part("check", 0.3, checked));
   if (!command.models.empty() && report.quality_measured) {
     std::vector<InputPath> models;
     for (const std::string& model : command.models) models.push_back({model, model});

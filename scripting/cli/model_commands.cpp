@@ -47,8 +47,9 @@ int check_model(const CheckCommand& command, const CommandContext& context) {
                  .hint = "sterna check mesh.su2 --model " + command.input});
   if (command.is_json)
     throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
-  refuse_without_effect(command.given, {"--findings-per-kind", "--strict", "--cell-centred", "--no-cell-centred", "--cells", "--gate", "--intersections"},
-                        "check", command.input + " is a model, of which check says whether it is closed");
+  refuse_without_effect(command.given,
+                        {"--findings-per-kind", "--strict", "--for", "--cell-centred", "--no-cell-centred", "--cells", "--gate", "--intersections"}, "check",
+                        command.input + " is a model, of which check says whether it is closed");
   const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
   context.console.end_progress();
   context.console.print(describe(value));

@@ -125,7 +125,7 @@ int execute(const PentagrowCommand& command, const CommandContext& context) {
   context.console.end_progress();
   context.run.info(wrote_text(given.outputs));
   context.run.info("wrote outermost.vtu, boundaries.smesh, sumcos.txt and diagnose.txt");
-  context.run.info(summary_text(mesh));
+  context.run.info(summary_text(mesh, consumers_of_files(given.outputs)));
   return k_exit_success;
 }
 

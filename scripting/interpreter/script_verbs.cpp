@@ -157,6 +157,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   choose_solve_for(options, reader, call);
+  choose_boundary_layer(options, reader, call);
   choose_family_wake(options, reader, call);
   volmesh::MeshCase known = options;
   if (wall) known.patches.insert(known.patches.end(), (*wall)->layers.begin(), (*wall)->layers.end());  // the surface's own may give the first height

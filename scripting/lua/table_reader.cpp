@@ -118,9 +118,10 @@ void TableReader::set(const Option& option, const std::string& key, const Script
     else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (0/0 or the like)");
     else if (number) set_option(option, *number);
     else if (const auto* quantity = std::get_if<QuantityHandle>(&value);
-             quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre)
+             quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre) {
       set_option(option, (*quantity)->metres);
-    else
+      quantities_[std::string(option.stage) + "." + std::string(option.name)] = *quantity;
+    } else
       add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here, expected " + std::string(kind_text(option.kind)) + " (" +
                   std::string(option.help) + ")" + as_one_text(option, value));
     if (check_) check_->options.push_back({attempted_, std::string(option.stage) + "." + std::string(option.name), option.get()});
@@ -128,6 +129,11 @@ void TableReader::set(const Option& option, const std::string& key, const Script
     const bool is_angle_in_degrees = option.unit == Unit::radian && !std::holds_alternative<std::string>(value);
     add_problem(key + ": " + (is_angle_in_degrees ? error.info().problem + " (angles are in radians; write degrees as 40*deg)" : joined(error.info())));
   }
+}
+
+const QuantityValue* TableReader::quantity_of(std::string_view stage, std::string_view name) const {
+  const auto found = quantities_.find(std::string(stage) + "." + std::string(name));
+  return found == quantities_.end() ? nullptr : found->second.get();
 }
 
 const std::vector<ScriptValue>& TableReader::items() {

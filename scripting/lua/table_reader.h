@@ -1,6 +1,7 @@
 // The one reader of a verb's table: collects every problem (unknown keys with a suggestion, wrong types, ranges, missing values) before it complains.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ class TableReader {
   /// Whether the table names the option, alone or in its stage's table.
   /// \pre read_options
   bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
+  /// The length of flow conditions that the table has for this option; null: none.
+  /// \pre read_options
+  const QuantityValue* quantity_of(std::string_view stage, std::string_view name) const;
   bool has_problems() const { return !problems_.empty(); }
   /// Number of unnamed entries; from now on they count as asked for.
   const std::vector<ScriptValue>& items();
@@ -52,10 +56,11 @@ class TableReader {
   std::string attempted_;
   ScriptCheck* check_ = nullptr;
   bool ends_with_checks_ = false;
-  std::vector<std::string> known_;   ///< keys that the verb takes, for suggestions
-  std::set<std::string> asked_;      ///< keys that were read
-  std::set<std::string> functions_;  ///< options that have a function instead of a value
-  std::set<std::string> given_;      ///< options that have a value already, to find contradictions
+  std::vector<std::string> known_;                    ///< keys that the verb takes, for suggestions
+  std::set<std::string> asked_;                       ///< keys that were read
+  std::set<std::string> functions_;                   ///< options that have a function instead of a value
+  std::map<std::string, QuantityHandle> quantities_;  ///< options that were given as such
+  std::set<std::string> given_;                       ///< options that have a value already, to find contradictions
   bool are_items_asked_ = false;
   std::vector<std::string> problems_;
   std::size_t n_unknown_ = 0;

@@ -57,6 +57,8 @@ std::string page_check_json(const CheckReport& report) {
   const Json check = Json::parse(to_json(report));
   page["verdict"] = check["verdict"];
   page["quality_verdict"] = check["quality_verdict"];
+  page["verdict_line"] = check["verdict_line"];
+  page["verdicts"] = check["verdicts"];
   page["places"] = Json::array();
   int rank = 0;
   for (const Json& finding : check["findings"])

@@ -45,7 +45,7 @@ MeshNote note_of(const MeshValue& mesh) {
   if (!mesh.check) return note;
   note.figures.verdict = mesh.check->is_valid() ? "VALID" : "INVALID";
   if (mesh.check->quality_measured) {
-    note.figures.quality = quality_text(*mesh.check).substr(std::string_view("quality ").size());
+    note.figures.quality = worst_gates_text(*mesh.check) + verdict_line(*mesh.check).substr(note.figures.verdict.size());
     note.figures.worst = worst_quality_text(*mesh.check);
   }
   note.check_json = to_json(*mesh.check);

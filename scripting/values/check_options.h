@@ -3,6 +3,7 @@
 
 #include "geom/base/schema.h"
 #include "geom/mesh/check.h"
+#include "scripting/values/consumers.h"
 
 namespace sterna::scripting {
 
@@ -12,10 +13,12 @@ struct CheckSettings {
   int findings_per_kind = CheckOptions{}.findings_per_kind;
   bool cell_centred = CheckOptions{}.cell_centred;
   bool strict = false;
+  std::string solvers = "automatic";
 
-  /// `limits`: gate_limits.h
-  CheckOptions to_options(const GateTable& limits = {}) const {
+  /// `limits`: gate_limits.h; `usual`: consumers where the solvers are automatic.
+  CheckOptions to_options(const GateTable& limits = {}, Consumers usual = {}, std::string_view option = "solvers") const {
     CheckOptions options;
+    options.consumers = consumers_of_solvers(solvers, usual, option);
     options.intersections = intersections;
     options.quality = quality;
     options.findings_per_kind = findings_per_kind;
@@ -24,7 +27,7 @@ struct CheckSettings {
     options.limits = limits;
     return options;
   }
-  /// Whether the mesh passes: VALID, and with `strict` no QUALITY gate FAILs.
+  /// Whether the mesh passes: VALID, and with `strict` no QUALITY gate FAILs for the solvers that were asked about.
   bool accepts(const CheckReport& report) const { return report.is_valid() && (!strict || report.quality_state() != GateState::fail); }
 };
 
@@ -44,6 +47,10 @@ struct Schema<scripting::CheckSettings> {
                .member = &O::cell_centred,
                .help = "with quality, measure also what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ..."},
       Field<O>{.name = "strict", .member = &O::strict, .help = "a QUALITY gate that FAILs is an error too"},
+      Field<O>{.name = "solvers",
+               .member = &O::solvers,
+               .help = "solvers that the verdict is for, with commas: su2, tau, edge, fun3d (node-centred), openfoam, fluent (cell-centred), all; automatic: "
+                       "those that read the format of the file, else all"},
   };
 };
 

@@ -29,7 +29,7 @@ inline constexpr std::size_t k_members<surfmesh::StructuredMesh> = 2;
 template <>
 inline constexpr std::size_t k_members<surfmesh::CarriedMesh> = 3;
 template <>
-inline constexpr std::size_t k_members<volmesh::EnvelopeOptions> = 22;
+inline constexpr std::size_t k_members<volmesh::EnvelopeOptions> = 23;
 template <>
 inline constexpr std::size_t k_members<volmesh::StartingEnvelope> = 2;
 template <>

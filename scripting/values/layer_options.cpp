@@ -9,7 +9,9 @@
 #include "geom/base/error.h"
 #include "scripting/lua/script_function.h"
 #include "scripting/lua/verb_tools.h"
+#include "scripting/values/flow_verbs.h"
 #include "volmesh/case/layer_choice.h"
+#include "volmesh/flow/boundary_layer.h"
 
 namespace sterna::scripting {
 
@@ -96,6 +98,26 @@ void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const Scr
   } catch (const Error& error) {
     reader.add_problem(error.info().problem + " (" + error.info().hint + ")");
   }
+}
+
+namespace {
+
+void choose_boundary_layer_of(volmesh::MeshCase& options, const volmesh::FlowState& flow) {
+  if (!is_automatic(options.envelope.boundary_layer) || !is_automatic(options.envelope.total_height) || is_automatic(flow.length)) return;
+  if (!(flow.reynolds >= volmesh::k_least_reynolds && flow.reynolds <= volmesh::k_largest_reynolds)) return;
+  options.envelope.boundary_layer = volmesh::layer_thickness({}, flow);
+}
+
+}  // namespace
+
+void choose_boundary_layer(volmesh::MeshCase& options, std::string_view text) {
+  if (is_flow_text(text)) choose_boundary_layer_of(options, quantity_of_text(std::string(text)).flow);
+}
+
+void choose_boundary_layer(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call) {
+  const auto overruled = std::ranges::find_if(call.session.overrides, [](const auto& entry) { return is_option(entry.first, "first_height"); });
+  if (overruled != call.session.overrides.end()) return choose_boundary_layer(options, overruled->second);
+  if (const QuantityValue* quantity = reader.quantity_of("envelope", "first_height")) choose_boundary_layer_of(options, quantity->flow);
 }
 
 void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given) {

@@ -21,6 +21,13 @@ void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::
 /// \pre the options are read
 void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call);
 
+/// The boundary layer that the layers have to cover is that of the flow conditions that first_height is of, where neither it nor a total height is given.
+/// Nothing without a flow, or where its Reynolds number has no turbulent layer. \p text: what the command line gives as first_height; empty: nothing.
+void choose_boundary_layer(volmesh::MeshCase& options, std::string_view text);
+/// The same for a verb's table and the overrides of the command line.
+/// \pre the options are read
+void choose_boundary_layer(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call);
+
 /// Members of a family have a wake, the medium one, too, whose refinement of 1 is given: sets family_wake to "on" where it is left to us.
 void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given);
 /// The same for a verb's table and the overrides of the command line.

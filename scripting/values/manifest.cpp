@@ -51,7 +51,7 @@ Json quality_json(const CheckReport& report) {
     }
     measures[std::string(info.name)] = std::move(entry);
   }
-  Json json = {{"verdict", to_string(report.quality_state())}};
+  Json json = {{"verdict", to_string(report.quality_state())}, {"verdict_line", verdict_line(report)}};
   for (const auto& [key, state] : {std::pair("failed", GateState::fail), std::pair("warned", GateState::warn)}) {
     json[key] = Json::array();
     for (const GateResult& gate : report.gates)

@@ -83,7 +83,7 @@ inline constexpr std::size_t k_members<volmesh::PlacedPart> = 5;
 template <>
 inline constexpr std::size_t k_members<LayerBlock> = 5;
 template <>
-inline constexpr std::size_t k_members<LayerRequest> = 9;
+inline constexpr std::size_t k_members<LayerRequest> = 10;
 template <>
 inline constexpr std::size_t k_members<BoundaryTriangle> = 2;
 template <>
@@ -107,9 +107,15 @@ inline constexpr std::size_t k_members<Forcing> = 2;
 template <>
 inline constexpr std::size_t k_members<GatePlace> = 4;
 template <>
-inline constexpr std::size_t k_members<GateResult> = 12;
+inline constexpr std::size_t k_members<GateExtent> = 3;
 template <>
-inline constexpr std::size_t k_members<CheckReport> = 20;
+inline constexpr std::size_t k_members<GateResult> = 20;
+template <>
+inline constexpr std::size_t k_members<Consumers> = 2;
+template <>
+inline constexpr std::size_t k_members<ConsumerPlaces> = 3;
+template <>
+inline constexpr std::size_t k_members<CheckReport> = 22;
 template <>
 inline constexpr std::size_t k_members<PeriodicSides> = 3;
 template <>

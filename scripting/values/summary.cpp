@@ -33,7 +33,7 @@ std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(m
 
 /// Name and value of the strictest kind of limit that `value` misses.
 std::pair<const char*, double> missed_limit(const GateResult& gate, double value) {
-  if (gate.state == GateState::fail) return {"hard limit", gate.limits.hard};
+  if (gate.is_hard_missed) return {"hard limit", gate.limits.hard};
   const bool is_target_missed = info_of(gate.measure).is_low_bad ? value < gate.limits.target : value > gate.limits.target;
   return is_target_missed ? std::pair{"target", gate.limits.target} : std::pair{"usual limit", gate.limits.usual};
 }
@@ -78,7 +78,8 @@ std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
   const std::string_view reason = lowered_at(*mesh, gate.places.front().position);
   if (reason.empty()) return "more layers, a larger max_growth, or shorter edges on the wall there";
   return "the layer is squeezed there (" + std::string(reason) +
-         "): shorter edges at this place alone (surface_mesh: narrow, where parts meet intersection_factor = 1, a smaller min_edge), or truncate = \"auto\"";
+         "): less refinement along the corner (surface_mesh: narrow = 20, where parts meet intersection_factor = 1), in a gap gap_cells, or truncate = "
+         "\"auto\"";
 }
 
 /// A measure that misses a limit, in one line: what is wrong in plain words, its worst place that is ours, and what would mend it.
@@ -110,6 +111,19 @@ std::string troubles_text(const CheckReport& report, const HybridMesh* mesh) {
   std::string text;
   for (std::size_t i = 0; i < std::min(troubles.size(), k_listed_troubles); ++i) text += trouble_text(*troubles[i], mesh);
   return text;
+}
+
+/// " G5 G9": the gates with a measure for which `is_meant` holds, each once.
+template <class IsMeant>
+std::string gate_names(const CheckReport& report, const IsMeant& is_meant) {
+  std::string names;
+  std::string_view last;
+  for (const GateResult& gate : report.gates) {
+    if (!is_meant(gate) || info_of(gate.measure).gate == last) continue;
+    last = info_of(gate.measure).gate;
+    names += " " + std::string(last);
+  }
+  return names;
 }
 
 /// Time outside the engine: what this program itself needs.
@@ -159,32 +173,34 @@ std::string worst_quality_text(const CheckReport& report) {
   return fmt::format("{} {:.4g}{}", info.name, in_report_unit(info, told_value(*troubles.front())), info.is_angle ? " deg" : "");
 }
 
-std::string quality_text(const CheckReport& report) {
-  const auto gates_in = [&](GateState state) {
-    std::string text;
-    std::string_view last;
-    for (const GateResult& gate : report.gates) {
-      if (gate.state != state || info_of(gate.measure).gate == last) continue;
-      last = info_of(gate.measure).gate;
-      text += " " + std::string(last);
-    }
-    return text;
-  };
-  const std::string failed = gates_in(GateState::fail), warned = gates_in(GateState::warn);
-  const std::int64_t n_forced = report.n_forced();
-  const std::string forced = n_forced > 0 ? ", " + count_text(n_forced) + " forced" : "";
-  std::string text = "quality ";
-  if (failed.empty() && warned.empty()) return text + std::string(to_string(report.quality_state())) + forced;
-  if (!failed.empty()) text += "FAIL:" + failed;
-  if (!warned.empty()) text += (failed.empty() ? "warn:" : "; warn:") + warned;
-  return text + forced;
+std::string worst_gates_text(const CheckReport& report) {
+  const GateState worst = report.quality_state();
+  std::string text(to_string(worst));
+  if (worst != GateState::warn && worst != GateState::fail) return text;
+  const auto is_of_worst = [&](const GateResult& gate) { return gate.state == worst; };
+  return text + ":" + gate_names(report, is_of_worst);
 }
 
-std::string summary_text(const MeshValue& mesh) {
+std::string quality_text(const CheckReport& report) {
+  if (!report.quality_measured) return "quality not checked";
+  std::string text;
+  for (const Consumer consumer : k_consumers) {
+    if (!report.consumers.has(consumer)) continue;
+    const GateState worst = report.quality_state(consumer);
+    text += (text.empty() ? "" : "; ") + std::string(to_string(consumer)) + ": " + verdict_of(report, consumer);
+    if (worst != GateState::warn && worst != GateState::fail) continue;
+    text += ":" + gate_names(report, [&](const GateResult& gate) { return state_for(gate, consumer) == worst; });
+  }
+  return text;
+}
+
+std::string summary_text(const MeshValue& mesh, Consumers consumers) {
   const CellCounts cells = count_cells(mesh.mesh);
   const volmesh::LayerReport& layer = mesh.origin->layer;
-  const bool is_measured = mesh.check && mesh.check->quality_measured;
-  std::string text = "  verdict     " + verdict_text(mesh) + (is_measured ? ", " + quality_text(*mesh.check) : "") + "\n";
+  std::optional<CheckReport> shown = mesh.check;
+  if (shown) shown->restrict_to(consumers);
+  const bool is_measured = shown && shown->quality_measured;
+  std::string text = "  verdict     " + verdict_text(mesh) + (is_measured ? "; " + quality_text(*shown) : "") + "\n";
   for (const std::string& change : mesh.origin->changes) text += "  changed     " + change + "\n";
   text += fmt::format("  mesh        {} nodes: ", count_text(n_nodes(mesh)));
   const bool has_layers = layer.n_vertices > 0;
@@ -214,7 +230,7 @@ std::string summary_text(const MeshValue& mesh) {
     text += fmt::format("  collapsed   {:.2f} % of the area, {}; first at {}: {}\n", 100.0 * layer.collapsed_area,
                         counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"), format_point(layer.collapsed.front().position),
                         layer.collapsed.front().what);
-  if (is_measured) text += troubles_text(*mesh.check, &mesh.mesh);
+  if (is_measured) text += troubles_text(*shown, &mesh.mesh);
   text.pop_back();
   return text;
 }
@@ -228,7 +244,7 @@ std::string wrote_text(const std::vector<std::filesystem::path>& names) {
 std::string check_summary_text(const CheckReport& report, bool tells_troubles) {
   if (!report.is_valid()) return to_text(report);
   std::string text = "VALID";
-  if (report.quality_measured) text += ", " + quality_text(report);
+  if (report.quality_measured) text += "; " + quality_text(report);
   text += fmt::format("; every face matched, every cell valid{}; mesh:check{{ details = true }} prints all gates\n",
                       report.intersections_checked ? ", nothing intersects" : "");
   if (!report.quality_measured) return text;

@@ -30,14 +30,17 @@ struct RunMeasure {
 /// Peak resident memory of this process so far, bytes.
 double peak_memory_bytes();
 
-/// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
+/// "cell-centred: FAIL at 3 places (12 of 3.2 M cells): G9 OF; node-centred: pass", "quality not checked".
 std::string quality_text(const CheckReport& report);
+/// "FAIL: G9 OF", "pass": the worst state of the gates and which have it.
+std::string worst_gates_text(const CheckReport& report);
 /// "skew 63.1 deg": the measure that the summary names first and its worst value there; empty where all limits are kept.
 std::string worst_quality_text(const CheckReport& report);
 /// A dozen lines at most: verdict, sizes, coverage, the worst three measures that miss a limit with their worst place and a remedy. The rest is in `check`, the
 /// manifest and the page.
+/// \param consumers that the verdict is for
 /// \pre mesh.origin
-std::string summary_text(const MeshValue& mesh);
+std::string summary_text(const MeshValue& mesh, Consumers consumers = {});
 /// "wrote a.su2, a.vtu, each with a manifest beside it (.json)"
 std::string wrote_text(const std::vector<std::filesystem::path>& names);
 /// What a script's mesh:check() prints, a few lines: verdict, sizes and volume; with `tells_troubles` the worst three measures; violations with their places.

@@ -98,6 +98,20 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
 
 }  // namespace
 
+namespace {
+
+/// The verdict for the kind of solver that uses the measure, as a warning where a gate FAILs.
+void report_verdict(const CheckReport& report, Measure measure, std::string_view solver, const RunContext& context) {
+  for (const Consumer consumer : k_consumers) {
+    if (!info_of(measure).consumers.has(consumer)) continue;
+    const std::string text = fmt::format("the mesh for {}, {}: {}", solver, to_string(consumer), verdict_of(report, consumer));
+    if (report.quality_state(consumer) == GateState::fail) context.warn(text + "; `sterna check` lists the places");
+    else context.info(text);
+  }
+}
+
+}  // namespace
+
 CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckReport* known, std::string_view solver, const RunContext& context) {
   std::optional<CheckReport> own;
   if (!known || !known->quality_measured || known->gate(measure).state == GateState::not_checked) {
@@ -114,6 +128,7 @@ CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckR
     if (!known->findings.empty()) info.add_place(known->findings.front().position, known->findings.front().what);
     throw Error(std::move(info));
   }
+  report_verdict(*known, measure, solver, context);
   const GateResult& gate = known->gate(measure);
   CaseMeasure result{.worst = gate.worst, .place = {}};  // in a mesh of one cell 0 between cells
   for (const auto* places : {&gate.places, &gate.forced})

@@ -15,6 +15,7 @@ struct EnvelopeOptions {
   std::string growth = "uniform";
   double total_height = k_automatic;
   std::string solve_for = "none";
+  double boundary_layer = k_automatic;
   double max_thickness = k_automatic;
   double max_relative_height = k_automatic;
   double feature_angle = k_automatic;
@@ -80,6 +81,12 @@ struct Schema<volmesh::EnvelopeOptions> {
                .member = &O::solve_for,
                .help = "which of layers and max_growth follows from total_height; where one of them is left out, it is that one",
                .choices = "none layers max_growth"},
+      Field<O>{.name = "boundary_layer",
+               .member = &O::boundary_layer,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "thickness of the boundary layer that the layers have to cover: gate G12 FAILs where they are lower; heights do not depend on it",
+               .automatic = "total_height, else that of the flow conditions that first_height is of, else none"},
       Field<O>{.name = "max_thickness",
                .member = &O::max_thickness,
                .unit = Unit::metre,

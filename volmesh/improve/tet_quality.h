@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geom/base/vec3.h"
+#include "geom/mesh/computed_volumes.h"
 #include "geom/mesh/gates.h"
 
 namespace sterna::volmesh {
@@ -29,13 +30,16 @@ inline QualityLimits quality_limits(double min_angle, double max_angle) {
   return {.target = target, .obtuse_weight = weight, .hard = std::min(target, std::max(hard_acute, hard_obtuse))};
 }
 
+/// Tetrahedra of a lower quality are flat: their angles alone make them the worst of a mesh.
+inline constexpr double k_flat_quality = 1e-6;
+
 /// What the angles of a tetrahedron say of it.
 struct TetShape {
   double quality = -1.0;     ///< see tet_shape()
   double six_volumes = 0.0;  ///< m^3
 };
 /// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is
-/// not positive. 0.05 us.
+/// not positive. A volume that is within rounding in double precision (k_solver_margin) limits it, too, where the angles do not. 0.05 us.
 inline TetShape tet_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   // Twice the faces' area vectors, inwards; face k is opposite corner k. |n_i x n_j| = 6 V times the length of the edge that faces i and j share.
@@ -49,8 +53,15 @@ inline TetShape tet_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const auto squared = [&](std::size_t i, std::size_t j, const Vec3& edge) {
     return norm2(edge) * inverse[i] * inverse[j] * (dot(n[i], n[j]) > 0.0 ? weight : 1.0);
   };
-  const double smallest = std::min({squared(2, 3, ab), squared(1, 3, ac), squared(1, 2, ad), squared(0, 3, c - b), squared(0, 2, d - b), squared(0, 1, d - c)});
-  return {std::min(1.0, det * std::sqrt(smallest)), det};
+  const Vec3 bc = c - b, bd = d - b, cd = d - c;
+  const double smallest = std::min({squared(2, 3, ab), squared(1, 3, ac), squared(1, 2, ad), squared(0, 3, bc), squared(0, 2, bd), squared(0, 1, cd)});
+  const double quality = std::min(1.0, det * std::sqrt(smallest));
+  // The largest product of three edges at a corner, squared.
+  const double l_ab = norm2(ab), l_ac = norm2(ac), l_ad = norm2(ad), l_bc = norm2(bc), l_bd = norm2(bd), l_cd = norm2(cd);
+  const double edges = std::max({l_ab * l_ac * l_ad, l_ab * l_bc * l_bd, l_ac * l_bc * l_cd, l_ad * l_bd * l_cd});
+  // Flat ones are the worst as they are.
+  if (quality < k_flat_quality || det * det > k_solver_margin * k_solver_margin * edges) return {quality, det};
+  return {std::min(quality, det / std::sqrt(edges)), det};
 }
 inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
   return tet_shape(a, b, c, d, obtuse_weight).quality;

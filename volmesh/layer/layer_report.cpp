@@ -293,6 +293,11 @@ LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options
     is_truncated = is_truncated || layers.layers_of_line(v.value()) < asked(v);
   }
   if (!is_truncated) request.line_layers.clear();
+  for (const VertexId v : envelope.height.ids()) {
+    const double total = scale.total_height(v), thickness = is_automatic(total) ? options.boundary_layer : total;
+    request.line_boundary_layer.push_back(is_automatic(thickness) ? 0.0 : thickness);
+  }
+  if (std::ranges::all_of(request.line_boundary_layer, [](double thickness) { return thickness == 0.0; })) request.line_boundary_layer.clear();
   request.target_height = envelope.target.raw();
   for (std::size_t i = 0; i <= k_lean; ++i) request.reasons.emplace_back(reason_text(i));
   request.reason.reserve(envelope.limit.size());

@@ -169,6 +169,36 @@ TEST(CheckCorruption, MovedNodeInvertsPrisms) {
   }
 }
 
+/// Two tetrahedra on one triangle: an upper one of a given height and a lower one of height 1.
+HybridMesh two_tets(double height, const Vec3& offset) {
+  HybridMesh mesh;
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{0, 1, 0}, Point{0.25, 0.25, height}, Point{0.25, 0.25, -1}}) mesh.points.push_back(p + offset);
+  const std::array<NodeId, 5> n = {NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4)};
+  mesh.tetrahedra = {{n[0], n[1], n[2], n[3]}, {n[0], n[2], n[1], n[4]}};
+  const PatchId wall = mesh.patches.push_back({.name = "wall"});
+  for (std::size_t k = 0; k < 3; ++k) {
+    mesh.boundary_triangles.push_back({{n[k], n[(k + 1) % 3], n[3]}, wall});
+    mesh.boundary_triangles.push_back({{n[(k + 1) % 3], n[k], n[4]}, wall});
+  }
+  return mesh;
+}
+
+TEST(CheckCorruption, CellsWithinRoundingOfDoublePrecision) {
+  EXPECT_TRUE(checked(two_tets(1e-6, {})).is_valid());
+  // Positive by exact signs, but a solver has some 1e-14 of the edges' product for the volume, with an error of 1e-15.
+  const CheckReport flat = checked(two_tets(1e-14, {}));
+  expect_found(flat, Violation::cell_within_rounding, 1, {0.3, 0.3, 0});
+  expect_found(flat, Violation::sub_volume_within_rounding, 1, {0.3, 0.3, 0});
+  expect_only(flat, {Violation::cell_within_rounding, Violation::sub_volume_within_rounding});
+  EXPECT_NE(to_text(flat).find("in double precision; the limit is 1e-13"), std::string::npos) << to_text(flat);
+  // Far from the origin the volume is fine, and the mean of the nodes is rounded onto the base.
+  const double far = 0x1p20, step = 0x1p-32;
+  const CheckReport rounded = checked(two_tets(step, {far, far, far}));
+  expect_found(rounded, Violation::sub_volume_within_rounding, 1, Point{far, far, far} + Vec3{0.3, 0.3, 0});
+  expect_only(rounded, {Violation::sub_volume_within_rounding});
+  EXPECT_TRUE(checked(two_tets(1024 * step, {far, far, far})).is_valid());
+}
+
 TEST(CheckCorruption, UnusedNode) {
   for (HybridMesh mesh : {base_mesh(), base_cells()}) {
     mesh.points.push_back({0, 0, 1.2});

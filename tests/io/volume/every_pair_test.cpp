@@ -201,6 +201,58 @@ TEST(EveryVolumeFormat, KeepsLinesWithOwnNumbersOfLayers) {
   }
 }
 
+/// Six-fold volumes of the four tetrahedra at a cell's corners, or of its sub-tetrahedra, as a solver computes them from absolute coordinates, over the product
+/// of the three lengths: a computation of the test's own.
+double least_volume_of_a_solver(const HybridMesh& mesh) {
+  double least = 1.0;
+  const auto note = [&](const Point& o, const Point& a, const Point& b, const Point& c) {
+    const Vec3 u = a - o, v = b - o, w = c - o;
+    least = std::min(least, dot(cross(u, v), w) / (norm(u) * norm(v) * norm(w)));
+  };
+  for_each_cell(mesh, [&](const Cell& cell) {
+    const auto nodes = cell.span();
+    Point centre;
+    for (const NodeId node : nodes) centre += mesh.points[node];
+    centre = centre / static_cast<double>(nodes.size());
+    for (const LocalFace& face : cell_faces(cell.kind)) {
+      Point middle;
+      for (std::size_t k = 0; k < face.size; ++k) middle += mesh.points[nodes[face.nodes[k]]];
+      middle = middle / face.size;
+      for (std::size_t k = 0; k < face.size; ++k) {
+        const Point &a = mesh.points[nodes[face.nodes[k]]], &b = mesh.points[nodes[face.nodes[(k + 1) % face.size]]];
+        const Point half = (a + b) / 2.0;
+        note(a, middle, half, centre);
+        note(b, half, middle, centre);
+      }
+    }
+  });
+  return least;
+}
+
+/// What a reader of the file computes in double precision is what was proven.
+TEST(EveryVolumeFormat, VolumesInDoublePrecisionArePositiveAfterReading) {
+  // A flat layer away from the origin: its first cells are 1e-6 high at coordinates of 100, where single precision steps by 8e-6.
+  HybridMesh flat = test::stepped_sphere_shell(4, {.n_layers = 6, .layer_height = 2e-5, .ratio = 1.2});
+  for (Point& p : flat.points) p += Vec3{100.0, 100.0, 100.0};
+  const HybridMesh thick = test::mixed_mesh();
+  ASSERT_GT(least_volume_of_a_solver(flat), 1e-13);
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(variant.name());
+    EXPECT_GT(least_volume_of_a_solver(through(thick, variant, test::scratch())), 1e-13);
+    if (precision_of(variant) == 0.0) {
+      EXPECT_GT(least_volume_of_a_solver(through(flat, variant, test::scratch())), 1e-13);
+      continue;
+    }
+    const ErrorInfo error = test::error_info_of([&] { through(flat, variant, test::scratch()); });
+    EXPECT_EQ(error.code, ErrorCode::mesh_invalid);
+    EXPECT_NE(error.problem.find("flat or folded"), std::string::npos) << error.problem;
+    EXPECT_NE(error.hint.find(".lb8.ugrid"), std::string::npos);
+    ASSERT_FALSE(error.places.empty());
+    EXPECT_NE(error.places.front().what.find("near patch"), std::string::npos) << error.places.front().what;
+    EXPECT_LT(distance(error.places.front().position, Point{100.0, 100.0, 100.0}), 3.0);
+  }
+}
+
 TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
   HybridMesh mesh = test::six_patch_mesh();
   const std::array<std::string, 6> names = {"wing of the left side, with its flap and slat tracks",  // longer than 32 bytes, blanks

@@ -135,7 +135,7 @@ TEST_F(Report, GatesOfTheUserDecideVerdictManifestAndPage) {
   EXPECT_TRUE(manifest["quality"]["measures"]["orthogonality"]["limits"]["usual"].is_null());
   EXPECT_FALSE(manifest["quality"]["measures"]["face_weight"].contains("limits"));
   EXPECT_EQ(page["quality_verdict"], "FAIL");
-  EXPECT_THAT(error(mesh_script() + "mesh:check{ strict = true, gates = { G5 = { hard = 89*deg, target = 89.5*deg } } }"), HasSubstr("quality FAIL"));
+  EXPECT_THAT(error(mesh_script() + "mesh:check{ strict = true, gates = { G5 = { hard = 89*deg, target = 89.5*deg } } }"), HasSubstr("node-centred: FAIL"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { ortogonality = { hard = 1 } } }"), HasSubstr("did you mean orthogonality"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hart = 1 } } }"), HasSubstr("did you mean hard"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = {} } }"), HasSubstr("takes hard, target"));

@@ -11,6 +11,7 @@
 
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
+#include "geom/mesh/computed_volumes.h"
 #include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/improve/forcing.h"
@@ -147,6 +148,46 @@ void expect_improved(Filled filled, const ImproveOptions& options, double bad_sh
   EXPECT_EQ(report.n_bad_after, n_bad);
   EXPECT_NEAR(report.min_angle_after, low, 1e-6);
   EXPECT_NEAR(report.max_angle_after, high, 1e-6);
+}
+
+/// Least volume in double precision, over the largest product of three edges at a corner.
+double least_relative_volume(const Filled& filled) {
+  double least = 1.0;
+  for (std::size_t t = 0; t < filled.tets.tetrahedra.size(); ++t) least = std::min(least, least_computed_jacobian(CellKind::tetrahedron, filled.corners(t)));
+  return least;
+}
+
+/// Moves an inner vertex to within 1e-15 of the face opposite to it in one tetrahedron, where all others around it stay positive. False where there is none.
+bool flatten_one(Filled& filled) {
+  const auto n_fixed = static_cast<std::uint32_t>(filled.points.size());
+  for (const auto& tet : filled.tets.tetrahedra)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t v = tet[k];
+      if (v < n_fixed) continue;
+      Vec3& place = filled.tets.new_points[v - n_fixed];
+      const Vec3 before = place;
+      const Vec3 a = filled.place(tet[(k + 1) % 4]), b = filled.place(tet[(k + 2) % 4]), c = filled.place(tet[(k + 3) % 4]);
+      const Vec3 normal = normalized(cross(b - a, c - a));
+      const double height = dot(place - a, normal);
+      place -= (height - std::copysign(1e-15, height)) * normal;
+      const bool is_positive = std::ranges::all_of(filled.tets.tetrahedra, [&](const auto& other) {
+        return std::ranges::find(other, v) == other.end() ||
+               orient3d(filled.place(other[0]), filled.place(other[1]), filled.place(other[2]), filled.place(other[3])) > 0;
+      });
+      if (is_positive && least_relative_volume(filled) < k_solver_margin) return true;
+      place = before;
+    }
+  return false;
+}
+
+TEST(Improve, RepairsVolumesWithinRoundingOfDoublePrecision) {
+  Filled filled = shaken_cube(3, 0.3);
+  ASSERT_TRUE(flatten_one(filled));
+  improve_tetrahedra(filled.boundary(), filled.tets, {}, RunContext());
+  EXPECT_GT(least_relative_volume(filled), 1e3 * k_solver_margin);
+  // A thin tetrahedron has good angles and no volume that a solver could rely on.
+  EXPECT_LT(tet_quality({0, 0, 0}, {1, 0, 0}, {1, 1e-8, 0}, {1, 0.5e-8, 0.8e-8}, 1.0), k_solver_margin);
+  EXPECT_GT(tet_quality({0, 0, 0}, {1, 0, 0}, {1, 1e-4, 0}, {1, 0.5e-4, 0.8e-4}, 1.0), 0.1);
 }
 
 TEST(TetQuality, is_the_smallest_weighted_sine) {

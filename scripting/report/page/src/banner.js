@@ -10,7 +10,7 @@ export function state_colour(state) {
 
 /** Class of a state for style sheets: "pass", "warn", "fail", "invalid", "unknown". Of several ("FAIL: G6 G7; warn: G5", "pass, 3 forced") the first, which is the worst. */
 export function state_class(state) {
-  const name = String(state).toLowerCase().split(/[:,]/)[0];
+  const name = String(state).toLowerCase().split(/[:;,]/)[0].split(" at ")[0];
   if (name === "valid") return "pass";
   if (name === "failed") return "fail";
   return ["pass", "warn", "fail", "invalid"].includes(name) ? name : "unknown";
@@ -35,7 +35,7 @@ export function banner({ report }) {
       "div.verdicts",
       null,
       h(`div.verdict.${state_class(report.verdict)}`, { id: "verdict", title: "Every face matched, every cell valid, nothing intersects" }, h("small", null, "mesh"), report.verdict),
-      h(`div.verdict.${state_class(report.quality_verdict)}`, { id: "quality_verdict", title: "Worst state of the quality gates" }, h("small", null, "quality"), report.quality_verdict),
+      h(`div.verdict.${state_class(report.quality_verdict)}`, { id: "quality_verdict", title: report.verdict_line ?? "Worst state of the quality gates" }, h("small", null, "quality"), report.quality_verdict),
     ),
   );
 }

@@ -27,9 +27,23 @@ function verdict_row(app, gate) {
   return h("div.gate", { "data-gate": gate.gate }, h("span.gate_name", null, gate.gate), h("span.gate_title", null, gate.title), chip(gate.state), gate.violations ? h("span.violations", null, `${count_text(gate.violations)} violations`) : null, h("span.gate_buttons", null, places));
 }
 
+/** "12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target"; null where no limit is missed. */
+function counts_text(gate) {
+  const n = (gate.too_small ?? 0) + (gate.too_large ?? 0);
+  if (!n) return gate.beyond_hard > 0 ? `${count_text(gate.beyond_hard)} beyond the hard limit` : null;
+  const is_hard = gate.beyond_hard > (gate.forced ?? 0), soft = typeof gate.limits?.target === "number" ? "the target" : "the usual limit";
+  const parts = [`${count_text(n)} ${gate.counted === "area" ? "lines" : gate.counted} beyond ${is_hard ? "the hard limit" : soft}`];
+  if (gate.share_beyond > 0) parts.push(`${percent_text(gate.share_beyond)} of the ${gate.share_of}`);
+  if (typeof gate.separate_places === "number") parts.push(`at ${count_text(gate.separate_places)} ${gate.separate_places === 1 ? "place" : "places"}`);
+  if (gate.too_large) parts.push(gate.too_small ? `${count_text(gate.too_large)} too large` : "too large");
+  if (gate.too_small) parts.push(gate.too_large ? `${count_text(gate.too_small)} too small` : "too small");
+  return parts.join(", ") + (is_hard && gate.beyond_target > gate.beyond_hard ? `; ${count_text(gate.beyond_target)} beyond ${soft}` : "");
+}
+
 function quality_row(app, gate) {
   const is_known = gate.state !== "not checked";
-  const beyond = gate.beyond_hard > 0 ? h("span.beyond", null, `${count_text(gate.beyond_hard)} of ${count_text(gate.total)} ${gate.counted} beyond the hard limit`) : null;
+  const counts = is_known ? counts_text(gate) : null;
+  const beyond = counts ? h("span.beyond", null, counts) : null;
   return h(
     "div.gate.quality",
     { "data-gate": gate.gate, "data-measure": gate.measure },
@@ -74,6 +88,7 @@ export function summary_tab(app) {
   for (const gate of quality) counts[gate.state] = (counts[gate.state] ?? 0) + 1;
   return [
     h("h2", null, "Mesh"),
+    report.verdict_line ? h("p", { id: "verdict_line" }, report.verdict_line) : null,
     h("table.facts", null, h("tbody", null, (report.facts ?? []).map(([name, value]) => h("tr", null, h("th", { scope: "row" }, name), h("td", null, value))))),
     changes(app),
     verdict.length ? [h("h2", null, "Validity"), h("div.gates", null, verdict.map((gate) => verdict_row(app, gate)))] : null,

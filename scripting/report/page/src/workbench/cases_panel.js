@@ -120,7 +120,7 @@ export class CasesPanel {
           { type: "button", "data-case": entry.name, disabled: entry.case === null, title: entry.case === null ? why : `Open ${entry.name}`, onclick: () => this.open(entry) },
           address ? h("img", { src: address, alt: `Picture of ${entry.name}` }) : h("span.no_picture", null, why),
           h("b", null, entry.name),
-          h("span.case_states", null, entry.verdict ? chip(entry.verdict) : chip(entry.status), entry.quality ? chip(entry.quality.split(/[:,]/)[0], entry.quality) : null, typeof entry.cells === "number" ? h("small", null, ` ${count_text(entry.cells)} cells`) : null),
+          h("span.case_states", null, entry.verdict ? chip(entry.verdict) : chip(entry.status), entry.quality ? chip(entry.quality.split(/[:;,]/)[0], entry.quality) : null, typeof entry.cells === "number" ? h("small", null, ` ${count_text(entry.cells)} cells`) : null),
         );
       }),
     );
