@@ -46,6 +46,7 @@ export async function with_browser({ executable, has_webgl = true }, use) {
 /** Opens a page from disk and waits until it says that it is ready; page.complaints collects errors. */
 async function open(context, file, hash) {
   const page = await context.newPage();
+  page.setDefaultTimeout(k_patience); // clicks wait as long
   const address = pathToFileURL(path.resolve(file)).href;
   page.complaints = [];
   page.on("console", (message) => message.type() === "error" && page.complaints.push(`console: ${message.text()}`));

@@ -38,6 +38,7 @@ async function start(folder, words) {
 
 async function open(context, address) {
   const page = await context.newPage();
+  page.setDefaultTimeout(k_patience); // clicks wait as long
   page.complaints = [];
   page.on("console", (message) => message.type() === "error" && !/409|410/.test(message.text()) && page.complaints.push(`console: ${message.text()}`));
   page.on("pageerror", (error) => page.complaints.push(`error: ${error.stack ?? error}`));
