@@ -179,6 +179,7 @@ const std::map<std::string, Change> k_changes = {
 /// Options that show only when something fails or takes too long: each has its test.
 const std::map<std::string, std::string> k_elsewhere = {
     {"ends.ends_min_angle", "plane_end_test: a goal that shows where loops leave room for it"},
+    {"envelope.boundary_layer", "what gate G12 compares the layer with, the mesh stays: the last test below"},
     {"envelope.untangle_share", "heights grow back to the same limit after untangling, so it shows between the steps: the test below"},
     {"envelope.max_retract_sweeps", "a guard: from then on each sweep collapses a vertex; retraction ends long before on all surfaces of the tests"},
     {"improve.slide_share", "layer/slide_lines_test: shows where the layer's top has folds"},
@@ -250,6 +251,17 @@ TEST(OptionEffects, UntanglingKeepsItsShareOfTheWayToWhereLinesMeet) {
     lowest.push_back(*std::ranges::min_element(envelope.height));
   }
   EXPECT_LT(lowest[0], 0.6 * lowest[1]);
+}
+
+TEST(OptionEffects, GateG12ComparesWithTheBoundaryLayerAskedFor) {
+  const auto state = [](double boundary_layer) {
+    Setting setting = setting_of("block");
+    setting.mesh_case.envelope.boundary_layer = boundary_layer;
+    return volume_mesh(setting.wall, setting.mesh_case, k_context).check.gate(Measure::boundary_layer).state;
+  };
+  EXPECT_EQ(state(k_automatic), GateState::not_checked);
+  EXPECT_EQ(state(1e-3), GateState::pass);
+  EXPECT_EQ(state(10.0), GateState::fail);
 }
 
 }  // namespace
