@@ -18,21 +18,21 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_wanted_last = 0.5;  ///< of the height of a regular tetrahedron on the triangle
-constexpr double k_area_share = 0.9;   ///< share of the area
-constexpr int k_most_layers = 1000;    ///< as the option's own range
-constexpr int k_too_many = k_most_layers + 1;
+constexpr double k_wanted_last = 0.5;          ///< of the height of a regular tetrahedron on the triangle
+constexpr double k_area_share = 0.9;           ///< share of the area
+constexpr int k_most_automatic_layers = 1000;  ///< as the option's own range
+constexpr int k_too_many = k_most_automatic_layers + 1;
 
 struct WantedLayers {
   int layers = 0;
   double area = 0.0;
 };
 
-/// Of cells of first height h0 that grow by g to at least `last`; k_too_many where k_most_layers do not reach it.
+/// Of cells of first height h0 that grow by g to at least `last`; k_too_many where k_most_automatic_layers do not reach it.
 int layers_to_height(double h0, double growth, double last) {
   if (last <= h0) return 1;
   const double layers = growth > 1.0 ? 1.0 + std::ceil(std::log(last / h0) / std::log(growth)) : std::numeric_limits<double>::infinity();
-  return layers <= k_most_layers ? static_cast<int>(layers) : k_too_many;
+  return layers <= k_most_automatic_layers ? static_cast<int>(layers) : k_too_many;
 }
 
 /// The least number that is enough on k_area_share of the area.
@@ -74,7 +74,7 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
     if (layers == k_too_many)
       throw_bad_argument("choosing the number of layers",
                          print_text("%d layers of first height %.6g m that grow by %.6g do not reach half of the height of a regular tetrahedron on the wall",
-                                    k_most_layers, first_height, growth),
+                                    k_most_automatic_layers, first_height, growth),
                          {}, "raise max_growth, or give layers");
   }
   if (layers > 0) return layers;
