@@ -36,7 +36,7 @@ void judge_cell_centres(const LayerCheck::Parts* known, const HybridMesh& mesh, 
                         std::span<const std::uint32_t> neighbours, const CheckOptions& options, LazyGivenLayer& given, const RunContext& context,
                         CheckReport& report) {
   if (!report.dual_checked) return;  // the mesh does not conform: said already
-  if (options.cell_centred && options.consumers.cell_centred) {
+  if (options.measures_cell_centres()) {
     CellCentredScan columns = known && known->centres ? known->centres_joined(options.limits) : scan_column_centres(mesh, neighbours, options.limits, context);
     return judge_cell_centred(scan_cell_centred(std::move(columns), mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots,
                               neighbours, options.limits, given, report);
@@ -60,7 +60,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
   if (report.is_complete) {
     report.cells = count_cells(mesh);
     if (report.cells.total() == 0) findings.add(Violation::no_cells, [&] { return std::pair(Point{}, std::string("the mesh has no cells")); });
-    const bool with_cell_centres = options.quality && options.cell_centred && options.consumers.cell_centred;
+    const bool with_cell_centres = options.measures_cell_centres();
     std::vector<std::uint32_t> neighbours;
     const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context, with_cell_centres ? &neighbours : nullptr));
     const std::vector<double> volumes = options.quality ? tet_volumes(mesh, context) : std::vector<double>{};
@@ -129,7 +129,7 @@ void find_missing(LayerCheck::Parts& parts, const HybridMesh& mesh, const CellNu
 
 std::vector<std::uint32_t> columns_beside(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context) {
   std::vector<std::uint32_t> neighbours;
-  if (options.quality && options.cell_centred && options.consumers.cell_centred) find_open_sides(mesh.layers, context, &neighbours);
+  if (options.measures_cell_centres()) find_open_sides(mesh.layers, context, &neighbours);
   return neighbours;
 }
 
@@ -143,7 +143,7 @@ LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, cons
   const std::size_t n_columns = mesh.layers.n_columns();
   auto parts =
       std::make_unique<LayerCheck::Parts>(LayerCheck::Parts{{n_columns, k_column_chunk}, {mesh.layers.n_lines(), k_line_chunk}, std::nullopt, std::nullopt});
-  if (options.quality && options.cell_centred && options.consumers.cell_centred) parts->centres.emplace(n_columns, k_centre_chunk);
+  if (options.measures_cell_centres()) parts->centres.emplace(n_columns, k_centre_chunk);
   find_missing(*parts, mesh, cells, columns_beside(mesh, options, context), options, context);
   return LayerCheck(std::move(parts));
 }

@@ -84,7 +84,7 @@ struct PeriodicMatchReport {
 struct ConsumerPlaces {
   Consumer consumer = Consumer::cell_centred;
   std::optional<std::int64_t> n_places;  ///< separate ones; none where these gates have no places, or some have too many to be kept
-  std::int64_t n_beyond = 0;             ///< cells, for node-centred solvers nodes
+  std::int64_t n_beyond = 0;             ///< cells, for node-centred solvers nodes; where some have too many to be kept, of the others alone
 };
 
 struct CheckReport {
@@ -128,9 +128,10 @@ struct CheckReport {
 struct CheckOptions {
   bool intersections = true;  ///< G2, the exact triangle-triangle tests
   bool quality = true;        ///< fill CheckReport::quality and gates
-  bool cell_centred = true;   ///< with quality: OpenFOAM's measures, too
+  bool cell_centred = true;   ///< with quality: OpenFOAM's measures, too, where consumers use them
   Consumers consumers;        ///< gates of others are "not checked"
   GateTable limits;           ///< of the QUALITY gates
+  bool measures_cell_centres() const { return quality && cell_centred && consumers.cell_centred; }
   int findings_per_kind = 10;
   std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
 };

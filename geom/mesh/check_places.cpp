@@ -173,10 +173,6 @@ class PlaceCount {
   std::vector<double> volumes_;
 };
 
-}  // namespace
-
-namespace {
-
 /// The gates that decide the verdict for a consumer, in one set of items.
 struct ConsumerItems {
   GateExtent extent;

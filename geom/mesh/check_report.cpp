@@ -387,7 +387,7 @@ std::string to_json(const CheckReport& report) {
     json["verdicts"].push_back({{"consumer", to_string(places.consumer)},
                                 {"state", state_name(report.quality_state(places.consumer))},
                                 {"separate_places", places.n_places ? Json(*places.n_places) : Json(nullptr)},
-                                {"beyond", places.n_beyond},
+                                {"beyond", places.n_places ? Json(places.n_beyond) : Json(nullptr)},
                                 {"total", is_of_cells ? report.cells.total() : report.n_nodes},
                                 {"items", is_of_cells ? "cells" : "nodes"}});
   }

@@ -1,4 +1,4 @@
-// The gates of quality.md that are numbers: what each measures, its limits, and the running statistics that decide it.
+// The gates that are numbers (docs/quality_gates.md): what each measures, its limits, and the running statistics that decide it.
 #pragma once
 
 #include <algorithm>
@@ -68,6 +68,8 @@ struct Consumers {
   friend bool operator==(const Consumers&, const Consumers&) = default;
 };
 
+inline constexpr Consumers k_cell_centred_alone{.cell_centred = true, .node_centred = false}, k_node_centred_alone{.cell_centred = false, .node_centred = true};
+
 /// Why a hard limit is where it is.
 enum class Evidence : std::uint8_t {
   none,        ///< there is no hard limit, or the consumer does not use the measure
@@ -117,7 +119,7 @@ struct MeasureInfo {
   LimitEvidence evidence;    ///< of the hard limit
 };
 
-/// The table of quality.md §6, in the order of Measure.
+/// The table of docs/quality_gates.md, in the order of Measure.
 const std::array<MeasureInfo, k_n_measures>& measures();
 const MeasureInfo& info_of(Measure measure);
 /// What is wrong where the measure misses a limit, in plain words: "heights of layers jump".

@@ -68,8 +68,6 @@ std::filesystem::path edge_kinds_path(const std::filesystem::path& path) {
   return std::filesystem::exists(text, ignored) ? text : binary;
 }
 
-constexpr Consumers k_cell_solvers{.cell_centred = true, .node_centred = false}, k_node_solvers{.cell_centred = false, .node_centred = true};
-
 // One line for each format; the order counts where extensions are shared.
 constexpr std::array k_formats = {
     Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .write_surface = write_stl, .carries_patch_names = true},
@@ -95,7 +93,7 @@ constexpr std::array k_formats = {
            .write_volume = write_volume_fluent,
            .carries_patch_names = true,
            .carries_patch_kinds = true,
-           .consumers = k_cell_solvers,
+           .consumers = k_cell_centred_alone,
            .write_numbered = write_numbered_fluent},
     Format{.name = "Medit",
            .extensions = ".mesh .meshb",
@@ -130,7 +128,7 @@ constexpr std::array k_formats = {
            .write_volume = write_volume_tau,
            .carries_patch_names = true,
            .kinds_beside = bmap_path,
-           .consumers = k_node_solvers},
+           .consumers = k_node_centred_alone},
     Format{.name = "SU2",
            .extensions = ".su2",
            .read_surface = read_su2,
@@ -138,7 +136,7 @@ constexpr std::array k_formats = {
            .read_volume = read_volume_su2,
            .write_volume = write_volume_su2,
            .carries_patch_names = true,
-           .consumers = k_node_solvers},
+           .consumers = k_node_centred_alone},
     Format{.name = "VTKHDF",
            .extensions = ".vtkhdf .hdf",
            .read_surface = read_surface_vtkhdf,
@@ -194,7 +192,7 @@ constexpr std::array k_formats = {
            .files = polymesh_files,
            .require_output = require_foam_place,
            .carries_patch_kinds = true,
-           .consumers = k_cell_solvers,
+           .consumers = k_cell_centred_alone,
            .write_numbered = write_numbered_foam},
     Format{.name = "Edge",
            .extensions = ".bmsh .v2.bmsh",
@@ -202,13 +200,13 @@ constexpr std::array k_formats = {
            .write_volume = write_volume_edge,
            .carries_patch_names = true,
            .kinds_beside = edge_kinds_path,
-           .consumers = k_node_solvers},
+           .consumers = k_node_centred_alone},
     Format{.name = "Edge text",
            .extensions = ".amsh",
            .read_volume = read_volume_edge,
            .carries_patch_names = true,
            .kinds_beside = edge_kinds_path,
-           .consumers = k_node_solvers},
+           .consumers = k_node_centred_alone},
 };
 
 /// Calls f(extension) for each blank-separated word.

@@ -14,10 +14,10 @@ struct SolverName {
   std::string_view name;
   Consumers consumers;
 };
-constexpr Consumers k_cells{.cell_centred = true, .node_centred = false}, k_nodes{.cell_centred = false, .node_centred = true};
-constexpr std::array k_solver_names = {SolverName{"su2", k_nodes},    SolverName{"tau", k_nodes},          SolverName{"edge", k_nodes},
-                                       SolverName{"fun3d", k_nodes},  SolverName{"node-centred", k_nodes}, SolverName{"openfoam", k_cells},
-                                       SolverName{"fluent", k_cells}, SolverName{"cell-centred", k_cells}, SolverName{"all", Consumers{}}};
+constexpr std::array k_solver_names = {
+    SolverName{"su2", k_node_centred_alone},    SolverName{"tau", k_node_centred_alone},          SolverName{"edge", k_node_centred_alone},
+    SolverName{"fun3d", k_node_centred_alone},  SolverName{"node-centred", k_node_centred_alone}, SolverName{"openfoam", k_cell_centred_alone},
+    SolverName{"fluent", k_cell_centred_alone}, SolverName{"cell-centred", k_cell_centred_alone}, SolverName{"all", Consumers{}}};
 
 void add_consumers(Consumers& to, const Consumers& more) {
   to.cell_centred = to.cell_centred || more.cell_centred;

@@ -96,10 +96,6 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
   if (site.monitored.empty() && patterns.empty() && !site.is_tunnel) problems.add("no wall is left whose forces count: name some with monitor");
 }
 
-}  // namespace
-
-namespace {
-
 /// The verdict for the kind of solver that uses the measure, as a warning where a gate FAILs.
 void report_verdict(const CheckReport& report, Measure measure, std::string_view solver, const RunContext& context) {
   for (const Consumer consumer : k_consumers) {

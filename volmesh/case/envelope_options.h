@@ -85,7 +85,9 @@ struct Schema<volmesh::EnvelopeOptions> {
                .member = &O::boundary_layer,
                .unit = Unit::metre,
                .min = 1e-12,
-               .help = "thickness of the boundary layer that the layers have to cover: gate G12 FAILs where they are lower; heights do not depend on it",
+               .help = "thickness of the boundary layer that the layers have to cover, but for patches with a total_height of their own: gate G12 FAILs where "
+                       "they are lower; "
+                       "heights do not depend on it",
                .automatic = "total_height, else that of the flow conditions that first_height is of, else none"},
       Field<O>{.name = "max_thickness",
                .member = &O::max_thickness,

@@ -258,7 +258,7 @@ class DomainSplitter {
     if (n_fixed_rim > 0)
       context_.warn("no layer at " + std::to_string(n_fixed_rim) +
                     " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that "
-                    "ends at an outer edge, as a nacelle at the border of its nozzle); one is at " +
+                    "ends at an outer edge, as at a slip wall, or at a patch with a rule layers = 0); one is at " +
                     format_point(fixed_rim));
     for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
     mark_near();

@@ -294,7 +294,9 @@ LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options
   }
   if (!is_truncated) request.line_layers.clear();
   for (const VertexId v : envelope.height.ids()) {
-    const double total = scale.total_height(v), thickness = is_automatic(total) ? options.boundary_layer : total;
+    const double total = scale.total_height(v);
+    const bool is_of_patch = !is_automatic(total) && is_automatic(options.total_height);
+    const double thickness = is_of_patch || is_automatic(options.boundary_layer) ? total : options.boundary_layer;
     request.line_boundary_layer.push_back(is_automatic(thickness) ? 0.0 : thickness);
   }
   if (std::ranges::all_of(request.line_boundary_layer, [](double thickness) { return thickness == 0.0; })) request.line_boundary_layer.clear();

@@ -254,14 +254,17 @@ TEST(OptionEffects, UntanglingKeepsItsShareOfTheWayToWhereLinesMeet) {
 }
 
 TEST(OptionEffects, GateG12ComparesWithTheBoundaryLayerAskedFor) {
-  const auto state = [](double boundary_layer) {
+  const auto state = [](double boundary_layer, double total_height = k_automatic) {
     Setting setting = setting_of("block");
     setting.mesh_case.envelope.boundary_layer = boundary_layer;
+    setting.mesh_case.envelope.total_height = total_height;
     return volume_mesh(setting.wall, setting.mesh_case, k_context).check.gate(Measure::boundary_layer).state;
   };
   EXPECT_EQ(state(k_automatic), GateState::not_checked);
   EXPECT_EQ(state(1e-3), GateState::pass);
   EXPECT_EQ(state(10.0), GateState::fail);
+  EXPECT_EQ(state(k_automatic, 0.04), GateState::pass);
+  EXPECT_EQ(state(10.0, 0.04), GateState::fail) << "what is asked for by name counts";
 }
 
 }  // namespace
