@@ -14,7 +14,7 @@ using namespace lanes;
 /// k_roundings); 2 b1 has twelve. Rounded up.
 constexpr double k_coefficient_error = 64 * 0x1p-53;
 /// For comparing -2 b1 with 2 sqrt(b0) sqrt(b2), as k_root_margin of wedge.cpp.
-constexpr double k_root_margin = 10 * 0x1p-53;
+constexpr double k_column_root_margin = 10 * 0x1p-53;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ const std::vector<PrismMeasures>& ColumnScan::measure(std::size_t column) {
       const Packed b0 = dot(n0, d[k]), b1_twice = dot(n1_twice, d[k]), b2 = dot(n2, d[k]);
       const Packed error = k_coefficient_error * longest_product * height;
       const Packed low0 = b0 - error, low2 = b2 - error, low1 = b1_twice - 2.0 * error;
-      const Packed lowest = 2.0 * (1.0 - k_root_margin) * root(most(low0, zero)) * root(most(low2, zero));
+      const Packed lowest = 2.0 * (1.0 - k_column_root_margin) * root(most(low0, zero)) * root(most(low2, zero));
       is_certain &= (low0 > zero) & (low2 > zero) & ((low1 >= zero) | (-low1 < lowest));
 
       const Packed base_scale = base[(k + 1) % 3] * base[(k + 2) % 3] * height, top_scale = top[(k + 1) % 3] * top[(k + 2) % 3] * height;

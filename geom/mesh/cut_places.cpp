@@ -24,7 +24,7 @@ constexpr double k_plate_thickness = 1e-3;
 /// Sections shorter than this share of the longest one at the station are pylons, flaps' tracks, antennas.
 constexpr double k_least_chord = 0.3;
 /// Edges that turn by more are sharp, radians.
-constexpr double k_sharp = std::numbers::pi / 6.0;
+constexpr double k_sharp_cut = std::numbers::pi / 6.0;
 /// How far inside the symmetry plane the cut is, over the walls' longest side: beyond the rounding of coordinates, far below an edge.
 constexpr double k_hair = 1e-7;
 /// What is seen around a focus: so many heights of the layer, at least so many edges of the wall.
@@ -155,7 +155,7 @@ class PlaceFinder {
 
   /// Across the edge in the middle of a chain, by x.
   bool add_chain(std::string name, bool is_concave, bool between_patches) {
-    EdgeChain chain = walls_.longest_chain(k_sharp, is_concave, between_patches);
+    EdgeChain chain = walls_.longest_chain(k_sharp_cut, is_concave, between_patches);
     if (chain.edges.empty()) return false;
     const auto middle = [&](const std::array<std::uint32_t, 2>& edge) { return 0.5 * (walls_.point(edge[0]) + walls_.point(edge[1])); };
     const auto half = chain.edges.begin() + static_cast<std::ptrdiff_t>(chain.edges.size() / 2);

@@ -14,7 +14,7 @@ namespace sterna::check_parts {
 namespace {
 
 /// Columns and lines per chunk; each holds some 30 cells.
-constexpr std::size_t k_chunk = 256;
+constexpr std::size_t k_field_chunk = 256;
 
 /// Of one line; NaN where it has no such figure.
 struct LineFigures {
@@ -27,7 +27,7 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
   const MirrorFeet feet(mesh);
   const bool has_target = lines.are_columns() && is_request_usable(mesh);
   std::vector<LineFigures> all(lines.n_lines());
-  parallel_chunks(context, lines.n_lines(), k_chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(context, lines.n_lines(), k_field_chunk, [&](std::size_t begin, std::size_t end) {
     std::vector<double> heights;
     std::vector<Vec3> normals;
     for (std::size_t k = begin; k < end; ++k) {
@@ -189,7 +189,7 @@ std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const L
   std::vector<std::vector<double>> fields(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_nan));
   const std::vector<LineFigures> figures = measure_lines(mesh, lines, context);
   const std::vector<std::optional<std::size_t>> feet = feet_of_columns(mesh, lines, context);
-  parallel_chunks(context, lines.triangles().size(), k_chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(context, lines.triangles().size(), k_field_chunk, [&](std::size_t begin, std::size_t end) {
     ColumnMeasurer measurer(mesh, lines);
     for (std::size_t t = begin; t < end; ++t) {
       const auto& corner = lines.triangles()[t];

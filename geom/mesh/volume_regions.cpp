@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t k_named_regions = 5;
 constexpr std::size_t k_named_patches = 4;
 constexpr int k_volume_digits = 4;
-constexpr double k_rounding = 1e-9;  ///< of the volume of a box
+constexpr double k_region_rounding = 1e-9;  ///< of the volume of a box
 
 /// Joins the two sides of discs.
 void join_sheets(const HybridMesh& mesh, DisjointSets& sets) {
@@ -89,7 +89,7 @@ std::vector<VolumeRegion> sum_up(const HybridMesh& mesh, const std::vector<std::
 /// Of a part of the boundary: whether fluid is inside of it. A disc in the fluid has no volume but for rounding.
 bool encloses_fluid(const VolumeRegion& shell) {
   const Vec3 sides = shell.box.max - shell.box.min;
-  return shell.volume > k_rounding * sides.x * sides.y * sides.z;
+  return shell.volume > k_region_rounding * sides.x * sides.y * sides.z;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace sterna::tets {
 namespace {
 
-constexpr int k_levels = 21;
+constexpr int k_curve_levels = 21;
 
 /// The bits of a number, two zeros between any two.
 constexpr std::uint64_t spread(std::uint64_t x) {
@@ -37,7 +37,7 @@ Curve::Curve(std::span<const Vec3> points) {
   const Extent extent = extent_of(points);
   const double edge = extent.longest_side();
   origin_ = extent.low;
-  cells_per_metre_ = edge > 0.0 && edge < std::numeric_limits<double>::infinity() ? (1 << k_levels) / edge : 0.0;
+  cells_per_metre_ = edge > 0.0 && edge < std::numeric_limits<double>::infinity() ? (1 << k_curve_levels) / edge : 0.0;
 }
 
 /// Level by level: which eighth of the cube in Gray's order, then the cube turned and mirrored so that the next level's path begins where this one's ended
@@ -45,8 +45,8 @@ Curve::Curve(std::span<const Vec3> points) {
 std::uint64_t Curve::key(const Vec3& p) const {
   std::array<std::uint32_t, 3> x;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    x[axis] = static_cast<std::uint32_t>(std::clamp((p[axis] - origin_[axis]) * cells_per_metre_, 0.0, static_cast<double>((1u << k_levels) - 1)));
-  for (int level = k_levels - 1; level > 0; --level) {
+    x[axis] = static_cast<std::uint32_t>(std::clamp((p[axis] - origin_[axis]) * cells_per_metre_, 0.0, static_cast<double>((1u << k_curve_levels) - 1)));
+  for (int level = k_curve_levels - 1; level > 0; --level) {
     const std::uint32_t below = (1u << level) - 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {  // mirrored where the bit is set, else turned; without branches
       const std::uint32_t is_set = 0u - (x[axis] >> level & 1u);

@@ -12,7 +12,7 @@ namespace sterna::tets {
 namespace {
 
 constexpr std::size_t k_tet_chunk = 1 << 14;
-constexpr std::size_t k_node_chunk = 1 << 12;
+constexpr std::size_t k_tet_node_chunk = 1 << 12;
 
 /// A face at its lowest node.
 struct FaceAtNode {
@@ -142,7 +142,7 @@ TetMesh connect(std::vector<Vec3> points, std::span<const Corners> tetrahedra, c
         }
         return bad;
       },
-      joined, k_node_chunk);
+      joined, k_tet_node_chunk);
   throw_if_any(crowded, mesh, "faces with more than two tetrahedra, or with two on one side");
   return mesh;
 }

@@ -8,7 +8,7 @@ namespace {
 /// Tasks of a search: enough to balance them over many threads.
 constexpr std::size_t k_tasks = 1024;
 /// As in BoxTree::for_each_overlap: median splits of at most 2^31 items.
-constexpr int k_stack = 64;
+constexpr int k_pair_stack = 64;
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& a, const FittedB
     first.add(second);
     return overlap(first, box);
   };
-  std::uint32_t stack[k_stack];
+  std::uint32_t stack[k_pair_stack];
   int n = 0;
   stack[n++] = 0;
   while (n > 0) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_remaining_edges = k_kept_edges;  ///< of the longer local envelope edge stays between two layers, for tets
 constexpr double k_remaining_share = k_kept_share;  ///< of a gap that is too narrow for that
-constexpr double k_opposing_cosine = 0.7;           ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
+constexpr double k_gap_opposing_cosine = 0.7;       ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
 constexpr int k_level_sweeps = 3;
 
 /// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
@@ -41,7 +41,7 @@ class GapFinder {
   /// Appends the hit of v's growth line when both layers ask for more than the gap leaves them. `buffer` is scratch.
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<WallGap>& hits) const {
     if (envelope_.is_collapsed(v)) return;
-    const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_opposing_cosine;
+    const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_gap_opposing_cosine;
     if (!group_ || (*group_)[v] != 0) find_outer(v, reach, buffer, hits);
     const double look = how_far_to_look(v, reach, buffer);
     if (look == 0.0) return;
@@ -89,7 +89,7 @@ class GapFinder {
   double cosine(VertexId v, TriangleId t) const { return -dot(base_.unit_normal[t], envelope_.direction[v]); }
   bool opposes(VertexId v, TriangleId t) const {
     const TriangleVertices& own = base_.wall.triangles[t];
-    return cosine(v, t) >= k_opposing_cosine && own[0] != v && own[1] != v && own[2] != v;
+    return cosine(v, t) >= k_gap_opposing_cosine && own[0] != v && own[1] != v && own[2] != v;
   }
   bool is_shared_before(VertexId v, TriangleId t) const { return group_ && (*group_)[v] == (*group_)[base_.wall.triangles[t][0]]; }
   /// Extent along v's growth line of the layer on t.

@@ -13,12 +13,12 @@ namespace sterna::volmesh {
 namespace {
 
 /// Shares of the way to the optimum that vertices try one after the other.
-constexpr std::array<double, 4> k_shares = {1.0, 0.5, 0.25, 0.125};
+constexpr std::array<double, 4> k_step_shares = {1.0, 0.5, 0.25, 0.125};
 
 /// Of the target, just above the share that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.91;
 /// Of the target: what optimisation leaves at least. Evenness is worth a little height, a hole in the layer is not.
-constexpr double k_least_height = 0.8;
+constexpr double k_least_optimised_height = 0.8;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
   if (report.history.empty()) {  // no vertex may move, or none of the points tried was feasible
@@ -42,7 +42,7 @@ Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const En
     settings.max_evaluations = options.optimiser_evaluations;
     settings.weights = {.height = options.height_weight, .top = options.top_weight, .membrane = options.membrane_weight, .barrier = options.barrier_weight};
     settings.height_floor = start.target;
-    for (double& h : settings.height_floor) h *= k_least_height;
+    for (double& h : settings.height_floor) h *= k_least_optimised_height;
     OptimiseReport report;
     Envelope result = optimise(base, start, h_u, h_l, settings, report, context);
     log_result(report, options.optimiser, context);
@@ -69,7 +69,7 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
   const Envelope start = envelope;
   const Envelope best = optimum(base, options, start, context);
   const auto is_at = [](const Envelope& a, const Envelope& b, VertexId v) { return a.height[v] == b.height[v] && a.direction[v] == b.direction[v]; };
-  for (const double share : k_shares) {
+  for (const double share : k_step_shares) {
     EnvelopeShape proposal = envelope;
     parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
       const VertexId v(i);

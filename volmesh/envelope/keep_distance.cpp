@@ -19,7 +19,7 @@ constexpr double k_facing_cosine = 0.5;  ///< between growth direction (or facet
 constexpr double k_least_share = 0.6;    ///< of a height is left by one sweep
 constexpr double k_good_enough = 0.98;   ///< of the distance: no sweep for rounding
 constexpr double k_outer_share = 0.5;    ///< of the distance, from the outer boundary
-constexpr std::size_t k_chunk = 256;
+constexpr std::size_t k_distance_chunk = 256;
 
 /// A vertex and the height that keeps its distance, m.
 using Wanted = std::pair<VertexId, double>;
@@ -108,7 +108,7 @@ void keep_distance(const LayerBase& base, const EnvelopeOptions& options, Collid
           std::vector<std::uint32_t> buffer;
           for (std::size_t i = begin; i < end; ++i) places.find(VertexId(i), buffer, list);
         },
-        k_chunk);
+        k_distance_chunk);
     if (wanted.empty()) return;
     std::ranges::sort(wanted);
     std::vector<VertexId> lowered;

@@ -13,12 +13,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_least_edge_share = 1.0 / 3.0;  ///< of the mean edge, where triangles are stretched
-constexpr int k_edge_sweeps = 20;                 ///< of smoothing: about five rings, the thickness of a layer by eq. (1)
+constexpr double k_least_share_of_edge = 1.0 / 3.0;  ///< of the mean edge, where triangles are stretched
+constexpr int k_edge_sweeps = 20;                    ///< of smoothing: about five rings, the thickness of a layer by eq. (1)
 
 }  // namespace
 
-double layer_edge_of(double equilateral_edge, double mean_edge) { return std::clamp(equilateral_edge, k_least_edge_share * mean_edge, mean_edge); }
+double layer_edge_of(double equilateral_edge, double mean_edge) { return std::clamp(equilateral_edge, k_least_share_of_edge * mean_edge, mean_edge); }
 
 namespace {
 

@@ -12,8 +12,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_tallest_first = 0.8;    ///< of the height of a regular tetrahedron: first cells of a sheet's last rows
-constexpr double k_rounding = 1.0 + 1e-9;  ///< of growth ratios that are compared
+constexpr double k_tallest_first = 0.8;          ///< of the height of a regular tetrahedron: first cells of a sheet's last rows
+constexpr double k_sheet_rounding = 1.0 + 1e-9;  ///< of growth ratios that are compared
 
 /// The options as a demand of every vertex.
 LayerDemand demand_everywhere(const LayerBase& base, const EnvelopeOptions& options) {
@@ -106,7 +106,8 @@ class SheetGrower {
   /// The least number of layers that grow by no more than those before the edge.
   static int layers_for(const SheetLine& line, int all) {
     for (int n = 1; n < all; ++n)
-      if (n == 1 ? line.height <= line.first_height * k_rounding : growth_for_height(line.first_height, line.height, n) <= line.growth * k_rounding) return n;
+      if (n == 1 ? line.height <= line.first_height * k_sheet_rounding : growth_for_height(line.first_height, line.height, n) <= line.growth * k_sheet_rounding)
+        return n;
     return all;
   }
 

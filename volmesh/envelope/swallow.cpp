@@ -11,7 +11,7 @@ namespace sterna::volmesh {
 namespace {
 
 /// Winding numbers are 0 or 1 up to rounding.
-constexpr double k_inside = 0.5;
+constexpr double k_swallowed_inside = 0.5;
 /// A cell that holds a point alone, or at least shares it with the neighbour on whose side it lies.
 constexpr double k_holds = 0.1;
 constexpr int k_swallow_bisections = 10;  ///< halvings: 0.1 % of the height
@@ -59,7 +59,7 @@ std::vector<Swallowing> Collider::swallowings(const EnvelopeShape& shape) const 
       sum += own;
       if (own > k_holds) holders.push_back(TriangleId(item));
     }
-    if (sum < k_inside || holders.empty()) return;
+    if (sum < k_swallowed_inside || holders.empty()) return;
     Swallowing found{p, {}, 0.0};
     for (const TriangleId t : holders)
       for (const VertexId v : base_.wall.triangles[t]) found.vertices.push_back(v);

@@ -18,9 +18,9 @@ constexpr double k_warp_share_of_wall = 0.2;
 /// Up to this share of the vertices it is cheaper to list their triangles than to look at all.
 constexpr std::size_t k_list_share = 16;
 /// Cosine between neighbouring normals above which no edge is folded: 60 degrees between the triangles.
-constexpr double k_open_cosine = -0.5;
+constexpr double k_open_fold_cosine = -0.5;
 /// Elements per task: about 50 us.
-constexpr std::size_t k_chunk = 512;
+constexpr std::size_t k_validity_chunk = 512;
 
 bool is_prism_valid_with_margin(const MacroElement& e) {
   std::array<Vec3, 3> top;
@@ -91,7 +91,7 @@ bool is_fold_open(const LayerBase& base, const EnvelopeShape& shape, HalfedgeId 
   if (base.topology.is_boundary(h)) return true;
   const EdgeDiamond diamond = edge_diamond(base, h);
   const Fold fold = fold_of(envelope_points(base, shape, diamond));
-  if (!(fold.cosine < k_open_cosine)) return true;  // or a triangle without area, which is another test's
+  if (!(fold.cosine < k_open_fold_cosine)) return true;  // or a triangle without area, which is another test's
   return fold_slack(fold, fold_limit(wall_points(base, diamond))) > 0.0;
 }
 
@@ -167,7 +167,7 @@ std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShap
         a.insert(a.end(), b.begin(), b.end());
         return a;
       },
-      k_chunk);
+      k_validity_chunk);
 }
 
 ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const RunContext& context) {
