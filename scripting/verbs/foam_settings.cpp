@@ -174,10 +174,11 @@ class FoamSettings {
     if (is_transonic()) {
       text = "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n";
       scheme = "cellLimited pointCellsLeastSquares 1";
-    } else if (s_.is_turbulent && !s_.is_compressible) {
-      text =
+    }
+    if (s_.is_turbulent) {
+      text +=
           "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge\n"
-          "// become unstable after 100 to 200 iterations.\n";
+          "// become unstable, in gases within 30 iterations, else after 100 to 200.\n";
       of_pressure = " grad(p) Gauss linear;";
     }
     return text + "gradSchemes { default " + scheme + ";" + of_pressure + " }\n\n";
@@ -239,16 +240,12 @@ class FoamSettings {
     std::string fields = solved() + " ";
     for (std::size_t at = 0, end = fields.find(' '); end != std::string::npos; at = end + 1, end = fields.find(' ', at))
       controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.residual_limit()) + ";\n";
-    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_compressible ? "no" : "yes") + ";\n    nNonOrthogonalCorrectors " +
-            std::to_string(s_.n_correctors) + ";\n" + limits + reference +
+    text += "SIMPLE\n{\n    consistent yes;\n    nNonOrthogonalCorrectors " + std::to_string(s_.n_correctors) + ";\n" + limits + reference +
             (s_.residual_limit() > 0.0 ? "    residualControl\n    {\n" + controls + "    }\n" : "") + "}\n\n";
-    return text + (s_.is_compressible
-                       ? "relaxationFactors\n{\n    fields { p 0.3; rho 0.05; }\n    equations { p 1; U 0.5; e 0.5; \"(nuTilda|k|omega)\" 0.5; }\n}\n"
-                       : std::string(s_.model == "SpalartAllmaras"
-                                         ? "// At 0.7 for nuTilda, that and the velocity in the buffer layer swing from one iteration to the "
-                                           "next for ever.\n"
-                                         : "") +
-                             "relaxationFactors\n{\n    equations { p 1; U 0.8; nuTilda 0.4; \"(k|omega)\" 0.7; }\n}\n");
+    if (s_.model == "SpalartAllmaras")
+      text += "// At 0.7 for nuTilda, that and the velocity in the buffer layer swing from one iteration to the next for ever.\n";
+    return text + "relaxationFactors\n{\n    " + (s_.is_compressible ? "fields { p 1; rho 1; }\n    " : "") + "equations { p 1; U 0.8; " +
+           (s_.is_compressible ? "e 0.8; " : "") + "nuTilda 0.4; \"(k|omega)\" 0.7; }\n}\n";
   }
 
   std::string temperature_limits() const {
