@@ -14,8 +14,10 @@ constexpr int k_part = 50;               ///< iterations from one judgement to t
 constexpr int k_least_iterations = 150;  ///< of a run that has a start of its own; a third of all iterations is the longest start
 /// Over the flow's speed: beyond the first a run has diverged, and the second tells where that began. Contractions and jets are faster than flow round a body.
 constexpr double k_diverged = 10.0, k_diverged_inside = 100.0, k_first_sign = 0.5;
-constexpr int k_first_watched = 15;      ///< iterations: the impulse of the start has faded
-constexpr double k_place_radius = 0.02;  ///< of the picture of a place, over the length of the flow
+/// Steady flow of gases is held below a share of that speed, and a run has diverged where it is still near that bound after the start.
+constexpr double k_speed_bound = 0.4, k_near_bound = 0.9;
+constexpr int k_first_watched = 15, k_first_watched_in_gas = 30;  ///< iterations after which the impulse of the start has faded
+constexpr double k_place_radius = 0.02;                           ///< of the picture of a place, over the length of the flow
 
 constexpr std::string_view k_judge = R"AWK(# Reads what function objects wrote, one value or force for each iteration, and judges it.
 # awk -f judge.awk -v what=settled -v window=200 -v share=0.002 FILES        prints "settled PERCENT", "moving PERCENT" or "short"
@@ -164,8 +166,13 @@ esac
 [ "$tasks" = 1 ] || run reconstructPar reconstructPar -latestTime
 )SH";
 
+/// m/s, as if no velocity was bounded.
+double unbounded_speed(const FoamSetup& setup) { return (setup.has_fast_openings ? k_diverged_inside : k_diverged) * setup.flow.speed; }
+
 /// m/s
-double diverged_speed(const FoamSetup& setup) { return (setup.has_fast_openings ? k_diverged_inside : k_diverged) * setup.flow.speed; }
+double diverged_speed(const FoamSetup& setup) { return setup.is_compressible ? k_near_bound * foam_speed_bound(setup) : unbounded_speed(setup); }
+
+int first_watched(const FoamSetup& setup) { return setup.is_compressible ? k_first_watched_in_gas : k_first_watched; }
 
 class RunFiles {
  public:
@@ -243,7 +250,7 @@ class RunFiles {
     set("has_residuals", s_.residual_limit() > 0.0 ? "yes" : "", "limits of residuals end the run as well; empty: they do not");
     set("limit", case_number(limit), "m/s, beyond which the run has diverged");
     set("first_sign", case_number(k_first_sign * limit), "m/s, by which the place is found where that began");
-    set("watched", std::to_string(k_first_watched), "iteration from which on the velocity is judged; before, the impulse of the start has not faded");
+    set("watched", std::to_string(first_watched(s_)), "iteration from which on the velocity is judged; before, the impulse of the start has not faded");
     set("radius", case_number(k_place_radius * s_.flow.length), "m, of a picture of that place");
     set("has_potential", has_potential() ? "yes" : "no", "fluxes of potentialFoam at the start; supersonic flow has no such potential");
     set("density", has_mass_fluxes() ? case_number(s_.density) : "", "kg/m^3, of the free stream: those fluxes are of mass; empty: of volume");
@@ -292,7 +299,9 @@ std::string foam_watch_functions(const FoamSetup& setup) {
         conditions {{ velocity {{ type minMax; functionObject velocityRange; fields (max(mag(U))); mode maximum; value {}; }} }}
     }}
 )",
-      k_first_watched, case_number(diverged_speed(setup)));
+      first_watched(setup), case_number(diverged_speed(setup)));
 }
+
+double foam_speed_bound(const FoamSetup& setup) { return k_speed_bound * unbounded_speed(setup); }
 
 }  // namespace sterna::scripting

@@ -14,4 +14,7 @@ std::vector<CaseFile> foam_run_files(const FoamSetup& setup);
 /// Entries of controlDict's functions by which a steady run ends when its velocity is out of bounds; empty for runs in time.
 std::string foam_watch_functions(const FoamSetup& setup);
 
+/// m/s, the bound of the velocity in steady flow of gases (limitVelocity in fvOptions): the start from uniform flow throws single cells far off.
+double foam_speed_bound(const FoamSetup& setup);
+
 }  // namespace sterna::scripting
