@@ -12,6 +12,9 @@ endforeach()
 add_test(NAME architecture COMMAND ${CMAKE_SOURCE_DIR}/tools/check_architecture --root ${CMAKE_SOURCE_DIR} --binary $<TARGET_FILE:sterna>)
 add_test(NAME architecture_self_test
          COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_architecture_test.py ${CMAKE_SOURCE_DIR}/tools/check_architecture ${CMAKE_CXX_COMPILER})
+add_test(NAME references COMMAND ${CMAKE_SOURCE_DIR}/tools/check_references --root ${CMAKE_SOURCE_DIR})
+add_test(NAME references_self_test
+         COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_references_test.py ${CMAKE_SOURCE_DIR}/tools/check_references)
 add_test(NAME count_skips_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/count_skips_test.py ${CMAKE_SOURCE_DIR}/tools/count_skips)
 add_test(NAME bench_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/bench_test.py ${CMAKE_SOURCE_DIR}/tools/bench)
 

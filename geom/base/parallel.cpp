@@ -1,5 +1,5 @@
 // Two back ends behind the same functions: oneTBB, and std::thread for the tsan preset (Debian's libtbb is not instrumented, and
-// suppressing its reports would hide real races; spec/build.md, trap 5).
+// suppressing its reports would hide real races).
 #include "geom/base/parallel.h"
 
 #include <exception>

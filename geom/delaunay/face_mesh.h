@@ -1,4 +1,5 @@
-// One parametric face, from its cut border to triangles: the Delaunay surface mesher of method.md section 0 for a single face.
+// One parametric face, from its cut border to triangles: the Delaunay surface mesher of docs/method/surface.md, "Delaunay criterion in space", for a single
+// face.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// A triangulation on a curved surface: valid in the parameter plane by exact predicates, good by the empty sphere in 3-space (method.md section 0).
+// A triangulation on a curved surface: valid in the parameter plane by exact predicates, good by the empty sphere in 3-space (docs/method/surface.md, "Delaunay
+// criterion in space").
 //
 // Every vertex has a place in the (scaled) parameter plane, a point and a frame. All decisions on validity look at the plane, all on quality at the points.
 // A pole, many (u, v) of one point, is a run of vertices on the border that stand for the first of them; a triangle with two such corners has no area in
@@ -62,7 +63,7 @@ double scale_of_speed(double speed);
 /// \throws Error(self_intersection) with the place in space where borders cross or touch along an edge; Error(bad_argument) when nothing is inside
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context);
 
-/// Cosine of 60 degrees: method.md section 0, how far a flipped triangle's normal may be from the surface's.
+/// Cosine of 60 degrees (docs/method/surface.md, "Delaunay criterion in space"): how far a flipped triangle's normal may be from the surface's.
 inline constexpr double k_min_normal_cosine = 0.5;
 
 /// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one with a corner where the surface

@@ -1,5 +1,5 @@
 // Combinatorics of a triangulation in a parameter plane: triangles, their neighbours, constrained edges. Knows places only to say what is valid;
-// what is good is the business of a criterion (planar.h, surface_criterion.h).
+// what is good is the business of a criterion (planar.h, surface_triangulation.h).
 //
 // Invariants (check_triangulation.h): half-edge 3 * t + c runs from corner c of triangle t to corner c + 1, the triangle to its left; twins are mutual and
 // run the other way; a half-edge without a twin is on the border and constrained; both sides of an edge agree on being constrained; every triangle of

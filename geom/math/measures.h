@@ -26,10 +26,10 @@ double wedge_volume(const WedgePoints& p);
 /// Flux of x/3 relative to `origin` through the bilinear quad a b c d (right-hand normal), m^3; with all faces of a cell it sums to the volume.
 double bilinear_flux(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// The exact wedge test of method.md §6: the Jacobian of the trilinear map is linear over the triangle and quadratic along the height, so it is
-/// positive everywhere iff along each growth edge k, with b0 = J_k(0), b2 = J_k(1), b1 = 2 J_k(1/2) - (b0 + b2)/2:
-/// b0 > 0, b2 > 0 and b1 > -sqrt(b0 b2). Floating-point filter with a forward error bound (about 14 M wedges/s/core), undecided cases in exact
-/// arithmetic (3 us). False when a coordinate is not finite. Coordinates zero or of magnitude 1e-36 .. 1e48.
+/// The exact wedge test of docs/method/validity.md, "Exact wedge test": the Jacobian of the trilinear map is linear over the triangle and quadratic along the
+/// height, so it is positive everywhere iff along each growth edge k, with b0 = J_k(0), b2 = J_k(1), b1 = 2 J_k(1/2) - (b0 + b2)/2: b0 > 0, b2 > 0 and b1 >
+/// -sqrt(b0 b2). Floating-point filter with a forward error bound (about 14 M wedges/s/core), undecided cases in exact arithmetic (3 us). False when a
+/// coordinate is not finite. Coordinates zero or of magnitude 1e-36 .. 1e48.
 bool is_wedge_valid(const WedgePoints& p);
 /// Smallest of the nine numbers b0, b1', b2 over the three edges (b1' = b1 + sqrt(b0 b2) when b0, b2 > 0), each divided by the product of the lengths of
 /// the three edges that meet there (for b1': twice the geometric mean of both ends' products): a scaled Jacobian in (-inf, 1]; positive iff valid

@@ -3,8 +3,8 @@
 // With a, b the edges 0-1, 0-2 of the base, a', b' those of the top, and d_k the growth edges, the Jacobian of the trilinear map at height z
 // over corner k is N(z) . d_k with N(z) = (a + z (a' - a)) x (b + z (b' - b)). In Bernstein form over z its coefficients are
 //   b0 = (a x b) . d_k,   2 b1 = (a x b' + a' x b) . d_k,   b2 = (a' x b') . d_k,
-// which are the b0, b1, b2 of method.md section 6, free of cancelling terms. The Jacobian is positive along the growth edge iff b0 > 0, b2 > 0 and
-// (b1 >= 0 or b1^2 < b0 b2); linear in between the growth edges, so positive everywhere iff positive along all three.
+// which are the b0, b1, b2 of docs/method/validity.md, "Exact wedge test", free of cancelling terms. The Jacobian is positive along the growth edge iff b0 > 0,
+// b2 > 0 and (b1 >= 0 or b1^2 < b0 b2); linear in between the growth edges, so positive everywhere iff positive along all three.
 //
 // Filter: only differences of coordinates enter, and a rounded difference is within one unit roundoff of the exact one relative to itself, however
 // flat the wedge is and however far from the origin. So a prism of height 1e-6 times its edges is decided here unless it is

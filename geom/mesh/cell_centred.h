@@ -1,5 +1,5 @@
-// What cell-centred solvers feel of a mesh: OpenFOAM's measures of faces and cells (quality.md §3), with its face and cell centres, so that the figures are
-// checkMesh's.
+// What cell-centred solvers feel of a mesh: OpenFOAM's measures of faces and cells (docs/method/quality.md, "Cell-centred measures"), with its face and cell
+// centres, so that the figures are checkMesh's.
 #pragma once
 
 #include <cstdint>

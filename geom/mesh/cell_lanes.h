@@ -1,4 +1,4 @@
-// The formulas of cell_shapes.cpp, four faces or cells at a time: rounded as there, but for the angle. Private to the *.cpp files of geom/mesh.
+// The formulas of cell_quality.cpp, four faces or cells at a time: rounded as there, but for the angle. Private to the *.cpp files of geom/mesh.
 #pragma once
 
 #include <array>
@@ -143,7 +143,7 @@ CellShapes cell_shapes(const std::array<FaceShapes, N>& faces) {
   return shapes;
 }
 
-/// Powers of the tets at four cells' centres (cell_shapes.cpp, TetPowers).
+/// Powers of the tets at four cells' centres (cell_quality.cpp, TetPowers).
 struct TetPowers {
   Packed around;
   std::array<Packed, 2> cuts;

@@ -1,4 +1,4 @@
-// Faces and cells as cell-centred solvers see them, one at a time: OpenFOAM's centres and measures (quality.md §3).
+// Faces and cells as cell-centred solvers see them, one at a time: OpenFOAM's centres and measures (docs/method/quality.md, "Cell-centred measures").
 //
 // Face centre: of a triangle the mean of its corners; of a quadrilateral the mean of the triangles around its middle, weighted by area. Cell centre: the mean
 // of the pyramids from the mean of its face centres to its faces, weighted by volume.

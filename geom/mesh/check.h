@@ -1,5 +1,5 @@
-// The invariant walker: proves that a HybridMesh tiles its domain and has a dual mesh, or says where not (VALID: G1-G4 and G20 of quality.md), and measures
-// the gates that say how good it is (QUALITY: G5-G16, OpenFOAM's measures and the targets of G3 and G4).
+// The invariant walker: proves that a HybridMesh tiles its domain and has a dual mesh, or says where not (VALID: G1-G4 and G20 of docs/method/quality.md,
+// "Gates"), and measures the gates that say how good it is (QUALITY: G5-G16, OpenFOAM's measures and the targets of G3 and G4).
 #pragma once
 
 #include <cstdint>

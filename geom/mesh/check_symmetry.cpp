@@ -8,7 +8,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Largest distance of a node from the plane of its symmetry patch, in body lengths (quality.md, G20).
+/// Largest distance of a node from the plane of its symmetry patch, in body lengths (docs/method/quality.md, "Gates", G20).
 constexpr double k_plane_tolerance = 1e-12;
 
 /// Longest side of the box of all walls; of all boundaries when there is none.

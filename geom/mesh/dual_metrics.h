@@ -1,4 +1,4 @@
-// SU2's median dual mesh and its three quality metrics (quality.md §2), node by node, without storing the dual mesh.
+// SU2's median dual mesh and its three quality metrics (docs/method/quality.md, "Median dual"), node by node, without storing the dual mesh.
 //
 // Each cell is cut into sub-tets (node, edge midpoint, face centroid, cell centroid; centroids are means of nodes). A node's control volume is the sum of its
 // sub-tets; the dual face of an edge is the sum of the triangles (edge midpoint, face centroid, cell centroid) over its cells, two in each; at the boundary

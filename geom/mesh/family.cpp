@@ -1,4 +1,5 @@
-// The rule: h0/f, n f layers, constant layers f, growth r^(1/f), growth of tetrahedra 1 + (g - 1)/f, the same farfield and patches (quality.md section 1).
+// The rule: h0/f, n f layers, constant layers f, growth r^(1/f), growth of tetrahedra 1 + (g - 1)/f, the same farfield and patches (docs/method/quality.md,
+// "Mesh families").
 #include "geom/mesh/family.h"
 
 #include <algorithm>

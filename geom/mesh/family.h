@@ -1,4 +1,5 @@
-// The family rule of quality.md section 1: whether meshes are members of one family, each finer than the one before by one factor in every direction.
+// The family rule of docs/method/quality.md, "Mesh families": whether meshes are members of one family, each finer than the one before by one factor in every
+// direction.
 #pragma once
 
 #include <cstdint>

@@ -11,10 +11,10 @@
 
 namespace sterna {
 
-/// Share of a height that counts as reached (method.md §2).
+/// Share of a height that counts as reached (docs/method/envelope.md, "Heights").
 inline constexpr double k_full_height_share = 0.9;
 /// Of the longer local envelope edge stays between two layers, for tets, which reach some 15 degrees there; at most k_kept_share of the gap, the rest is for
-/// the layers. What the envelope keeps to itself (method.md §5, layer-quality.md section 4).
+/// the layers. What the envelope keeps to itself (docs/method/envelope.md, "Room for tetrahedra").
 inline constexpr double k_kept_edges = 0.3;
 inline constexpr double k_kept_share = 0.5;
 

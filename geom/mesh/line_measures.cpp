@@ -10,7 +10,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Cells at the wall whose lean is measured (quality.md, G10).
+/// Cells at the wall whose lean is measured (docs/method/quality.md, "Gates", G10).
 constexpr int k_wall_cells = 5;
 
 }  // namespace

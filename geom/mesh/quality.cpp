@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// Limits of the published skew statistics, radians (method.md, "Skew angle for reports").
+/// Limits of the published skew statistics, radians (docs/method/quality.md, "Skew angle").
 constexpr double k_skew_small = 6.0 * k_degree;
 constexpr double k_skew_medium = 18.0 * k_degree;
 constexpr double k_skew_large = 60.0 * k_degree;

@@ -9,7 +9,8 @@
 
 namespace sterna {
 
-/// Skew angle (13) of method.md in radians: mean angle between the three growth edges and the normals of base and top. pi/2 for a vanishing edge or normal.
+/// Skew angle, eq. (13) of docs/method/quality.md, "Skew angle", in radians: mean angle between the three growth edges and the normals of base and top. pi/2
+/// for a vanishing edge or normal.
 double skew_angle(const WedgePoints& p);
 
 /// Running minima and counts; scans of consecutive chunks are merged in order, ties keep the first place.

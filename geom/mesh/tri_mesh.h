@@ -40,12 +40,12 @@ struct Box {
   void add(const Box& b);
   bool empty() const { return min.x > max.x; }
   Vec3 center() const { return 0.5 * (min + max); }
-  /// Longest side; the "body length" of method.md for the box of all walls.
+  /// Longest side; the "body length" of docs/method/envelope.md, "Notation", for the box of all walls.
   double longest_side() const;
 };
 
 Box bounding_box(const TriMesh& mesh);
-/// Body length L = longest side of the axis-parallel box of all walls (method.md, notation).
+/// Body length L = longest side of the axis-parallel box of all walls (docs/method/envelope.md, "Notation").
 double body_length(const TriMesh& wall);
 
 /// Corner points of a triangle.

@@ -6,7 +6,7 @@
 
 namespace sterna {
 
-/// Any NURBS surface, degrees 1 .. 25; spline surfaces through grids of points (spline_surface.h) are these too.
+/// Any NURBS surface, degrees 1 .. 25; spline surfaces through grids of points (spline.h) are these too.
 class NurbsSurface final : public Surface {
  public:
   /// `is_periodic_*`: the last row is the first one, and parameters outside the domain are wrapped. `kind` empty: "NURBS p x q".

@@ -1,5 +1,5 @@
 // The geometry files of sumo (.smx): a root `Assembly`, or a single `BodySkeleton` or `WingSkeleton` as in its component files.
-// Source: the schema in sumo's files; angles in radians (mesh criteria in degrees), lengths taken as metres.
+// Format: docs/method/smx.md. Source: the schema in sumo's files; angles in radians (mesh criteria in degrees), lengths taken as metres.
 #pragma once
 
 #include <filesystem>

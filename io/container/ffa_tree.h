@@ -1,4 +1,5 @@
-// FFA data sets, the container of FOI Edge (formats.md sections 5.1 - 5.3): a tree of named nodes with numbers or strings, binary (version 1 and 2) or text.
+// FFA data sets, the container of FOI Edge (docs/method/formats_solvers.md, "FFA container"): a tree of named nodes with numbers or strings, binary (version 1
+// and 2) or text.
 #pragma once
 
 #include <bit>

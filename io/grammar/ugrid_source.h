@@ -1,5 +1,5 @@
-// What the readers and the writer of UGRID (AFLR3) share: the variants by file name, the numbers of any of them, the .mapbc file of FUN3D (formats.md
-// section 8.3).
+// What the readers and the writer of UGRID (AFLR3) share: the variants by file name, the numbers of any of them, the .mapbc file of FUN3D
+// (docs/method/formats_solvers.md, "UGRID").
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// VTK's cell numbers and node order, which SU2 shares. Formats of formats.md sections 2 and 6.
+// VTK's cell numbers and node order, which SU2 shares. docs/method/formats.md, "Conventions".
 #pragma once
 
 #include <array>

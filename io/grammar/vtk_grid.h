@@ -1,4 +1,5 @@
-// What the VTK formats (legacy, VTU, VTP) hold once their arrays are decoded, and what becomes of it: a surface or a volume mesh (formats.md section 6).
+// What the VTK formats (legacy, VTU, VTP) hold once their arrays are decoded, and what becomes of it: a surface or a volume mesh (docs/method/formats.md, "VTK
+// family").
 #pragma once
 
 #include <array>

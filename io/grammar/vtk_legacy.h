@@ -1,4 +1,4 @@
-// VTK's legacy files as arrays: versions 1.0 to 5.1, text and binary (formats.md 6.1).
+// VTK's legacy files as arrays: versions 1.0 to 5.1, text and binary (docs/method/formats.md, "Legacy VTK").
 #pragma once
 
 #include <filesystem>

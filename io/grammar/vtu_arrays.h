@@ -1,4 +1,4 @@
-// Values of the DataArrays of a VTU file, in any of its encodings (formats.md 6.2).
+// Values of the DataArrays of a VTU file, in any of its encodings (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <cstdint>

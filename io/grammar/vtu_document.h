@@ -1,4 +1,4 @@
-// VTU files of any content: named arrays, made on the fly block by block, compressed by all threads, appended raw (formats.md 6.2).
+// VTU files of any content: named arrays, made on the fly block by block, compressed by all threads, appended raw (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <cstdint>

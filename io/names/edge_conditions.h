@@ -1,4 +1,4 @@
-// Boundary conditions of FOI Edge: the tree of .aboc (text) and .bboc (binary) files, formats.md section 5.5.
+// Boundary conditions of FOI Edge: the tree of .aboc (text) and .bboc (binary) files, docs/method/formats_solvers.md, "Edge boundary conditions".
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// TAU's boundary mapping file (.bmap): which condition each marker has. Format of formats.md section 4.
+// TAU's boundary mapping file (.bmap): which condition each marker has. Format: docs/method/formats_solvers.md, "TAU boundary mapping".
 #pragma once
 
 #include <cstdint>

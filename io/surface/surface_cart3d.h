@@ -1,4 +1,4 @@
-// Cart3D .tri: triangles with component numbers, text and binary (formats.md 7.2).
+// Cart3D .tri: triangles with component numbers, text and binary (docs/method/formats_surfaces.md, "Cart3D").
 #pragma once
 
 #include <filesystem>

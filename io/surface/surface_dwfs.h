@@ -1,4 +1,4 @@
-// The .msh of sumo (dwfs): XML with one or more triangulations (sumo.md).
+// The .msh of sumo (dwfs): XML with one or more triangulations (docs/method/formats_surfaces.md, "DWFS").
 #pragma once
 
 #include <filesystem>

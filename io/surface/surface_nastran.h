@@ -1,4 +1,4 @@
-// Nastran bulk data: small, large and free fields (formats.md 8.2).
+// Nastran bulk data: small, large and free fields (docs/method/formats_surfaces.md, "Nastran").
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// SU2: blocks of lines behind "KEY= n", in any order (formats.md 2.2). Markers are the patches; a file without markers and volume elements is a surface mesh
-// whose own triangles and quads are read. What may be trailing on a line is not looked at.
+// SU2: blocks of lines behind "KEY= n", in any order (docs/method/formats.md, "SU2 variants"). Markers are the patches; a file without markers and volume
+// elements is a surface mesh whose own triangles and quads are read. What may be trailing on a line is not looked at.
 #include "io/surface/surface_su2.h"
 
 #include <array>

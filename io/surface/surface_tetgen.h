@@ -1,4 +1,4 @@
-// TetGen input: .smesh and .poly, with their .node file where they refer to one (formats.md 7.3).
+// TetGen input: .smesh and .poly, with their .node file where they refer to one (docs/method/formats_surfaces.md, "TetGen").
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Legacy VTK with a surface (formats.md 6.1), and its volume meshes for reading.
+// Legacy VTK with a surface (docs/method/formats.md, "Legacy VTK"), and its volume meshes for reading.
 #pragma once
 
 #include <filesystem>

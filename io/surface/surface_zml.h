@@ -1,4 +1,4 @@
-// The native format of sumo and pentagrow: a tree of arrays in an LZ4 frame (formats.md 8.8).
+// The native format of sumo and pentagrow: a tree of arrays in an LZ4 frame (docs/method/formats_surfaces.md, "ZML").
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Fluent .msh, formats.md section 8.5: volumes, and their walls as surfaces.
+// Fluent .msh, docs/method/formats_solvers.md, "Fluent": volumes, and their walls as surfaces.
 #pragma once
 
 #include <filesystem>

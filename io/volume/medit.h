@@ -1,4 +1,4 @@
-// Medit .mesh (text) and GMF .meshb (binary, versions 1 to 4), formats.md section 8.6: surfaces and volumes.
+// Medit .mesh (text) and GMF .meshb (binary, versions 1 to 4), docs/method/formats_surfaces.md, "Medit": surfaces and volumes.
 #pragma once
 
 #include <cstdint>

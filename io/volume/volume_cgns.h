@@ -1,4 +1,4 @@
-// CGNS meshes, formats.md section 3: volumes, and the reader that surfaces share.
+// CGNS meshes, docs/method/formats.md, "CGNS": volumes, and the reader that surfaces share.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// CGNS reader, formats.md 3.3. Steps per zone: coordinates, sections (cells, boundary faces with their element numbers), boundary conditions, which name the
-// faces.
+// CGNS reader, docs/method/formats.md, "CGNS reader". Steps per zone: coordinates, sections (cells, boundary faces with their element numbers), boundary
+// conditions, which name the faces.
 #include <algorithm>
 #include <array>
 #include <map>

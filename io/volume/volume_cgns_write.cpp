@@ -1,4 +1,4 @@
-// CGNS writer, formats.md 3.1: the tree is described first, its arrays are streamed.
+// CGNS writer, docs/method/formats.md, "CGNS writer": the tree is described first, its arrays are streamed.
 #include <algorithm>
 #include <cctype>
 #include <limits>

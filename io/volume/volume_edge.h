@@ -1,4 +1,4 @@
-// FOI Edge meshes, formats.md section 5: .bmsh (binary, version 1 and 2), .amsh (text, read), with boundary conditions in .aboc or .bboc.
+// FOI Edge meshes, docs/method/formats_solvers.md, "Edge": .bmsh (binary, version 1 and 2), .amsh (text, read), with boundary conditions in .aboc or .bboc.
 #pragma once
 
 #include <filesystem>

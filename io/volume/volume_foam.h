@@ -1,4 +1,4 @@
-// OpenFOAM polyMesh, formats.md section 8.4.
+// OpenFOAM polyMesh, docs/method/formats_solvers.md, "OpenFOAM".
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Gmsh MSH of volumes, formats.md section 8.1.
+// Gmsh MSH of volumes, docs/method/formats_surfaces.md, "Gmsh MSH".
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// SU2's native text mesh, formats.md section 2.
+// SU2's native text mesh, docs/method/formats.md, "SU2".
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ namespace sterna::io {
 /// \throws Error overflow (a count beyond SU2's 2^31-1), mesh_invalid (a coordinate is not finite, a face without patch), write_failed, cancelled.
 void write_volume_su2(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
-/// Reads a 3D mesh with all variants of formats.md 2.2: either order of NPOIN and NELEM, blanks around '=', trailing indices, comment and blank lines, CRLF,
-/// old SEND_RECEIVE markers (dropped), several zones (joined; markers of the same name become one patch). Cells in a wrong winding are flipped and boundary
-/// faces turned outwards; both are counted in the log. A marker's kind follows from its name as in CEASIOMpy: farfield, symmetry, else wall.
-/// \throws Error file_malformed (line number and expectation), unsupported_format (a plane mesh), file_not_found.
+/// Reads a 3D mesh with all variants of docs/method/formats.md, "SU2 variants": either order of NPOIN and NELEM, blanks around '=', trailing indices, comment
+/// and blank lines, CRLF, old SEND_RECEIVE markers (dropped), several zones (joined; markers of the same name become one patch). Cells in a wrong winding are
+/// flipped and boundary faces turned outwards; both are counted in the log. A marker's kind follows from its name as in CEASIOMpy: farfield, symmetry, else
+/// wall. \throws Error file_malformed (line number and expectation), unsupported_format (a plane mesh), file_not_found.
 HybridMesh read_volume_su2(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

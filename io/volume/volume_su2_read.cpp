@@ -1,5 +1,5 @@
-// SU2 reader, formats.md 2.2. Steps: index_zones finds the blocks; read_points; count_cells per chunk, so that each chunk knows its place in the arrays;
-// read_cells; orient_mesh repairs windings. The text is never copied; parsing is parallel over chunks of lines.
+// SU2 reader, docs/method/formats.md, "SU2 variants". Steps: index_zones finds the blocks; read_points; count_cells per chunk, so that each chunk knows its
+// place in the arrays; read_cells; orient_mesh repairs windings. The text is never copied; parsing is parallel over chunks of lines.
 #include <array>
 #include <optional>
 #include <utility>

@@ -1,4 +1,4 @@
-// DLR TAU primary grids in NetCDF, with the boundary mapping beside them: formats.md section 4.
+// DLR TAU primary grids in NetCDF, with the boundary mapping beside them: docs/method/formats_solvers.md, "TAU".
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// UGRID (AFLR3) volume meshes, formats.md section 8.3.
+// UGRID (AFLR3) volume meshes, docs/method/formats_solvers.md, "UGRID".
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// VTKHDF of volume meshes, formats.md section 6.3.
+// VTKHDF of volume meshes, docs/method/formats.md, "VTKHDF".
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// VTU of volume meshes, formats.md section 6.2.
+// VTU of volume meshes, docs/method/formats.md, "VTU and VTP".
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 namespace sterna::scripting {
 
 class StageCache;    // stage_cache.h
-class ReferenceUse;  // series/kept_reference.h
+class ReferenceUse;  // scripting/values/kept_reference.h
 
 struct Reuse {
   const StageCache* cache = nullptr;          ///< null: everything is made anew

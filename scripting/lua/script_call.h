@@ -82,7 +82,7 @@ struct ScriptVerb {
   bool is_heavy =
       false;  ///< works long or writes: left out when a script is only checked; dead meshes are collected first, as Lua does not see how large they are
   std::string_view gives = {};  ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: something else
-  bool is_kept = false;         ///< a model that it gives is taken from the cache where it is there (cache/cached_model.h)
+  bool is_kept = false;         ///< a model that it gives is taken from the cache where it is there (values/cached_model.h)
 };
 
 /// Pushes a verb as a Lua function. May raise.

@@ -21,7 +21,7 @@ namespace {
 using volmesh::FindingKind;
 using volmesh::InspectReport;
 
-// Seconds of one thread, fitted to all files of shared/data (tests/bench/foresee_surfaces prints them beside what was measured).
+// Seconds of one thread, fitted to all files of tests/data/shared; the program that fitted them is not kept.
 constexpr double k_start_seconds = 0.05;       ///< of any of them
 constexpr double k_repair_of_facet = 1e-5;     ///< welding, seams, distances
 constexpr double k_repair_of_hull = 0.15;      ///< where facets cross: mostly samples of distances

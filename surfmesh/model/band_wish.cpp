@@ -40,7 +40,8 @@ BandWishes band_wishes(const std::string& name, BandWishes wishes, double refine
     overrule(wishes.leading.growth, rule.leading_edge_growth);
     overrule(wishes.trailing.growth, rule.trailing_edge_growth);
   }
-  // The next mesh of a family: lengths by the factor, so many more cells, and of the growth the root that belongs to it (quality.md section 1).
+  // The next mesh of a family: lengths by the factor, so many more cells, and of the growth the root that belongs to it (docs/method/quality.md, "Mesh
+  // families").
   for (BandWish* wish : {&wishes.leading, &wishes.trailing}) {
     wish->chordwise /= refinement;
     wish->growth = std::pow(wish->growth, 1.0 / refinement);

@@ -1,4 +1,5 @@
-// How far the walls of a mesh are from the model they were made of: gates G17 (nodes off the model) and G18 (facets turned against it) of quality.md.
+// How far the walls of a mesh are from the model they were made of: gates G17 (nodes off the model) and G18 (facets turned against it) of
+// docs/method/quality.md, "Gates".
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Component defaults (sumo.md section 2).
+/// Component defaults (docs/method/surface.md, "Component defaults").
 constexpr double k_of_circumference = 0.08;
 constexpr double k_of_chord = 0.15;
 constexpr double k_of_longest_side = 0.02;

@@ -11,7 +11,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Strips beside tips, in spans, and their factors (sumo.md section 2).
+/// Strips beside tips, in spans, and their factors (docs/method/surface.md, "Factors on wings").
 struct Strip {
   double width, factor;
 };

@@ -15,8 +15,8 @@ namespace sterna::surfmesh {
 struct ModelSizes;
 struct SpaceSizes;
 
-/// Factors of the largest edge over a wing (sumo.md section 2): at its leading and trailing edges, blending to one over a quarter of the way around the
-/// section; in strips beside its tips.
+/// Factors of the largest edge over a wing (docs/method/surface.md, "Factors on wings"): at its leading and trailing edges, blending to one over a quarter of
+/// the way around the section; in strips beside its tips.
 class WingFactors {
  public:
   struct Line {

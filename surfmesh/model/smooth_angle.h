@@ -1,4 +1,4 @@
-// How far the triangles turn where the model does not: what a feature angle has to exceed (method.md section 1).
+// How far the triangles turn where the model does not: what a feature angle has to exceed (docs/method/envelope.md, "Feature angle").
 #pragma once
 
 #include "surfmesh/model/mesh_faces.h"

@@ -1,4 +1,4 @@
-// From a model to one watertight triangulation: sizes, edges cut once, faces meshed in parallel, joined (method.md section 0, recipes.md section 2).
+// From a model to one watertight triangulation: sizes, edges cut once, faces meshed in parallel, joined (docs/method/surface.md).
 #pragma once
 
 #include <array>

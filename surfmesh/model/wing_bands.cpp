@@ -19,7 +19,7 @@ namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 constexpr double k_smooth_turn = 20.0 * k_degree;
-/// Triangles beyond that are of no use even below prisms (recipes.md section 2).
+/// Triangles beyond that are of no use even below prisms (docs/method/surface.md, "Wing edges and bands").
 constexpr double k_largest_stretch = 50.0;
 /// A use of an edge, or of one that is the same.
 struct Side {

@@ -1,5 +1,5 @@
 // Leading and trailing edges of wings that get bands of stretched triangles, and bases of blunt trailing edges that become strips of a stated number of cells:
-// which edges of the model they are, how they are cut, and what other sizes they overrule. Based on recipes.md section 2 (wing-aware anisotropy).
+// which edges of the model they are, how they are cut, and what other sizes they overrule. Rules: docs/method/surface.md, "Wing edges and bands".
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What makes an edge a leading or a trailing one, of CAD and of triangulations alike. Based on recipes.md section 2.
+// What makes an edge a leading or a trailing one, of CAD and of triangulations alike. Rules: docs/method/surface.md, "Wing edges and bands".
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ enum class BandKind { leading, trailing };
 
 /// Normals at so many places of an edge decide what it is; one may say something else (a nick at a junction).
 inline constexpr std::size_t k_looks = 9, k_agreeing = 8;
-/// "Sharp" as in method.md section 1.
+/// "Sharp" as in docs/method/envelope.md, "Vertex classes".
 inline constexpr double k_sharp_turn = 120.0 * k_degree;
 /// Between a base and the sides of the wing.
 inline constexpr double k_base_turn_from = 40.0 * k_degree, k_base_turn_to = 140.0 * k_degree;

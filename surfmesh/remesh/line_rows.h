@@ -1,4 +1,5 @@
-// Lines of a triangulation that are trailing or leading edges and get rows of stretched triangles, as surface_mesh lays them on CAD (recipes.md section 2).
+// Lines of a triangulation that are trailing or leading edges and get rows of stretched triangles, as surface_mesh lays them on CAD (docs/method/surface.md,
+// "Wing edges and bands").
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // New triangles for a triangulated surface: sizes by curvature as of surface_mesh on CAD, sharp edges and patches kept, vertices on a smooth reconstruction of
-// the input (dirty.md: the third strength).
+// the input (docs/method/surface.md, "Sliver triangles": the third repair).
 #pragma once
 
 #include <array>
@@ -79,7 +79,7 @@ struct RemeshReport {
   RowReport rows;
 };
 
-/// An angle below this is a needle's (dirty.md), rad.
+/// An angle below this is a needle's (docs/method/surface.md, "Sliver triangles"), rad.
 inline constexpr double k_needle_angle = 8.0 * std::numbers::pi / 180.0;
 
 /// Triangles turned by more from the smooth surface are no likeness of it, rad.

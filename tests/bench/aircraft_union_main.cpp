@@ -1,5 +1,5 @@
 // Table of aircraft files: components, how they unite, how long it takes, and what remains of area and volume after a STEP export.
-// usage: aircraft_union [--threads N] [--verbose] [--step FOLDER] FILE ...   (docs/aircraft_union.md holds its output for ../shared/data)
+// usage: aircraft_union [--threads N] [--verbose] [--step FOLDER] FILE ...   (docs/aircraft_union.md holds its output for tests/data/shared)
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Table of CAD files: what is in them, what was mended, whether they close, and what remains of area and volume after a STEP export.
-// usage: cad_table FILE ...   (docs/cad_files.md holds its output for ../shared/data/cad)
+// usage: cad_table FILE ...   (docs/cad_files.md holds its output for cad.tar.xz of tests/data/shared)
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// All optimisers of the envelope from the same start, with the same upper heights, on real surfaces (method.md §6). For each surface a table as Markdown:
-// objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time. usage:
-// compare_optimisers [options] surface...        with the settings of shared/data/baselines.md: 35 layers, first height 1e-6 body lengths
+// All optimisers of the envelope from the same start, with the same upper heights, on real surfaces (docs/method/optimisation.md). For each surface a table as
+// Markdown: objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time. usage:
+// compare_optimisers [options] surface...        with the settings of docs/measurements.md: 35 layers, first height 1e-6 body lengths
 //   --evaluations=300   of NLopt (own methods stop by themselves, at 30 sweeps or evaluations)
 //   --solvers=a,b,...   of the names in solvers() below; default all
 //   --slack=      of NLopt's constraint (NloptSettings::slack)

@@ -1,5 +1,5 @@
 // Skew (13), coverage, heights and the certificate's minima of the extruded layer, with and without the optimiser, with the settings of
-// shared/data/baselines.md. usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME
+// docs/measurements.md. usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME
 // none|descent counts..." (tests/tools/draw_skew.py draws them). Several parts of one body: PART+PART+...
 #include <algorithm>
 #include <array>

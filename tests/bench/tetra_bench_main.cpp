@@ -1,4 +1,4 @@
-// What the engines make of real surfaces, with the settings of ../shared/data/baselines.md: 35 layers, first height 1e-6 of the body length L, growth at
+// What the engines make of real surfaces, with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L, growth at
 // most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L. usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...
 // parts of one body are joined with +: wing.stl+flap.stl One table row for each surface and engine. "ours" is everything of the stage but the engine's own run:
 // boundary, size field, transfer, process, verification. That the boundary comes back to the bit is proven in each run (verify.h); a row that could not be made

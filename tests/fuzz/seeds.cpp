@@ -17,7 +17,7 @@ std::array<NodeId, N> nodes(const std::uint32_t (&numbers)[N]) {
   return result;
 }
 
-/// A hexahedron, a pyramid on its top, a prism at its side, a tetrahedron between these (mix4 of formats.md).
+/// A hexahedron, a pyramid on its top, a prism at its side, a tetrahedron between these (mix4 of docs/method/formats.md, "Sample meshes").
 HybridMesh four_cells() {
   HybridMesh mesh;
   mesh.points.raw() = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},     {0, 1, 0},   {0, 0, 1},   {1, 0, 1},

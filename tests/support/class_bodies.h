@@ -1,4 +1,4 @@
-// Bodies that show one class of vertices each (method.md §1).
+// Bodies that show one class of vertices each (docs/method/envelope.md, "Vertex classes").
 #pragma once
 
 #include "geom/mesh/tri_mesh.h"

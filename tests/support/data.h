@@ -13,7 +13,7 @@ std::filesystem::path source_folder();
 std::filesystem::path build_folder();
 /// tests/data of the repository.
 std::filesystem::path corpus();
-/// The real inputs (unpacked tests/data/shared), by their paths in ../shared/data.
+/// The real inputs (unpacked tests/data/shared), by their paths in the archives.
 std::filesystem::path shared_data();
 /// False where the build could not unpack the real inputs.
 bool has_shared_data();

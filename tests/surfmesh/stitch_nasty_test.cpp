@@ -96,7 +96,7 @@ TEST(StitchNasty, EveryFileGetsItsVerdict) {
 
 struct Clean {
   std::vector<std::string> files;
-  std::size_t n_triangles;  ///< PROVENANCE.md
+  std::size_t n_triangles;  ///< tests/data/shared/README.md
   int n_components;         ///< tests/tools/surface_verdict.py
 };
 

@@ -8,7 +8,7 @@
 
 namespace sterna::volmesh {
 
-/// A disc, or a ring around a hub. Where walls with layers go through it within its radii, it ends on them (discs/cut_discs.h).
+/// A disc, or a ring around a hub. Where walls with layers go through it within its radii, it ends on them (domain/cut_discs.h).
 struct ActuatorDisc {
   std::string name = "disc";  ///< patch on the upstream side; the downstream side is <name>.back
   Point center;               ///< m

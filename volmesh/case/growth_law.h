@@ -19,7 +19,7 @@ double growth_for_height(double h0, double height, int n);
 /// Writes n + 1 values to `t`; the last one is exactly 1.
 void layer_parameters(double h0, double height, int n, double* t);
 
-/// How the cells of one line grow from the wall up. [method.md section 8; docs/heights.md]
+/// How the cells of one line grow from the wall up. [docs/method/prisms.md, "Growth of one line"; docs/heights.md]
 ///
 /// Local: by one ratio, which each line has for itself, eq. (11). The centroid of a prism whose corner heights are in proportions that change from one layer to
 /// the next by a share s moves sideways by s/4 of an edge e, so the face between two flat cells of height h leans by atan(s e / 4 h): 0.1 % are 68 degrees at

@@ -10,7 +10,8 @@
 
 namespace sterna::volmesh {
 
-/// Layers of first height h0, number n, largest growth r and total height H; H automatic: by the edges of the wall, eq. (1) of method.md.
+/// Layers of first height h0, number n, largest growth r and total height H; H automatic: by the edges of the wall, eq. (1) of docs/method/envelope.md,
+/// "Heights".
 struct LayerChoice {
   int layers = 0;
   double first_height = k_automatic;  ///< m
@@ -28,9 +29,9 @@ LayerChoice solve_layers(LayerChoice asked, std::string_view solve_for, std::str
 /// \throws Error(bad_argument) when all three or only the total height are given
 std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::string_view attempted);
 
-/// The member `options.family.refinement` of the family of which the options describe the medium one (quality.md section 1): first heights h0/f, growth
-/// r^(1/f), n f layers (rounded), sizes, edges of sources, discs and farfield divided by f, growth of tetrahedra 1 + (g - 1)/f. Total heights, angles and
-/// shapes stay. Its own refinement is 1.
+/// The member `options.family.refinement` of the family of which the options describe the medium one (docs/method/quality.md, "Mesh families"): first heights
+/// h0/f, growth r^(1/f), n f layers (rounded), sizes, edges of sources, discs and farfield divided by f, growth of tetrahedra 1 + (g - 1)/f. Total heights,
+/// angles and shapes stay. Its own refinement is 1.
 MeshCase refined(MeshCase options);
 
 /// refined(), then the layers of all walls solved for; what was found goes to the log.

@@ -19,7 +19,7 @@
 
 namespace sterna::volmesh {
 
-/// A patch without layers on which layers end. It is triangulated anew around the layer's footprint (ends/close_ends.h).
+/// A patch without layers on which layers end. It is triangulated anew around the layer's footprint (rims/close_ends.h).
 struct EndPatch {
   PatchId patch;                  ///< of Domain::outer
   std::int32_t surface = -1;      ///< of Domain::constraints.surfaces
@@ -46,7 +46,7 @@ struct PeriodicEnds {
   std::vector<std::array<VertexId, 2>> vertices;  ///< partners, of Domain::outer
 };
 
-/// An actuator disc that ends on walls with layers. The wall stays closed there; its columns are parted when the layer is known (discs/slits.h).
+/// An actuator disc that ends on walls with layers. The wall stays closed there; its columns are parted when the layer is known (rims/slits.h).
 struct DiscSlit {
   std::size_t disc = 0;                            ///< index of MeshCase::discs
   PatchId patch, back;                             ///< of Domain::outer: the upstream and the downstream side

@@ -1,4 +1,4 @@
-// Private to volmesh/outer: rims that lie nearly in a plane.
+// Private to volmesh/domain: rims that lie nearly in a plane.
 #pragma once
 
 #include "geom/base/run_context.h"

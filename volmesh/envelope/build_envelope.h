@@ -1,4 +1,4 @@
-// The envelope from start to end: the list of steps of method.md §§1-6.
+// The envelope from start to end: the list of steps of docs/method/envelope.md and docs/method/optimisation.md.
 #pragma once
 
 #include "volmesh/envelope/classify.h"

@@ -8,8 +8,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_sharp_angle = 120.0 * std::numbers::pi / 180.0;      ///< method.md §1
-constexpr double k_ridge_bend_limit = 60.0 * std::numbers::pi / 180.0;  ///< method.md §1
+constexpr double k_sharp_angle = 120.0 * std::numbers::pi / 180.0;      ///< docs/method/envelope.md, "Vertex classes"
+constexpr double k_ridge_bend_limit = 60.0 * std::numbers::pi / 180.0;  ///< docs/method/envelope.md, "Vertex classes"
 
 Vec3 mirrored(const Vec3& v, const Vec3& normal) { return v - (2.0 * dot(v, normal)) * normal; }
 

@@ -1,4 +1,4 @@
-// Vertex classification from local geometry only (method.md §1, [ET15 §3.2.1]).
+// Vertex classification from local geometry only (docs/method/envelope.md, "Vertex classes"; [ET15 §3.2.1]).
 #pragma once
 
 #include <cstdint>

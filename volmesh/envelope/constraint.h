@@ -1,5 +1,5 @@
 // Where an envelope vertex may go: free, in a plane, on a surface, on the line of two planes, or fixed on the wall. Rims of walls that end on a symmetry
-// plane or a tunnel wall carry such constraints, so that the layer ends flush with it (method.md, "half models").
+// plane or a tunnel wall carry such constraints, so that the layer ends flush with it (docs/method/envelope.md, "Half models").
 #pragma once
 
 #include <array>

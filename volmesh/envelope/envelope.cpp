@@ -10,7 +10,7 @@ namespace {
 constexpr double k_least_of_target = 0.01;
 /// Of h: the least normal height that the layer law is given (a line at 84 degrees to the wall normal).
 constexpr double k_min_normal_share = 0.1;
-/// Share of n h0 below which a layer is no longer worth its cells (method.md §4).
+/// Share of n h0 below which a layer is no longer worth its cells (docs/method/envelope.md, "Warp").
 constexpr double k_min_height_share = 0.2;
 
 }  // namespace

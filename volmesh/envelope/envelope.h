@@ -31,7 +31,7 @@ struct EnvelopeShape {
 };
 
 struct Envelope : EnvelopeShape {
-  Column<VertexId, double> target;  ///< m, h_target of method.md §2
+  Column<VertexId, double> target;  ///< m, h_target of docs/method/envelope.md, "Heights"
   Column<VertexId, double> eq1;     ///< m, height by eq. (1) without caps
   Column<VertexId, double> cap;     ///< m, largest height that the stages so far allow (starts as target)
   Column<VertexId, HeightLimit> limit;
@@ -55,7 +55,7 @@ inline double thickness_limit(double max_thickness, double total_height, double 
   return total_height > usual ? total_height : usual;
 }
 
-/// Of a first height that counts as met (G11 of quality.md).
+/// Of a first height that counts as met (G11 of docs/method/quality.md, "Gates").
 inline constexpr double k_first_cell_slack = 0.02;
 /// Largest first step along a vertex's normal over the first height above its facets.
 inline constexpr double k_most_lean = 2.0;
@@ -70,7 +70,7 @@ class EnvelopeScale {
   int n(VertexId v) const { return demand_->is_empty() ? layers_ : demand_->layers[v]; }                  ///< layers
   double max_growth(VertexId v) const { return demand_->is_empty() ? max_growth_ : demand_->max_growth[v]; }
   double max_thickness(VertexId v) const { return demand_->is_empty() ? max_thickness_ : demand_->max_thickness[v]; }  ///< m
-  /// m, what all layers together are to have; automatic: eq. (1) of method.md.
+  /// m, what all layers together are to have; automatic: eq. (1) of docs/method/envelope.md, "Heights".
   double total_height(VertexId v) const { return demand_->is_empty() ? total_height_ : demand_->total_height.empty() ? k_automatic : demand_->total_height[v]; }
   /// m, what the first cell of the line at v is to have along the vertex's normal. Where lines grow alike (growth = "uniform"), first heights are those above
   /// the facets, in their mean: h0 over the mean cosine between the vertex's normal and theirs, at most k_most_lean h0.
@@ -90,7 +90,7 @@ class EnvelopeScale {
     return has_common_growth_ ? (1.0 - k_first_cell_slack) * height_for_first_cell(growth(v), n) : n * h0(v);
   }
   double compressed(VertexId v) const { return n(v) * h0(v); }  ///< m, n h0: a layer that is lower cannot have its first height
-  double h_min(VertexId v) const;                               ///< m, 0.2 n h0: below it a vertex collapses (method.md §4)
+  double h_min(VertexId v) const;                               ///< m, 0.2 n h0: below it a vertex collapses (docs/method/envelope.md, "Warp")
   int most_layers() const { return most_layers_; }
   /// The smallest max(h0, h_min) of all vertices, m: what an optimiser may lower heights to.
   double least_height() const { return least_height_; }

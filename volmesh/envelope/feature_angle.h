@@ -1,4 +1,4 @@
-// The angle beyond which an edge is a feature, from the surface itself (method.md §1).
+// The angle beyond which an edge is a feature, from the surface itself (docs/method/envelope.md, "Feature angle").
 #pragma once
 
 #include "geom/base/run_context.h"

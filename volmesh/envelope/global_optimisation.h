@@ -1,4 +1,4 @@
-// Stage 6 of the envelope (method.md §6): runs the optimiser that the options name and puts its result in force where the layer stays clear.
+// Stage 6 of the envelope (docs/method/optimisation.md): runs the optimiser that the options name and puts its result in force where the layer stays clear.
 #pragma once
 
 #include "volmesh/envelope/collide.h"

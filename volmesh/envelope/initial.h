@@ -1,4 +1,4 @@
-// Initial envelope: growth directions and target heights (method.md §2, [ET15 §3.2.2]).
+// Initial envelope: growth directions and target heights (docs/method/envelope.md, "Growth directions" and "Heights"; [ET15 §3.2.2]).
 #pragma once
 
 #include "volmesh/envelope/classify.h"

@@ -1,4 +1,4 @@
-// Room for the tetrahedra: the top of the layer keeps a real distance from what it faces (layer-quality.md section 4).
+// Room for the tetrahedra: the top of the layer keeps a real distance from what it faces (docs/method/envelope.md, "Room for tetrahedra").
 #pragma once
 
 #include "volmesh/envelope/collide.h"

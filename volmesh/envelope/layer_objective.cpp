@@ -10,7 +10,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Bounds that are closer than this ratio fix the vertex (method.md §6).
+/// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
 constexpr double k_min_bound_ratio = 1.05;
 constexpr double k_far = 0.2;            ///< slack above which hold_back() lets an element have any step
 constexpr double k_wide_reserve = 0.01;  ///< slack above the wide margins that an element has at the start to get them

@@ -1,5 +1,5 @@
 // What our optimiser minimises: the paper's f_1 + f_2, optionally the same orthogonality at the envelope (f_3), and a barrier on every way in which a
-// macro-element can become invalid (method.md §6, [ET15 §3.2.6]; barrier on the Jacobian: Garanzha et al. 2021).
+// macro-element can become invalid (docs/method/optimisation.md, "Own objective"; [ET15 §3.2.6]; barrier on the Jacobian: Garanzha et al. 2021).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Stage 6 by our own methods (method.md §6): feasible start, barrier on every macro-element, no step that leaves validity.
+// Stage 6 by our own methods (docs/method/optimisation.md, "Own objective"): feasible start, barrier on every macro-element, no step that leaves validity.
 #pragma once
 
 #include <string>
@@ -31,10 +31,10 @@ struct OptimiseReport {
   std::string_view stopped;             ///< why
 };
 
-/// Upper heights for the optimisation: what stage 5 left where layers or gaps limit it, else the cap (method.md §6).
+/// Upper heights for the optimisation: what stage 5 left where layers or gaps limit it, else the cap (docs/method/optimisation.md, "Bounds").
 Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& envelope);
 
-/// Of the start's smallest scaled Jacobian, what every element keeps (method.md §6).
+/// Of the start's smallest scaled Jacobian, what every element keeps (docs/method/optimisation.md, "Acceptance").
 inline constexpr double k_quality_share = 0.9;
 /// Smallest wedge_quality of the macro-elements that are prisms; 1 when there are none.
 double smallest_scaled_jacobian(const LayerBase& base, const Envelope& envelope, const RunContext& context);

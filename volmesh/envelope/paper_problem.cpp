@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Bounds that are closer than this ratio fix the vertex (method.md §6).
+/// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
 constexpr double k_paper_bound_ratio = 1.05;
 /// Tangential unknowns may reach this many h_u: 63 degrees from the normal at full height. A start further out has room for half as much again.
 constexpr double k_tangent_reach = 2.0;

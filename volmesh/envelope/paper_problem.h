@@ -1,4 +1,5 @@
-// The paper's optimisation problem (3)-(9) over one envelope, with analytic gradients (method.md §6, [ET15 §3.2.6]). Knows nothing of solvers.
+// The paper's optimisation problem (3)-(9) over one envelope, with analytic gradients (docs/method/optimisation.md, "Optimisation problem"; [ET15 §3.2.6]).
+// Knows nothing of solvers.
 #pragma once
 
 #include <cstdint>

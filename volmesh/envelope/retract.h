@@ -1,4 +1,4 @@
-// Collision avoidance between opposing layers (method.md §5, [ET15 §3.2.5]).
+// Collision avoidance between opposing layers (docs/method/envelope.md, "Opposing layers"; [ET15 §3.2.5]).
 #pragma once
 
 #include "volmesh/envelope/collide.h"

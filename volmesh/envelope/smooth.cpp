@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_relaxation = 0.5;  ///< method.md §2
+constexpr double k_relaxation = 0.5;  ///< docs/method/envelope.md, "Smoothing"
 /// Smoothing of the envelope may lower a height to this share of its ceiling: well above the 0.9 that counts as full height.
 constexpr double k_smooth_floor = 0.94;
 /// Directions may tilt until their faces are seen at 65 degrees, or half the best possible cosine.

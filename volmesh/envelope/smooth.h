@@ -1,4 +1,4 @@
-// Flag-dependent Jacobi smoothing of heights, growth directions and the envelope itself (method.md §2, [ET15 §3.2.2]).
+// Flag-dependent Jacobi smoothing of heights, growth directions and the envelope itself (docs/method/envelope.md, "Smoothing"; [ET15 §3.2.2]).
 #pragma once
 
 #include "volmesh/envelope/classify.h"

@@ -191,8 +191,8 @@ std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<Tr
 }
 
 /// Surrounds collapsed vertices, but for rims of sheets, by a ring of low ones, from which the height rises by at most k_step_gradient; returns what was
-/// lowered. The ring is compressed (method.md §4); where all lines grow alike it rises by k_ring_gradient: lines a few first heights tall would have cells of a
-/// millionth of their neighbours' heights, and faces between stacked cells at 89.9 degrees.
+/// lowered. The ring is compressed (docs/method/envelope.md, "Warp"); where all lines grow alike it rises by k_ring_gradient: lines a few first heights tall
+/// would have cells of a millionth of their neighbours' heights, and faces between stacked cells at 89.9 degrees.
 std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
   std::vector<VertexId> all, front;
   for (const VertexId v : vertices) {

@@ -6,8 +6,8 @@
 
 namespace sterna::volmesh {
 
-/// Where the growth lines of an edge converge, limits both heights by the law of sines, eq. (2) corrected (method.md §3), to untangle_share of the
-/// height where they would meet; then smooths heights in the 2-ring of every limited vertex.
+/// Where the growth lines of an edge converge, limits both heights by the law of sines, eq. (2) corrected (docs/method/envelope.md, "Untangling"), to
+/// untangle_share of the height where they would meet; then heights beside limited vertices get no steeper than level_steps() allows, three rings far.
 void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
 /// Lowers heights so that they rise by at most one edge length per edge beside lower (standing) neighbours, `sweeps` rings far.
@@ -17,9 +17,9 @@ void level_steps(const LayerBase& base, const EnvelopeOptions& options, int swee
 /// \pre directions are unit vectors.
 std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const Point& p2, const Vec3& d2);
 
-/// Lowers heights to the largest values for which every macro-element is valid with margin (method.md §4); collapses vertices below h_min, and surrounds
-/// what it collapses by compressed ones. Ends by construction: after a number of rounds elements that are still invalid collapse.
-/// With `suspects`, only elements at these vertices are looked at first: the others are known to be valid.
+/// Lowers heights to the largest values for which every macro-element is valid with margin (docs/method/envelope.md, "Warp"); collapses vertices below h_min,
+/// and surrounds what it collapses by compressed ones. Ends by construction: after a number of rounds elements that are still invalid collapse. With
+/// `suspects`, only elements at these vertices are looked at first: the others are known to be valid.
 /// \post invalid_macros() is empty. Returns the vertices that it lowered, ascending.
 std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
                              const std::vector<VertexId>* suspects = nullptr);

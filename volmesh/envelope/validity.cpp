@@ -12,7 +12,7 @@ namespace {
 
 /// g_1,min of eq. (6): the envelope triangle keeps this share of the wall triangle's area, projected on the wall.
 constexpr double k_min_area_share = 0.01;
-/// Smallest cosine between envelope normal and growth edge (warp, method.md §4), unless the wall triangle is itself seen more flatly.
+/// Smallest cosine between envelope normal and growth edge (warp, docs/method/validity.md, "Margins"), unless the wall triangle is itself seen more flatly.
 constexpr double k_min_warp_cosine = 0.05;
 constexpr double k_warp_share_of_wall = 0.2;
 /// Up to this share of the vertices it is cheaper to list their triangles than to look at all.

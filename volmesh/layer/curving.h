@@ -1,4 +1,4 @@
-// Wall perpendicularity c_t of eq. (12) as a field over the wall: full where the layer allows it, less around the lines that need it (recipes.md, heights,
+// Wall perpendicularity c_t of eq. (12) as a field over the wall: full where the layer allows it, less around the lines that need it (docs/method/prisms.md,
 // "Curving").
 #pragma once
 

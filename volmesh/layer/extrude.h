@@ -1,4 +1,4 @@
-// Extrusion of the layer: nodes on curved lines between wall and envelope, and the repair of invalid cells (method.md §8, [ET15 §3.4]).
+// Extrusion of the layer: nodes on curved lines between wall and envelope, and the repair of invalid cells (docs/method/prisms.md, "Repair"; [ET15 §3.4]).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// One wall-normal line of the layer: where its nodes are (method.md §8, [ET15 eqs. (10)-(12)]).
+// One wall-normal line of the layer: where its nodes are (docs/method/prisms.md, "Line nodes"; [ET15 eqs. (10)-(12)]).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What became of the layer, measured against h_target (method.md §2).
+// What became of the layer, measured against h_target (docs/method/envelope.md, "Heights").
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct InterfaceReport {
   double within_of_full = 0.0;  ///< `within` of the triangles with full height at all corners: elsewhere the layer had to be compressed
 };
 
-/// What became of the layer; see method.md §2 for h_target.
+/// What became of the layer; see docs/method/envelope.md, "Heights", for h_target.
 struct LayerReport {
   double body_length = 0.0;        ///< m
   double coverage = 0.0;           ///< share of wall area with a height along the wall's normal >= 0.9 h_target

@@ -1,4 +1,5 @@
-// Splits of the tetrahedra's boundary carried down to the wall: envelope and wall stay topologically equal (method.md §7, [ET15 §3.3]).
+// Splits of the tetrahedra's boundary carried down to the wall: envelope and wall stay topologically equal (docs/method/tetrahedra.md, "Boundary splits"; [ET15
+// §3.3]).
 #pragma once
 
 #include <memory>

@@ -23,7 +23,7 @@ struct CloseEndsOptions {
   std::function<double(const Point&)> size = {};  ///< longest edge, m; may be empty
 };
 
-/// Without rims the outer boundary as it is. Discs that end on walls are left out (discs/slits.h adds them). Of periodic sides the second has the triangles of
+/// Without rims the outer boundary as it is. Discs that end on walls are left out (rims/slits.h adds them). Of periodic sides the second has the triangles of
 /// the first, moved. Common edges of end patches keep their polygon beyond the layer, with new vertices there; end patches whose triangulation has vertices
 /// inside keep its edge lengths as an upper limit.
 /// Where a fan of an opened ridge stands in an end patch, its tops are part of the footprint.

@@ -1,4 +1,4 @@
-// The first of two passes tells the second how long its edges are to be (method.md §7, [ET15 §3.3]).
+// The first of two passes tells the second how long its edges are to be (docs/method/tetrahedra.md, "Two passes"; [ET15 §3.3]).
 #pragma once
 
 #include "geom/base/run_context.h"

@@ -33,7 +33,7 @@ BigRational determinant(const RationalVector& a, const RationalVector& b, const 
 BigRational jacobian(const WedgePoints& p, std::size_t k, const BigRational& z) {
   return determinant(blend(vector(p[0], p[1]), vector(p[3], p[4]), z), blend(vector(p[0], p[2]), vector(p[3], p[5]), z), vector(p[k], p[k + 3]));
 }
-/// method.md section 6, literally.
+/// docs/method/validity.md, "Exact wedge test", literally.
 bool reference_is_valid(const WedgePoints& p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const BigRational b0 = jacobian(p, k, 0), b2 = jacobian(p, k, 1);

@@ -1,4 +1,5 @@
-// The definitions of quality.md §2 written down as they stand: one loop over cells, faces and edges, maps for everything. Slow; for small meshes.
+// The definitions of docs/method/quality.md, "Median dual" written down as they stand: one loop over cells, faces and edges, maps for everything. Slow; for
+// small meshes.
 #pragma once
 
 #include "geom/mesh/dual_metrics.h"

@@ -162,7 +162,7 @@ void add_structured_cube(std::uint32_t n, const Vec3& low, double side, bool is_
 }
 
 /// Four points of each square are on one circle, and the flips that recover the wanted diagonals leave a mesh that is far from Delaunay: cavities of a thousand
-/// tetrahedra fell apart, and a quarter of a thousand stayed that lie flat over half a face (issue 42, D5).
+/// tetrahedra fell apart, and a quarter of a thousand stayed that lie flat over half a face.
 TEST(TetRefine, StructuredPlaneFacesLeaveNothingFlatAndLong) {
   std::vector<Vec3> points;
   std::vector<Facet> facets;

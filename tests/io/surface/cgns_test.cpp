@@ -30,7 +30,7 @@ TEST(SurfaceCgns, VolumeSamplesGiveTheirBoundary) {
 TEST(SurfaceCgns, WallsOfStructuredBlocks) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = read_surface(shared_data() / "surfaces/nasty/mdo_717_cgns_717_wl_L2.cgns");
-  EXPECT_EQ(triangles_by_patch(soup), (std::map<std::string, int>{{"wall", 1512}}));  // PROVENANCE.md
+  EXPECT_EQ(triangles_by_patch(soup), (std::map<std::string, int>{{"wall", 1512}}));  // tests/data/shared/README.md
 }
 
 TEST(SurfaceCgns, RoundTripInBothContainers) {

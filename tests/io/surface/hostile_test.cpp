@@ -32,7 +32,7 @@ class MemoryFolder {
   std::filesystem::path path_;
 };
 
-/// Small files of tests/data/io, and the samples of ../shared/data where it is present.
+/// Small files of tests/data/io, and the samples of tests/data/shared.
 std::vector<std::filesystem::path> victims() {
   constexpr std::uintmax_t k_small = 2500;
   std::vector<std::filesystem::path> files;

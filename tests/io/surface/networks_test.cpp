@@ -65,7 +65,7 @@ TEST(Zml, SectionsAndConditionsArePatches) {
 TEST(Zml, RealSurface) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = read_surface(shared_data() / "formats" / "real_cube1_surface.zml");
-  EXPECT_EQ(soup.points.size(), 3082u);  // formats.md 8.8
+  EXPECT_EQ(soup.points.size(), 3082u);  // docs/method/formats_surfaces.md, "ZML"
   EXPECT_EQ(triangles_by_patch(soup), (Counts{{"PID 1", 6160}}));
 }
 

@@ -1,4 +1,4 @@
-// The two-element samples of ../shared/data/formats: the same two surfaces in every format.
+// The two-element samples of tests/data/shared: the same two surfaces in every format.
 #include <cmath>
 #include <sstream>
 

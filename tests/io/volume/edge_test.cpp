@@ -36,7 +36,7 @@ TEST(Edge, SamplesByteForByte) {
   for (const std::string body : {"pt", "mix4"}) {
     SCOPED_TRACE(body);
     const HybridMesh text = read(samples / (body + ".amsh"));
-    EXPECT_NEAR(test::volume_of(text), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of formats.md, section 14, to their digits
+    EXPECT_NEAR(test::volume_of(text), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
     EXPECT_NEAR(test::enclosed_volume(text), test::volume_of(text), 1e-14);
     for (const std::string& name : {body + ".bmsh", body + ".v2.bmsh"}) {
       SCOPED_TRACE(name);

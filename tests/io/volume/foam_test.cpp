@@ -36,7 +36,7 @@ TEST(Foam, SamplesByteForByte) {
     SCOPED_TRACE(body);
     HybridMesh mesh = read(samples / (body + ".foam"));
     EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
-    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of formats.md, section 14, to their digits
+    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
     EXPECT_EQ(mesh.patches[PatchId(0)], (Patch{"wall", PatchKind::wall}));
     EXPECT_EQ(read(samples / (body + ".foam") / "constant" / "polyMesh/").points, mesh.points);

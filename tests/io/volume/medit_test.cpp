@@ -43,7 +43,7 @@ TEST(Medit, Samples) {
       SCOPED_TRACE(body + variant);
       const HybridMesh mesh = read(samples / (body + variant));
       EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
-      EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of formats.md, section 14, to their digits
+      EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
       EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
       EXPECT_EQ(mesh.patches.size(), 3u);
       const SurfaceSoup soup = read_surface_file(samples / (body + variant), RunContext({.threads = 1}));

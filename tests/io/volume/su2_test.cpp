@@ -15,7 +15,7 @@ using test::bytes_of;
 using test::expect_error;
 using test::write_text;
 
-/// The worked example of formats.md 2.1: a prism with a tetrahedron on it.
+/// The worked example of docs/method/formats.md, "Sample meshes": a prism with a tetrahedron on it.
 HybridMesh prism_and_tet() {
   HybridMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.25, 0.25, 2}};
@@ -292,7 +292,7 @@ TEST(Su2Read, Samples) {
   EXPECT_EQ(count_cells(mesh).total(), 4);
   EXPECT_EQ(mesh.boundary_triangles.size(), 8u);
   EXPECT_EQ(mesh.boundary_quads.size(), 6u);
-  EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of formats.md, section 14, to its digits
+  EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
   EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
 
   mesh = read(samples / "two.multizone.su2");

@@ -22,7 +22,7 @@ TEST(UgridRead, Samples) {
     EXPECT_NEAR(test::enclosed_volume(mesh), 2.0 / 3.0, 1e-15);
     mesh = read(samples / ("mix4" + variant + ".ugrid"));
     EXPECT_EQ(mesh.pyramids.size(), 1u);
-    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of formats.md, section 14, to its digits
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
   }
   const HybridMesh sphere = read(samples / "sphere_mixed.1.lb8.ugrid");

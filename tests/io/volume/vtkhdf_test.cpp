@@ -27,7 +27,7 @@ TEST(VtkHdfRead, Samples) {
     EXPECT_NEAR(test::enclosed_volume(mesh), 2.0 / 3.0, 1e-15);
     mesh = read(test::shared_data() / "formats" / ("mix4" + version + ".vtkhdf"));
     EXPECT_EQ(count_cells(mesh).total(), 4);
-    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of formats.md, section 14, to its digits
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
   }
 }

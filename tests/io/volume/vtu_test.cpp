@@ -140,7 +140,7 @@ TEST(VtuRead, Samples) {
     EXPECT_EQ(count_cells(mesh).total(), 4);
     EXPECT_EQ(mesh.boundary_triangles.size(), 8u);
     EXPECT_EQ(mesh.boundary_quads.size(), 6u);
-    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of formats.md, section 14, to its digits
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
   }
   const std::string lzma = replaced(test::bytes_of(samples / "pt.rawlz4.vtu"), "vtkLZ4DataCompressor", "vtkLZMADataCompressor");
   test::expect_error(ErrorCode::unsupported_format, "vtkLZMADataCompressor", [&] { read(test::write_text("lzma.vtu", lzma)); });

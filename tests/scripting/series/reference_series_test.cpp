@@ -14,7 +14,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The wing of ../shared/data bent upwards by `bend` metres in 5 m of span; placed in a tunnel-less farfield, at an angle of attack or as it was read.
+/// The wing of tests/data/shared bent upwards by `bend` metres in 5 m of span; placed in a tunnel-less farfield, at an angle of attack or as it was read.
 std::string bend_series(const std::string& cases, const std::string& options, const std::string& surface_options = "") {
   return "local model = read_cad \"" + (test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep").string() + "\"\n" +
          "series{ \"bend\", over = " + cases + ", reference = { bend = 0, alpha = 0 }, " + options + R"lua( case = function(p)

@@ -1,4 +1,4 @@
-// A real Slurm on this machine for as long as a test needs it: controller and one node on 127.0.0.1, without systemd, as root (../shared/spec/slurm.md).
+// A real Slurm on this machine for as long as a test needs it: controller and one node on 127.0.0.1, without systemd, as root.
 #pragma once
 
 #include <filesystem>

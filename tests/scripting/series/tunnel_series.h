@@ -1,4 +1,4 @@
-// A wind-tunnel series of 14 cases with a wing from ../shared/data, two of which fail on purpose: one outside of the tunnel, one with a wrong option.
+// A wind-tunnel series of 14 cases with a wing from tests/data/shared, two of which fail on purpose: one outside of the tunnel, one with a wrong option.
 #pragma once
 
 #include <string>

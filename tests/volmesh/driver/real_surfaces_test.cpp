@@ -1,4 +1,4 @@
-// Real surfaces with the settings of baselines.md (without the optimiser). The large ones are measured by tools/measure_surfaces.
+// Real surfaces with the settings of docs/measurements.md (without the optimiser). The large ones are measured by tools/measure_surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace sterna::volmesh {
 namespace {
 
 struct Case {
-  const char* file;             ///< below shared/data/surfaces
-  double asked_coverage;        ///< share of the area with lines of 0.9 h_target that issue 2 asks for; 0: the surface has not room for it
+  const char* file;             ///< below the surfaces of tests/data/shared
+  double asked_coverage;        ///< required share of the area with lines of 0.9 h_target; 0: the surface has no room for it
   bool has_open_places = true;  ///< false: every triangle of it has a vertex where the wall itself is in the way
 };
 

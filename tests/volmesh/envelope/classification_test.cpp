@@ -1,5 +1,5 @@
-// Every class of method.md §1 on a body that shows it, with the drawings of docs/classification.md; the default feature angle; visibility angles.
-// STERNA_UPDATE_DOCS=1 writes the drawings anew.
+// Every class of docs/method/envelope.md, "Vertex classes", on a body that shows it, with the drawings of docs/classification.md; the default feature angle;
+// visibility angles. STERNA_UPDATE_DOCS=1 writes the drawings anew.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -37,7 +37,7 @@ VertexId vertex_at(const TriMesh& mesh, const Point& p) {
 }
 
 TEST(EdgeHeightLimits, LawOfSinesOfTheSpecification) {
-  // method.md §3: beta 80 and 60 degrees, |e| = 1: h1 < 1.347, h2 < 1.532.
+  // docs/method/envelope.md, "Untangling": beta 80 and 60 degrees, |e| = 1: h1 < 1.347, h2 < 1.532.
   const double deg = std::numbers::pi / 180.0;
   const Vec3 d1 = {std::cos(80 * deg), std::sin(80 * deg), 0.0};
   const Vec3 d2 = {-std::cos(60 * deg), std::sin(60 * deg), 0.0};

@@ -47,7 +47,7 @@ TEST(StandardAtmosphere, ends_where_its_formulas_end) {
 
 FlowState at_reynolds(double reynolds, double length) { return flow_state({.length = length, .reynolds = reynolds}); }
 
-// aiaa-dpw.org/Workshop4/gridding_guidelines_4.html, as quality.md section 1 gives it: CRM, c_ref = 275.80 in.
+// aiaa-dpw.org/Workshop4/gridding_guidelines_4.html, as docs/method/quality.md, "Workshop guidelines", gives it: CRM, c_ref = 275.80 in.
 TEST(FirstHeight, the_spacings_of_dpw_4_within_2_percent) {
   constexpr double k_inch = 0.0254, k_chord = 275.80 * k_inch;
   struct Level {
