@@ -15,6 +15,8 @@ add_test(NAME architecture_self_test
 add_test(NAME references COMMAND ${CMAKE_SOURCE_DIR}/tools/check_references --root ${CMAKE_SOURCE_DIR})
 add_test(NAME references_self_test
          COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_references_test.py ${CMAKE_SOURCE_DIR}/tools/check_references)
+add_test(NAME prose COMMAND ${CMAKE_SOURCE_DIR}/tools/check_prose --root ${CMAKE_SOURCE_DIR})
+add_test(NAME prose_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_prose_test.py ${CMAKE_SOURCE_DIR}/tools/check_prose)
 add_test(NAME count_skips_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/count_skips_test.py ${CMAKE_SOURCE_DIR}/tools/count_skips)
 add_test(NAME bench_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/bench_test.py ${CMAKE_SOURCE_DIR}/tools/bench)
 

@@ -83,9 +83,13 @@ SEA_LEVEL = 101325.0  # Pa
 JET, FACE = 1.1, 0.4  # of the flow's rise of pressure when it is stopped: total pressure in the nozzle, pressure at the fan: engines that hardly push
 
 
+SEA_LEVEL_TEMPERATURE = 288.15  # K
+
+
 def engine_boundaries(mach: float) -> str:
     rise = SEA_LEVEL * ((1.0 + 0.2 * mach ** 2) ** 3.5 - 1.0)
-    return f", boundaries = {{ nozzle = {{ total_pressure = {SEA_LEVEL + JET * rise:.0f} }}, fan_face = {{ pressure = {SEA_LEVEL + FACE * rise:.0f} }} }}"
+    hot = f", total_temperature = {SEA_LEVEL_TEMPERATURE * (1.0 + 0.2 * mach ** 2):.2f}" if mach >= 0.3 else ""  # of a gas; the jet is as hot as the free stream
+    return f", boundaries = {{ nozzle = {{ total_pressure = {SEA_LEVEL + JET * rise:.0f}{hot} }}, fan_face = {{ pressure = {SEA_LEVEL + FACE * rise:.0f} }} }}"
 
 
 class Run:

@@ -20,7 +20,8 @@ constexpr int k_first_watched = 15, k_first_watched_in_gas = 30;  ///< iteration
 constexpr double k_place_radius = 0.02;                           ///< of the picture of a place, over the length of the flow
 
 constexpr std::string_view k_judge = R"AWK(# Reads what function objects wrote, one value or force for each iteration, and judges it.
-# awk -f judge.awk -v what=settled -v window=200 -v share=0.002 FILES        prints "settled PERCENT", "moving PERCENT" or "short"
+# awk -f judge.awk -v what=settled -v window=200 -v share=0.002 -v drag="1 0 0" -v lift="0 0 1" FILES prints "settled PERCENT", "moving PERCENT" or "short"
+# Drag and lift have settled, each over its own size; lift over the drag's where that is larger, drag over a twentieth of the lift's. Without drag: one value.
 # awk -f judge.awk -v what=bounded -v limit=680 -v first=340 -v from=15 FILES prints "diverged ITERATION SPEED FIRST_ITERATION X Y Z" or "bounded"
 /^#/ { next }
 { gsub(/[()]/, " ") }
@@ -48,13 +49,21 @@ END {
     exit
   }
   if (n < window) { print "short"; exit }
-  for (i = n - window + 1; i <= n; ++i) { mx += fx[i] / window; my += fy[i] / window; mz += fz[i] / window }
-  size = sqrt(mx * mx + my * my + mz * mz)
+  split(drag, d, " "); split(lift, l, " ")
   for (i = n - window + 1; i <= n; ++i) {
-    off = sqrt((fx[i] - mx) ^ 2 + (fy[i] - my) ^ 2 + (fz[i] - mz) ^ 2)
-    if (off > most) most = off
+    a[i] = drag == "" ? fx[i] : fx[i] * d[1] + fy[i] * d[2] + fz[i] * d[3]
+    b[i] = drag == "" ? 0 : fx[i] * l[1] + fy[i] * l[2] + fz[i] * l[3]
+    mean_a += a[i] / window; mean_b += b[i] / window
   }
-  moved = size > 0 ? most / size : 1
+  size_a = mean_a < 0 ? -mean_a : mean_a; size_b = mean_b < 0 ? -mean_b : mean_b
+  if (size_b < size_a) size_b = size_a
+  if (size_a < 0.05 * size_b) size_a = 0.05 * size_b
+  for (i = n - window + 1; i <= n && size_b > 0; ++i) {
+    off_a = (a[i] < mean_a ? mean_a - a[i] : a[i] - mean_a) / size_a; off_b = (b[i] < mean_b ? mean_b - b[i] : b[i] - mean_b) / size_b
+    if (off_a > moved) moved = off_a
+    if (off_b > moved) moved = off_b
+  }
+  if (size_b == 0) moved = 1
   printf "%s %.3g\n", moved <= share ? "settled" : "moving", 100 * moved
 }
 )AWK";
@@ -111,7 +120,7 @@ is_converged() { tail -n 200 "$log" | grep -q "solution converged"; }
 # Whether what is judged stayed within the share $2 of its mean over the last $1 iterations; $moved: percent.
 is_settled() {
   [ -n "$judged" ] || return 1
-  set -- $(awk -f system/judge.awk -v what=settled -v window="$1" -v share="$2" $(files "$judged"))
+  set -- $(awk -f system/judge.awk -v what=settled -v window="$1" -v share="$2" -v drag="$drag" -v lift="$lift" $(files "$judged"))
   moved=$2
   [ "$1" = settled ]
 }
@@ -232,6 +241,9 @@ class RunFiles {
     return text;
   }
 
+  bool is_judged_by_forces() const { return s_.settles_by.starts_with("forces"); }
+  static std::string along(const Vec3& direction) { return case_number(direction.x) + " " + case_number(direction.y) + " " + case_number(direction.z); }
+
   std::string steady_variables() const {
     const double limit = diverged_speed(s_);
     std::string text;
@@ -246,7 +258,9 @@ class RunFiles {
     set("start_end", std::to_string(is_in_parts() ? std::max(k_part, s_.common.iterations / 3 / k_part * k_part) : 0),
         "iteration at which the start of first order ends at the latest; 0: no such start");
     set("judged", s_.settles_by, "files of the values that end the run when they settle; empty: residuals alone do");
-    set("judged_name", s_.settles_by.starts_with("forces") ? "the force" : "the pressure drop", "what they are");
+    set("judged_name", is_judged_by_forces() ? "drag or lift" : "the pressure drop", "what they are");
+    set("drag", is_judged_by_forces() ? along(s_.drag_direction()) : "", "directions of drag and lift; empty: what is judged is one value");
+    set("lift", is_judged_by_forces() ? along(s_.lift_direction()) : "", "");
     set("has_residuals", s_.residual_limit() > 0.0 ? "yes" : "", "limits of residuals end the run as well; empty: they do not");
     set("limit", case_number(limit), "m/s, beyond which the run has diverged");
     set("first_sign", case_number(k_first_sign * limit), "m/s, by which the place is found where that began");

@@ -88,7 +88,8 @@ class FoamSettings {
     return "    " + name + "\n    {\n        type " + type +
            ";\n        libs (forces);\n        writeControl timeStep;\n        writeInterval 1;\n        log no;\n" + "        patches (" +
            words(s_.monitored) + ");\n        rho " + (s_.is_compressible ? "rho" : "rhoInf") + ";\n        rhoInf " + case_number(s_.density) +
-           ";\n        CofR " + foam_vector(s_.moment_origin) + ";\n" + more + "    }\n";
+           (s_.is_compressible ? ";\n        pRef " + case_number(s_.flow.pressure) : std::string()) + ";\n        CofR " + foam_vector(s_.moment_origin) +
+           ";\n" + more + "    }\n";
   }
 
   /// What a value at an opening is of: mean pressure in Pa (without compressibility the solver's times the density), flow rate in kg/s or m^3/s.
@@ -136,9 +137,7 @@ class FoamSettings {
     if (!s_.monitored.empty()) text += forces("forces", "forces", "");
     text += openings();
     if (!is_automatic(s_.area) && !s_.monitored.empty()) {
-      const Vec3 drag = normalized(s_.velocity);
-      // Lift stands on the flow, in the plane of x and z; moments nose-up.
-      const Vec3 lift = std::hypot(drag.x, drag.z) > 0.0 ? normalized(Vec3{-drag.z, 0.0, drag.x}) : Vec3{0.0, 0.0, 1.0};
+      const Vec3 drag = s_.drag_direction(), lift = s_.lift_direction();  // moments nose-up
       text += forces("forceCoeffs", "forceCoeffs",
                      "        dragDir " + foam_vector({clean_component(drag.x, 1.0), clean_component(drag.y, 1.0), clean_component(drag.z, 1.0)}) +
                          ";\n        liftDir " + foam_vector({clean_component(lift.x, 1.0), 0.0, clean_component(lift.z, 1.0)}) +

@@ -1,6 +1,7 @@
 // What foam_case has decided before it writes: shared by its fields (foam_fields.cpp) and its settings (foam_settings.cpp).
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct FoamSetup {
   /// Name of the function object of the pressure drop from an inflow to an outflow.
   std::string pressure_drop(const std::string& inflow, const std::string& outflow) const {
     return inflows.size() == 1 && outflows.size() == 1 ? "pressureDrop" : "pressureDrop_" + inflow + "_" + outflow;
+  }
+  /// Unit, along the free stream.
+  Vec3 drag_direction() const { return normalized(velocity); }
+  /// Unit; perpendicular to the free stream, in the plane of x and z.
+  Vec3 lift_direction() const {
+    const Vec3 drag = drag_direction();
+    return std::hypot(drag.x, drag.z) > 0.0 ? normalized(Vec3{-drag.z, 0.0, drag.x}) : Vec3{0.0, 0.0, 1.0};
   }
   /// Scheme of the velocity's convection, second order. Component by component laminar flow has it best, else along its steepest direction.
   std::string convection() const { return model == "laminar" && !is_compressible ? "Gauss linearUpwind grad(U)" : "Gauss linearUpwindV grad(U)"; }

@@ -219,6 +219,16 @@ TEST(FoamRun, ForcesThatHaveSettledAreToldFromThoseThatMove) {
   EXPECT_THAT(told(still, settled), testing::StartsWith("settled 0.1"));
   EXPECT_THAT(told(moving, settled), testing::StartsWith("moving"));
   EXPECT_THAT(told(still.substr(0, 200), settled), testing::StartsWith("short"));
+  // Drag that moves by 2 % beside a lift ten times as large, and a side force (half models have one) that does not count.
+  std::string drifting, pushed;
+  for (int i = 1; i <= 60; ++i) {
+    drifting += std::to_string(i) + "\t(" + std::to_string(10.0 + 0.01 * i) + " 1 100)\t(1 1 1)\t(1 1 1)\n";
+    pushed += std::to_string(i) + "\t(10 " + std::to_string(1000.0 + 10.0 * i) + " 100)\t(1 1 1)\t(1 1 1)\n";
+  }
+  const std::vector<std::string> of_wings = {"what=settled", "window=40", "share=0.01", "drag=1 0 0", "lift=0 0 1"};
+  EXPECT_THAT(told(drifting, of_wings), testing::StartsWith("moving 1.8"));
+  EXPECT_THAT(told(pushed, of_wings), testing::StartsWith("settled 0"));
+  EXPECT_THAT(told(still, of_wings), testing::StartsWith("settled 0.1"));
   EXPECT_EQ(told(thrown, {"what=bounded", "limit=4000", "first=2000", "from=5"}), "diverged 58 4060.000000 30 1.5 30 3\n");
   EXPECT_EQ(told(thrown, {"what=bounded", "limit=1e9", "first=1e8", "from=5"}), "bounded\n");
   // Of a run in parts: with the processor behind each place, and a value that is no number.
@@ -258,6 +268,8 @@ TEST_F(FoamCases, FluxesOfAGasAreOfMass) {
   EXPECT_NEAR(speed(scaled), 2.0 * speed(text_of("case/0/U")), 1e-9 * speed(scaled));
   EXPECT_EQ(std::ranges::count(scaled, '\n'), std::ranges::count(text_of("case/0/U"), '\n'));
   EXPECT_THAT(text_of("case/Allrun"), AllOf(HasSubstr("has_potential='yes'"), HasSubstr("density='1.2")));
+  EXPECT_THAT(text_of("case/system/fvOptions"), testing::ContainsRegex("limitVelocity;[^}]*max 680\\.")) << "four times the free stream's 170.1 m/s";
+  EXPECT_THAT(text_of("case/Allrun"), AllOf(testing::ContainsRegex("limit='612\\."), HasSubstr("watched='30'"))) << "nine tenths of that bound";
   run(with_mesh("m:foam_case{ " + at("fast") + ", flow{ mach = 1.2, altitude = 0, length = 2 }, reference_area = 1 }"));
   EXPECT_THAT(text_of("fast/Allrun"), AllOf(HasSubstr("has_potential='no'"), HasSubstr("density=''")));
 }
