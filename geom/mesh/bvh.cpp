@@ -16,7 +16,7 @@ namespace {
 
 /// Query items per task of overlapping_pairs.
 constexpr std::size_t k_query_chunk = 512;
-/// Nodes larger than this are split one per task; the nodes of the upper levels are large.
+/// Items per task of one level; the large nodes of the upper levels are split one per task.
 constexpr std::size_t k_large_node = 1 << 14;
 
 struct Entry {

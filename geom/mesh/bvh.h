@@ -96,8 +96,8 @@ class TriangleTree {
     double t = 0.0;
   };
   std::vector<RayHit> ray(const Point& p, const Vec3& direction) const;
-  /// Generalised winding number of a closed mesh about p: 1 inside for outward normals (Jacobson et al. 2013), hierarchical (Barill et al. 2018)
-  /// with an error small enough to tell 0, 1, 2 apart (0.05 at worst in the tests). On the surface itself the value is a half, or undefined at edges.
+  /// Returns the generalised winding number of a closed mesh about p: 1 inside for outward normals (Jacobson et al. 2013), hierarchical (Barill et al. 2018)
+  /// with an error small enough to distinguish 0, 1, 2 (at most 0.05 in the tests). On the surface itself the value is a half, or undefined at edges.
   double winding_number(const Point& p) const;
   const BoxTree& boxes() const { return tree_; }
 

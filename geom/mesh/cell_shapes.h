@@ -34,7 +34,7 @@ struct CellShape {
   double volume = 0.0;        ///< m^3
   double aspect_ratio = 1.0;  ///< larger of: largest over smallest sum of face areas projected along an axis; a sixth of the total area over volume^(2/3)
   double openness = 0.0;
-  double determinant = 0.0;  ///< of the sum of a a^T over the inner faces' areas a, each over their mean size; divided by 8, the value of a cube
+  double determinant = 0.0;  ///< determinant of the sum of a a^T over the inner faces' areas a, each over their mean size; divided by 8, the value of a cube
 };
 /// Returns the measures of a cell. `inner`: bit f is set if face f of the kind's table is not a boundary face.
 CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner = ~0u);

@@ -94,14 +94,14 @@ struct CheckReport {
   std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
   std::vector<CheckFinding> findings;                      ///< the first few of each kind, in mesh order
   double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3; error relative to layer_volume, limit 1e-11
-  double tet_volume = 0.0, tet_volume_error = 0.0;         ///< as for the layer, for the tets
+  double tet_volume = 0.0, tet_volume_error = 0.0;         ///< the same two values for the tets
   double total_volume = 0.0;
   double dual_volume = 0.0;  ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
   std::vector<GateResult> gates;               ///< QUALITY, in the order of Measure; empty if quality was not requested
   std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty if `gates` is
   Consumers consumers;                         ///< consumers that the states of `gates` refer to
-  std::vector<PatchCoverage> coverage;         ///< of wall patches under layers, if the mesh has a layer request
+  std::vector<PatchCoverage> coverage;         ///< per wall patch under layers, if the mesh has a layer request
   std::vector<PeriodicMatchReport> periodic;   ///< matching pairs of HybridMesh::periodic
   bool is_complete = true;                     ///< false: indices out of range or points not finite, so that no other check was possible
   bool intersections_checked = false;          ///< G2 was requested and run
@@ -130,7 +130,7 @@ struct CheckOptions {
   bool quality = true;        ///< fill CheckReport::quality and gates
   bool cell_centred = true;   ///< with quality: also OpenFOAM's measures, if consumers use them
   Consumers consumers;        ///< gates of other consumers are "not checked"
-  GateTable limits;           ///< of the QUALITY gates
+  GateTable limits;           ///< limits of the QUALITY gates
   bool measures_cell_centres() const { return quality && cell_centred && consumers.cell_centred; }
   int findings_per_kind = 10;
   std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bounds the memory for matching faces, 16 bytes each; the report does not depend on this value

@@ -9,7 +9,7 @@ namespace {
 
 /// Result of the exact test of a suspect cell.
 struct SubVolumeVerdict {
-  bool is_negative = false;         ///< in exact arithmetic
+  bool is_negative = false;         ///< a sub-volume is not positive in exact arithmetic
   bool is_within_rounding = false;  ///< positive, but not above k_solver_margin in double precision
   double least = 0.0;               ///< least_computed_sub_volume()
 };

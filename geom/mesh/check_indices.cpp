@@ -1,4 +1,4 @@
-// First step of the walker: conditions for the use of any index, and that every node is used.
+// First step of the walker: checks that all indices are valid and that every node is used.
 #include <atomic>
 
 #include "geom/base/error.h"

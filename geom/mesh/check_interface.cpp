@@ -75,8 +75,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
             if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.add_height(*height, edge_of(mesh, face), slot);
             continue;
           }
-          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot))
-            continue;  // prism of a multi-normal fan, beside its first cells
+          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // multi-normal fan, beside its first cells
           WedgePoints p;
           for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
           const double edge = edge_of(mesh, face);

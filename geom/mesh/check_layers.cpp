@@ -13,8 +13,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Relative slack of the requested growth ratio: lines are curved, so the lengths of their chords grow by slightly less or more than the ratio of the
-/// heights.
+/// Relative slack of the requested growth ratio: lines are curved, so the lengths of their chords do not grow exactly by the ratio of the heights.
 constexpr double k_growth_slack = 0.01;
 /// Relative slack of n h0, the height below which a layer is compressed: covers rounding at the end of the line.
 constexpr double k_height_slack = 1e-9;
@@ -24,8 +23,8 @@ constexpr const char* k_no_request = "the mesh does not say what was asked for";
 
 /// Data of a line for the coverage.
 struct LineHeight {
-  double height = 0.0;         ///< m, of the layer along the wall normal
-  Vec3 normal;                 ///< unit, of the wall at the base vertex
+  double height = 0.0;         ///< m, layer height along the wall normal
+  Vec3 normal;                 ///< unit, wall normal at the base vertex
   double visibility = 0.0;     ///< cosine, as in RoomRequest; only for lines below their full height
   bool is_full = false;        ///< at least k_full_height_share of the target height
   bool is_compressed = false;  ///< too low for the requested first height

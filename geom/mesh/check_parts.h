@@ -193,8 +193,7 @@ struct FaceMatch {
   std::optional<GateScan> tet_growth;         ///< ids are slots; only if requested
   bool with_pairs = false;
   std::vector<std::array<std::uint32_t, 2>> pairs;  ///< faces that two cells share; only if requested
-  std::vector<std::uint32_t> cap_neighbours;        ///< for bottom and top of each explicit prism: slot on the other side of a face that two cells share, else
-                                                    ///< k_no_slot
+  std::vector<std::uint32_t> cap_neighbours;        ///< per bottom and top of explicit prisms: slot on the other side of a shared face, else k_no_slot
 };
 inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
 

@@ -11,8 +11,8 @@
 
 namespace sterna {
 
-/// Positive in double precision means: above this fraction of the product of the lengths of the three vectors that span a volume, sub-volume or Jacobian.
-/// Rounding of the product itself is 1e-15; solvers add and average coordinates before they multiply.
+/// Relative margin above which a volume, sub-volume or Jacobian counts as positive in double precision, over the product of the lengths of the three vectors
+/// that span it. Rounding of the product itself is 1e-15; solvers add and average coordinates before they multiply.
 inline constexpr double k_solver_margin = 1e-13;
 
 /// Returns the smallest Jacobian of a cell over the product of its three edges, as computed in double precision: for tetrahedra the six-fold volume over the

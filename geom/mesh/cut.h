@@ -31,13 +31,12 @@ struct CutPolygon {
   std::int32_t layer = -1;   ///< 0 = at the wall; -1 for cells outside columns
   std::uint64_t cell = 0;    ///< number among the cells of this kind in file order, so it is the same for columns and explicit cells
   double quality = 0.0;      ///< prisms: wedge_quality; tetrahedra: smallest dihedral angle, degrees; NaN for others
-  double shape = 0.0;        ///< 1 = ideal, at most 0 = inverted: prisms wedge_quality, tetrahedra smallest dihedral over that of a regular one, other cells
-                             ///< worst corner
+  double shape = 0.0;        ///< 1 = ideal, at most 0 = inverted: prisms wedge_quality, tetrahedra smallest dihedral over regular one, others worst corner
   double volume = 0.0;       ///< m^3
 };
 
 struct MeshCut {
-  std::vector<Point> corners;           ///< of all polygons, consecutively; right-handed about the plane's normal
+  std::vector<Point> corners;           ///< corners of all polygons, consecutively; right-handed about the plane's normal
   std::vector<std::uint64_t> first{0};  ///< first corner of each polygon, and the end
   std::vector<CutPolygon> polygons;
 

@@ -168,7 +168,7 @@ class DualWalk {
   std::vector<std::uint8_t> is_regular_;
   NodeSubset special_;
   std::vector<std::uint32_t> nodes_;    ///< the special nodes, ascending
-  std::vector<std::uint32_t> line_of_;  ///< of each special node; NodeId::k_invalid = on no line
+  std::vector<std::uint32_t> line_of_;  ///< line of each special node; NodeId::k_invalid = on no line
 };
 
 }  // namespace

@@ -66,7 +66,7 @@ class LineDual {
 
   const HybridMesh& mesh_;
   const LineRings& rings_;
-  std::size_t n_padded_;  ///< of the longest line
+  std::size_t n_padded_;  ///< padded number of nodes of the longest line
   lanes::LineVectors own_;
   std::vector<lanes::LineVectors> neighbours_;  ///< by slot
   std::vector<Slot> slots_;

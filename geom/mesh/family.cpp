@@ -82,7 +82,7 @@ class StepRules {
     step_.rules.push_back({.name = std::move(name), .title = std::move(title), .reason = std::move(reason)});
   }
 
-  /// Compares a quantity that may be unknown: calls f(coarse, fine) if both members know it, else skips the rule.
+  /// Compares a quantity that may be unknown: calls f(coarse, fine) if both members know it, else marks the rule as not checked.
   template <class T, class F>
   void compare(std::optional<T> FamilyMember::*of, const char* name, const char* title, const char* why, const F& f) {
     if (coarse_.*of && fine_.*of) return f(*(coarse_.*of), *(fine_.*of));
@@ -95,7 +95,7 @@ class StepRules {
   }
   void growth(const char* name, const char* title, double coarse, double fine, double tolerance) {
     const double expected = std::pow(coarse, 1.0 / step_.factor), log_expected = std::log(expected);
-    // Without growth the expected growth is also none.
+    // Without growth (ratio 1) the logarithms are zero.
     add(name, title, coarse, fine, fine, expected, log_expected > 0.0 ? std::abs(std::log(fine) / log_expected - 1.0) : std::abs(std::log(fine)), tolerance);
   }
 

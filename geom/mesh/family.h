@@ -54,7 +54,7 @@ struct FamilyTolerances {
 
 /// Result of one rule for two consecutive members.
 struct FamilyRule {
-  std::string name;   ///< of its JSON entry: "first_height"
+  std::string name;   ///< JSON key: "first_height"
   std::string title;  ///< human-readable
   GateState state = GateState::not_checked;
   std::string reason;                       ///< why the rule was not checked, or what differs
@@ -64,7 +64,7 @@ struct FamilyRule {
 };
 
 struct FamilyStep {
-  std::string coarse, fine;                             ///< names
+  std::string coarse, fine;                             ///< names of the two members
   double factor = 0.0;                                  ///< refinement per direction: the requested factor, else from wall edges
   std::string factor_from;                              ///< "the option factor", "the refinements asked for", "the mean wall edges", "the nodes"
   double factor_by_nodes = 0.0, factor_by_edges = 0.0;  ///< 0: unknown

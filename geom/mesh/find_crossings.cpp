@@ -6,7 +6,8 @@
 // 2. Boxes are stored as floats about the centre of all. Each float is a monotone function of its double, so boxes that overlap still do.
 // 3. Each leaf searches the tree for later leaves that overlap, and tests the pairs of triangles whose boxes overlap.
 // 4. Most of these pairs are neighbours on a smooth surface: in the projection along an axis, an edge of one triangle separates them (two triangles whose
-//    projections are apart except for shared vertices cannot cross). A filter of orient2d proves this or is undecided; triangles_cross decides the rest.
+//    projections are apart except for shared vertices cannot cross). A filter of orient2d proves the separation or is undecided; triangles_cross decides the
+//    rest.
 #include "geom/mesh/find_crossings.h"
 
 #include <algorithm>

@@ -33,8 +33,8 @@ constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or
 constexpr const char* k_ask_more = "more layers, a larger growth or first height, or a finer wall there";
 constexpr const char* k_fewer_layers = "truncate the layer there, or ask for fewer layers";
 
-/// Return the least and the largest share of corner `own` in the centre of a prism with these lengths at its corners, where heights are at least `stand`
-/// times the lengths.
+/// Returns the least share (largest_share() below: the largest) of corner `own` in the centre of a prism with these lengths at its corners, where heights are
+/// at least `stand` times the lengths.
 double least_share(double own, double others, double stand) { return (2.0 * stand * own + others) / (4.0 * (stand * own + others)); }
 double largest_share(double own, double others, double stand) { return (2.0 * own + stand * others) / (4.0 * (own + stand * others)); }
 

@@ -60,8 +60,8 @@ Interval part(const Interval& x, const Interval& y, double error) {
 
 /// Geometry of the edge: two triangles that meet at it in a wedge.
 struct GivenLayer::Wedge {
-  std::array<double, 2> reach{};     ///< m, of the opposite corners from the edge
-  std::array<double, 2> along{};     ///< m, of the opposite corners, along the edge from its first end
+  std::array<double, 2> reach{};     ///< m, distances of the opposite corners from the edge
+  std::array<double, 2> along{};     ///< m, positions of the opposite corners along the edge, from its first end
   std::array<Interval, 2> far{};     ///< m, heights of the steps of the opposite lines
   std::array<Interval, 2> opened{};  ///< rad, opening of the layer triangles beyond the wall triangles, since their far corners have risen
   std::array<Interval, 2> across{};  ///< m, components of the steps at the edge's ends, perpendicular to it
@@ -82,8 +82,7 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
   };
   const std::array<Interval, 2> psi = {direction(box_a), direction(box_b)};
   const Interval middle = {std::min(psi[0].low, psi[1].low), std::max(psi[0].high, psi[1].high)};
-  std::array<Interval, 2> t, y, off;  // of the cell centres: position along the edge, distance from it in the triangle's plane, distance from the side's
-                                      // plane
+  std::array<Interval, 2> t, y, off;  // cell centres: position along the edge, distance from it in the triangle's plane, distance from the side's plane
   for (std::size_t i = 0; i < 2; ++i) {
     const double sign = i == 0 ? 1.0 : -1.0;
     const auto to_facet = [&](const Interval& p) { return sign > 0.0 ? Interval{half - p.high, half - p.low} : Interval{half + p.low, half + p.high}; };

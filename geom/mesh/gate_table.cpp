@@ -200,8 +200,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {1, 0x1p10, 50, 5},
      k_node_centred_alone,
      {Evidence::none, Evidence::cited, k_proposal.source}},
-    // Limits are the thresholds of checkMesh and meshQualityDict. Aspect ratios of y+ = 1 prisms are beyond any of their limits, so the measure is shown
-    // only.
+    // Limits are the thresholds of checkMesh and meshQualityDict. Aspect ratios of y+ = 1 prisms exceed all their limits, so the measure is shown only.
     {M::non_orthogonality,
      "OF",
      "non_orthogonality",

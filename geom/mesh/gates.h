@@ -101,7 +101,7 @@ struct GateLimits {
   double hard;         ///< beyond this value the gate FAILs
   double target;       ///< beyond this value the gate warns
   double usual;        ///< the gate warns unless at least the fraction `usual_share` of the measure is within this limit
-  double usual_share;  ///< in [0, 1]
+  double usual_share;  ///< fraction in [0, 1]
 };
 
 /// Fixed properties of a measure.
@@ -116,7 +116,7 @@ struct MeasureInfo {
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
   Consumers consumers;       ///< solver classes whose solutions depend on the measure
-  LimitEvidence evidence;    ///< for the hard limit
+  LimitEvidence evidence;    ///< evidence for the hard limit
 };
 
 /// The table of docs/quality_gates.md, in the order of Measure.
@@ -173,8 +173,8 @@ struct GateResult {
   Measure measure = Measure::scaled_jacobian;
   GateLimits limits{};
   GateState state = GateState::not_checked;  ///< the worst state_for() over the selected consumers
-  bool is_hard_missed = false;               ///< by an item that is not forced by the input surface
-  bool is_soft_missed = false;               ///< target or usual limit
+  bool is_hard_missed = false;               ///< an item not forced by the input surface misses the hard limit
+  bool is_soft_missed = false;               ///< the target or the usual limit is missed
   std::string reason;                        ///< why the gate was not checked
   double worst = 0.0;
   double total = 0.0;                ///< number of items, or m^2 for area-weighted measures
@@ -186,10 +186,9 @@ struct GateResult {
   std::int64_t n_too_small = 0, n_too_large = 0;  ///< values below or above the ideal
   std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none if items have no location, or are too many to be kept
   double share_beyond = 0.0;                      ///< share of the wall area for area-weighted measures, else of the fluid volume
-  GateExtent extent;                              ///< of the deciding items; empty after check()
-  std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (or the worst ten of a measure without limits),
-                                                  ///< worst first
-  std::vector<GatePlace> forced;                  ///< the worst ten forced items, worst first
+  GateExtent extent;                              ///< nodes and cells of the deciding items; empty after check()
+  std::vector<GatePlace> places;                  ///< the ten worst that miss a limit and are not forced (any, for a measure without limits), worst first
+  std::vector<GatePlace> forced;                  ///< the ten worst forced items, worst first
   std::vector<double> histogram;                  ///< items, or m^2, in each class of MeasureInfo::classes; empty if the measure has no histogram
 };
 
@@ -303,7 +302,7 @@ class GateScan {
   std::int64_t n_soft_ = 0, n_soft_within_ = 0, n_soft_small_ = 0;
   double soft_weight_ = 0.0;
   bool has_dropped_soft_ = false;
-  std::vector<std::uint64_t> soft_ids_;  ///< of items within the hard limit; empty if there are more than k_most_soft
+  std::vector<std::uint64_t> soft_ids_;  ///< ids of items within the hard limit; empty if there are more than k_most_soft
   const HistogramClasses* classes_;
   std::array<double, HistogramClasses::k_most> histogram_{};
   std::vector<Item> worst_;

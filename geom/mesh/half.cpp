@@ -16,8 +16,8 @@
 namespace sterna {
 namespace {
 
-constexpr double k_tolerance_share = 1e-6;  ///< of the longest side: files keep 6 to 7 digits
-constexpr double k_max_turn_cosine = 0.94;  ///< 20 degrees: a vertex whose triangles turn by more would change the shape when it moves into the plane
+constexpr double k_tolerance_share = 1e-6;  ///< relative to the longest side: files keep 6 to 7 digits
+constexpr double k_max_turn_cosine = 0.94;  ///< 20 degrees: moves that turn a triangle by more would change the shape
 constexpr double k_min_kept_area = 0.2;     ///< fraction of a triangle's area that must remain if one of its vertices moves
 
 struct HalvingPlane {

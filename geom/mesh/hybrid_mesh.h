@@ -117,8 +117,7 @@ struct LayerRequest {
   double first_height = 0.0;                ///< m; 0 = unknown; the smallest if lines differ
   double max_growth = 0.0;                  ///< largest ratio of heights of consecutive cells; the largest if lines differ
   std::vector<double> line_first_height;    ///< m, along the vertex normal, per line; empty: first_height everywhere
-  std::vector<double> line_first_room;      ///< m, smallest height of the whole line for which its first height is met to 2 %, per line; empty: layers x first
-                                            ///< height
+  std::vector<double> line_first_room;      ///< m, smallest line height at which its first height is met to 2 %, per line; empty: layers x first height
   std::vector<double> line_boundary_layer;  ///< m, boundary-layer thickness that the line must cover; 0: not requested; empty: not requested for any line
   std::vector<double> line_max_growth;      ///< per line; empty: max_growth everywhere
   std::vector<std::uint16_t> line_layers;   ///< per line; empty: as many as the line has, so that no line was truncated
@@ -126,7 +125,7 @@ struct LayerRequest {
   std::vector<std::uint8_t> reason;         ///< per line: why its height is below the target, index into `reasons`
   std::vector<std::string> reasons;         ///< human-readable
   bool is_known() const { return first_height > 0.0; }
-  /// Returns first_room in m of a line with n layers.
+  /// Returns the smallest height in m at which a line with n layers meets its first height (see line_first_room).
   double first_room_of(std::size_t line, int n) const { return line_first_room.empty() ? n * first_height_of(line) : line_first_room[line]; }
   double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
 };
@@ -169,7 +168,7 @@ struct PeriodicSides {
 struct HybridMesh {
   Column<NodeId, Point> points;  ///< metres
   LayerBlock layers;
-  LayerRequest request;  ///< of `layers`
+  LayerRequest request;  ///< request for `layers`
   std::vector<std::array<NodeId, 6>> prisms;
   std::vector<std::array<NodeId, 5>> pyramids;
   std::vector<std::array<NodeId, 8>> hexahedra;

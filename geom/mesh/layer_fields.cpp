@@ -35,7 +35,7 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
       const auto point = [&](int j) { return mesh.points[lines.node(line, j)]; };
       LineFigures& figures = all[k];
       const int n = lines.n_layers(line);
-      double normal_height = 0.0;  // m, of the layer along the wall normal
+      double normal_height = 0.0;  // m, layer height along the wall normal
       heights.clear();
       for (int j = 0; j < n; ++j) heights.push_back(distance(point(j), point(j + 1)));
       if (n > 0) {

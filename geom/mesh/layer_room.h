@@ -31,7 +31,7 @@ struct FacingTriangle {
 struct RoomRequest {
   std::uint32_t line = 0;
   Point foot;
-  Vec3 normal;              ///< unit, of the wall at the foot
+  Vec3 normal;              ///< unit, wall normal at the base vertex
   double target = 0.0;      ///< m, requested height
   double edge = 0.0;        ///< m, mean edge of the envelope at the line
   double visibility = 1.0;  ///< cosine between the direction with the best view of all facets at the base and the facet with the worst view

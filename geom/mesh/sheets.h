@@ -15,7 +15,7 @@ inline constexpr std::uint32_t k_no_side = 0xffffffffu;
 /// For each boundary face of a mesh (triangles, then quadrilaterals): the coincident face of opposite sense, corner on corner to the bit; k_no_side for other
 /// faces. Empty if there are none. Considers only patches of kind interface. Serial, O(n log n) in the number of their faces.
 struct SheetSides {
-  std::vector<std::uint32_t> other_side;  ///< of each face
+  std::vector<std::uint32_t> other_side;  ///< per face
   std::vector<std::uint32_t> twin;        ///< per node: itself, or the coincident node of the first side (the side with the smaller number)
   bool empty() const { return other_side.empty(); }
   /// Returns true if the face coincides with a face of a smaller number.

@@ -44,7 +44,7 @@ class SizeSites {
  private:
   struct Node {
     std::array<float, 3> min, max;  ///< rounded outwards
-    float smallest;                 ///< of the sizes below, rounded down
+    float smallest;                 ///< smallest size in the subtree, rounded down
     std::uint32_t first;            ///< leaf: first site; inner: left child, the right one follows
     std::uint32_t count;            ///< leaf: number of sites; inner: 0
   };

@@ -12,7 +12,7 @@ namespace sterna {
 
 struct VolumeRegion {
   double volume = 0.0;               ///< m^3
-  Box box;                           ///< of its nodes
+  Box box;                           ///< bounding box of its nodes
   std::vector<std::string> patches;  ///< on its boundary, in the order of the mesh
 };
 

@@ -13,7 +13,7 @@
 namespace sterna {
 
 struct WallTriangle {
-  std::array<std::uint32_t, 3> nodes;  ///< of the mesh, normal into the fluid
+  std::array<std::uint32_t, 3> nodes;  ///< nodes of the mesh, normal into the fluid
   PatchId patch;
 };
 
