@@ -90,11 +90,14 @@ class TriangleTree {
 
   /// Returns the nearest point on any triangle within `limit`; ties by lowest triangle id. A triangle without area is represented by its edges.
   NearestHit nearest(const Point& p, double limit = std::numeric_limits<double>::infinity()) const;
-  /// Triangle hit by a ray, and its parameter t in the triangle's plane.
+  /// Triangle hit by the ray p + t d, and t of the hit in the triangle's plane.
   struct RayHit {
     TriangleId triangle;
     double t = 0.0;
   };
+  /// Returns all triangles that the ray p + t d, t >= 0, hits; sorted by t, then id. Triangles are closed and widened by the rounding error: a ray through an
+  /// edge or a vertex reports the triangles on both sides; a ray that passes an edge within rounding may do so, too. Triangles parallel to the ray or without
+  /// area are never hit.
   std::vector<RayHit> ray(const Point& p, const Vec3& direction) const;
   /// Returns the generalised winding number of a closed mesh about p: 1 inside for outward normals (Jacobson et al. 2013), hierarchical (Barill et al. 2018)
   /// with an error small enough to distinguish 0, 1, 2 (at most 0.05 in the tests). On the surface itself the value is a half, or undefined at edges.

@@ -29,8 +29,7 @@ struct FamilyMember {
   std::optional<double> measured_first;                      ///< m: median length of the first edge of the growth lines
   std::optional<double> growth;                              ///< largest requested growth ratio
   std::optional<double> measured_growth;                     ///< median over the growth lines of the mean ratio of consecutive steps
-  std::optional<int> constant_layers;  ///< median over the growth lines of the number of first steps of equal height, including the first: 1 = grows from the
-                                       ///< wall
+  std::optional<int> constant_layers;  ///< median over the growth lines of the number of equal first steps, including the first: 1 = grows from the wall
   std::optional<double> tet_growth;    ///< requested growth of tetrahedra, from the manifest
   std::optional<double> refinement;    ///< requested refinement relative to the family, from the manifest
 };

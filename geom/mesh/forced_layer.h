@@ -53,7 +53,7 @@ class GivenLayer {
   std::optional<Forcing> skewness(const ColumnSide& side, double limit) const;
   /// Returns a proof for the skewness of an edge for which the search is inconclusive. With one line on each node, in the direction that sees the facets
   /// best, the skewness at a sharp edge follows from the two wall triangles as long as the layer is thin. A side whose `value` is equal or better is
-  /// explained by them.
+  /// forced by these triangles.
   std::optional<Forcing> skewness_of_edge(const ColumnSide& side, double limit, double value) const;
   /// Returns a proof for G9. No last cell is higher than the growth ratio of the request permits, nor higher than its share of the room in a gap.
   /// `gaps`: height along the wall normal that a gap permits each line, m, infinite if there is no gap; may be empty.

@@ -27,8 +27,7 @@ class SizeSites {
 
   struct Search {
     double cap = std::numeric_limits<double>::infinity();  ///< m, the result if no site gives less
-    double reach = 0.0;                                    ///< m; sizes grow only beyond this distance: the result is the smallest size within `reach` of the
-                                                           ///< point
+    double reach = 0.0;                                    ///< m; sizes grow only beyond this distance; within it the smallest size counts
     /// Boxes are not opened if they could lower the value by less than this fraction. Example: at the centre of a circle, all points of the circle are
     /// equally near.
     double tolerance = 0.0;
