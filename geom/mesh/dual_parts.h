@@ -81,7 +81,8 @@ class LineDual {
 class NodeDual {
  public:
   NodeDual(const HybridMesh& mesh, const LineRings& rings);
-  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). Explicit cells and boundary faces are given by number, see Incidence.
+  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells`: explicit cells and boundary faces by common number, in the order of
+  /// `first_`.
   NodeMetrics measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
