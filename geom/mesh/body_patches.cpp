@@ -11,14 +11,14 @@
 namespace sterna {
 namespace {
 
-/// Of a body's opening over all walls, by the boxes' diagonals: tunnels' planes are larger.
+/// Largest diagonal of a body's opening relative to the box of all walls; inflow and outflow planes of tunnels are larger.
 constexpr double k_largest_opening = 0.2;
 
-/// Walls that end the fluid from outside are so large, by the diagonals of their boxes over that of the boundary.
+/// Smallest diagonal of an outer wall relative to that of the boundary, both of bounding boxes.
 constexpr double k_least_outer = 0.25;
-/// How far the boundary may lie behind such a wall, over its extent along the wall's normal: room for walls that are not quite straight.
+/// Largest distance of the boundary behind an outer wall, relative to its extent along the wall normal: tolerance for walls that are not exactly flat.
 constexpr double k_behind = 0.05;
-/// Directions in which the boundary's outermost points are looked for.
+/// Number of directions in which the outermost boundary points are searched.
 constexpr std::size_t k_directions = 128;
 
 double diagonal(const Box& box) { return box.empty() ? 0.0 : norm(box.max - box.min); }
@@ -29,7 +29,7 @@ bool is_within(const Box& inner, const Box& outer) {
          inner.max.y <= outer.max.y + room && inner.max.z <= outer.max.z + room;
 }
 
-/// f(nodes, patch) for every boundary face.
+/// Calls f(nodes, patch) for every boundary face.
 template <class F>
 void for_each_boundary_face(const HybridMesh& mesh, const F& f) {
   for (const BoundaryTriangle& face : mesh.boundary_triangles) f(std::span<const NodeId>(face.nodes), face.patch);
@@ -44,7 +44,7 @@ std::vector<Box> boxes_of_patches(const HybridMesh& mesh) {
   return boxes;
 }
 
-/// Points of the boundary that are the outermost of all in some direction, spread over the sphere by the golden angle.
+/// Returns the boundary points that are outermost in at least one direction; directions are spread over the sphere by the golden angle.
 std::vector<Point> outermost_points(const HybridMesh& mesh) {
   const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::array<Vec3, k_directions> directions;
@@ -89,7 +89,7 @@ std::vector<std::uint8_t> outer_walls(const HybridMesh& mesh) {
     const Point& at = mesh.points[nodes[0]];
     Vec3 vector = area_vector(at, mesh.points[nodes[1]], mesh.points[nodes[2]]);
     if (nodes.size() == 4) vector += area_vector(at, mesh.points[nodes[2]], mesh.points[nodes[3]]);
-    double least = 0.0, most = 0.0;  // of the boundary along the normal, which points out of the fluid
+    double least = 0.0, most = 0.0;  // extent of the boundary along the normal, which points out of the fluid
     for (const Point& p : outermost) {
       const double along = dot(p - at, vector);
       least = std::min(least, along);

@@ -1,7 +1,8 @@
 // BoxTree: built level by level from the root; all nodes of a level split their items independently.
 //
-// The split is at the median of the box centres along their longest extent, ties by item number: the tree's shape depends on the number
-// of items only, its content on no thread. Node numbers are given level by level, so that two children are neighbours and parents come first.
+// Each node is split at the median of the box centres along their longest extent, ties by item number. The shape of the tree depends only on the number of
+// items, and its content does not depend on the number of threads. Nodes are numbered level by level, so that two children are neighbours and parents come
+// first.
 #include "geom/mesh/bvh.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 /// Query items per task of overlapping_pairs.
 constexpr std::size_t k_query_chunk = 512;
-/// Nodes of a level per task; the nodes of the upper levels are large, so one by one there.
+/// Items per task of one level; the large nodes of the upper levels are split one per task.
 constexpr std::size_t k_large_node = 1 << 14;
 
 struct Entry {
@@ -23,7 +24,7 @@ struct Entry {
   std::uint32_t item;
 };
 
-/// Separates the entries at the middle one, along the longest extent of their centres.
+/// Partitions the entries at the median, along the longest extent of their centres.
 void split_at_median(std::span<Entry> entries) {
   Box extent;
   for (const Entry& e : entries) extent.add(e.center);
@@ -38,7 +39,7 @@ void split_at_median(std::span<Entry> entries) {
 std::vector<Entry> make_entries(std::span<const Box> boxes, const RunContext& context) {
   std::vector<Entry> entries(boxes.size());
   parallel_for(context, boxes.size(), [&](std::size_t i) {
-    // An empty box overlaps nothing, wherever it is kept.
+    // An empty box overlaps nothing, whatever its position in the tree.
     const Vec3 center = boxes[i].empty() ? Vec3{} : boxes[i].center();
     if (!is_finite(center)) {
       throw Error({.code = ErrorCode::bad_argument, .attempted = "building a box tree", .problem = "box " + std::to_string(i) + " is not finite"});
@@ -83,12 +84,12 @@ BoxTree::BoxTree(std::span<const Box> boxes, const RunContext& context, std::uin
 
   order_.resize(entries.size());
   parallel_for(context, entries.size(), [&](std::size_t i) { order_[i] = entries[i].item; });
-  // Boxes from the deepest level to the root.
+  // Computes the boxes from the deepest level to the root.
   for (std::size_t level = level_begin_.size() - 1; level-- > 0;) {
     const std::size_t begin = level_begin_[level];
     parallel_for(context, level_begin_[level + 1] - begin, [&](std::size_t i) {
       Node& node = nodes_[begin + i];
-      // An empty box must not reach Box::add: its bounds are far away.
+      // An empty box must not be passed to Box::add: its bounds are +-1e300.
       const auto add = [&node](const Box& box) {
         if (!box.empty()) node.box.add(box);
       };

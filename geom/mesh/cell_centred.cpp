@@ -31,7 +31,7 @@ void add_face(CellCentredScan& scan, std::uint64_t id, const InnerFace& face, bo
   scan.face_tets.add(face.tets, id);
 }
 
-/// A face between two cells of one column.
+/// Adds a face between two cells of one column.
 void add_stacked(CellCentredScan& scan, std::uint64_t id, const InnerFace& face) {
   add_face(scan, id, face, false);
   scan.stacked_orthogonality.add(face.non_orthogonality, id);
@@ -45,7 +45,7 @@ void add_outer(CellCentredScan& scan, std::uint64_t id, std::span<const Point> c
   scan.face_tets.add(face.tets, id);
 }
 
-/// Which faces of cells are on the boundary; faces of periodic sides are not, flow goes through them.
+/// Faces of cells on the boundary; faces of periodic sides do not count, since flow passes through them.
 class OuterFaces {
  public:
   OuterFaces(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match)
@@ -62,7 +62,7 @@ class OuterFaces {
   }
 
   bool has_any(std::uint64_t number) const { return has_any_[number] != 0; }
-  /// Bit f: face f of the cell is no boundary face.
+  /// Returns a bit mask; bit f: face f of the cell is not a boundary face.
   unsigned inner(std::uint64_t number, const Cell& cell) const {
     unsigned bits = ~0u;
     if (has_any_[number] == 0) return bits;
@@ -77,7 +77,7 @@ class OuterFaces {
 
  private:
   static bool is_same(const Cell& cell, const LocalFace& local, const Face& face) {
-    // Faces of one cell share two nodes at most; a face of a degenerate cell repeats nodes, so the other way round.
+    // Faces of one cell share two nodes at most. A face of a degenerate cell repeats nodes, so the test is that every node of `face` is in the local face.
     for (std::size_t k = 0; k < face.size; ++k) {
       const auto has = [&](std::uint8_t node) { return cell.nodes[node] == face.nodes[k]; };
       if (std::none_of(local.nodes.begin(), local.nodes.begin() + local.size, has)) return false;
@@ -90,7 +90,7 @@ class OuterFaces {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> faces_;  ///< cell and slot, ascending
 };
 
-/// Corners of a side of a column's cell, normal out of it; none where both lines have ended.
+/// Returns the corners of a side of a column's cell, normal out of it; none where both lines have ended.
 Corners side_of(const HybridMesh& mesh, std::size_t column, std::size_t corner, int layer) {
   const LayerBlock::Side side = mesh.layers.side(column, corner, layer);
   Corners corners;
@@ -123,13 +123,13 @@ CellCentredScan gathered(CellCentredScan scan, std::size_t n, const Add& add, co
       [](CellCentredScan all, const CellCentredScan& more) { return joined(std::move(all), more); }, chunk);
 }
 
-/// Whether all faces of a cell of a column are between cells of columns. \pre prismatic
+/// Returns true if all faces of a cell of a column are between cells of columns. \pre prismatic
 bool is_amid_columns(const LayerBlock& layers, std::span<const std::uint32_t> neighbours, std::size_t column, int layer) {
   if (layer == 0 || layer + 1 == layers.layers_of_column(column)) return false;
   return neighbours[3 * column] != k_no_slot && neighbours[3 * column + 1] != k_no_slot && neighbours[3 * column + 2] != k_no_slot;
 }
 
-/// Cells of columns, and faces between them, one chunk of columns after the other.
+/// Cells of columns and the faces between them, one chunk of columns after the other.
 class ColumnCentres {
  public:
   ColumnCentres(const HybridMesh& mesh, std::span<const std::uint32_t> neighbours)
@@ -158,7 +158,7 @@ class ColumnCentres {
  private:
   Place* places_of(std::size_t column) { return places_.data() + (column - begin_) * stride_; }
 
-  /// Of a column after a given one.
+  /// Returns the places of a column after a given one.
   const Place* places_after(std::size_t column) {
     if (column < end_) return places_of(column);
     if (mesh_.layers.is_prismatic(column)) {
@@ -246,7 +246,7 @@ class TetLanes {
     return {(a + b + c + d) * 0.25, dot(b - a, cross(c - a, d - a)) / 6.0};
   }
 
-  /// Tets first, first + 1, ... of which n <= 4 count.
+  /// Adds the tets first, first + 1, ..., n <= 4 of them.
   void add_cells(std::uint32_t first, std::size_t n, std::uint64_t number, CellCentredScan& scan) {
     std::array<lanes::Vec3x4, 4> p{};
     for (std::size_t k = 0; k < n; ++k)
@@ -262,10 +262,10 @@ class TetLanes {
     }
     determinants_ = shapes.determinant;
   }
-  /// Of add_cells(), as if no face were on the boundary.
+  /// Returns the determinant of a tet of the last add_cells(), as if no face were on the boundary.
   double determinant(std::size_t k) const { return determinants_[k]; }
 
-  /// A face between two tets; measured with the next ones.
+  /// Adds a face between two tets; it is measured together with the following faces.
   void add_face(std::uint64_t id, const Face& face, std::uint32_t tet, std::uint32_t other, CellCentredScan& scan) {
     for (std::size_t i = 0; i < 3; ++i) lanes::set_lane(corners_[i], n_, mesh_.points[face.nodes[i]]);
     const auto set = [&](lanes::Places& places, std::uint32_t of) {
@@ -294,7 +294,7 @@ class TetLanes {
   lanes::Packed determinants_{};
 };
 
-/// All that scan_column_centres() has left.
+/// All cells and faces that scan_column_centres() leaves out.
 class OtherCentres {
  public:
   OtherCentres(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours)
@@ -306,14 +306,14 @@ class OtherCentres {
         outer_(mesh, cells, slots, match),
         kept_(cells.first_tetrahedron() - cells.first_prism()) {}
 
-  /// Determinants of cells at the ends and open sides of columns.
+  /// Adds the determinants of cells at the ends and open sides of columns.
   void add_columns(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
     const LayerBlock& layers = mesh_.layers;
     for (std::size_t c = begin; c < end; ++c) {
       const bool is_prismatic = layers.is_prismatic(c);
       for (int j = 0, n = layers.layers_of_column(c); j < n; ++j) {
         if (is_prismatic && is_amid_columns(layers, neighbours_, c, j)) {
-          j = std::max(j, n - 2);  // so are all up to the last
+          j = std::max(j, n - 2);  // the same holds for all layers up to the last
           continue;
         }
         const std::uint64_t number = c * static_cast<std::uint64_t>(layers.n_layers) + static_cast<std::uint64_t>(j);
@@ -323,7 +323,7 @@ class OtherCentres {
     }
   }
 
-  /// Explicit cells but tetrahedra.
+  /// Adds the explicit cells except tetrahedra.
   void add_explicit(std::size_t begin, std::size_t end, CellCentredScan& scan) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint64_t number = cells_.first_prism() + i;
@@ -386,10 +386,10 @@ class OtherCentres {
   const FaceMatch& match_;
   std::span<const std::uint32_t> neighbours_;
   OuterFaces outer_;
-  std::vector<Place> kept_;  ///< of explicit cells but tetrahedra
+  std::vector<Place> kept_;  ///< explicit cells except tetrahedra
 };
 
-/// Ids as CellCentredScan has them.
+/// Items with the ids of CellCentredScan.
 struct CentredFaceItems {
   const HybridMesh& mesh;
   const CellNumbers& cells;

@@ -1,5 +1,5 @@
-// What cell-centred solvers feel of a mesh: OpenFOAM's measures of faces and cells (docs/method/quality.md, "Cell-centred measures"), with its face and cell
-// centres, so that the figures are checkMesh's.
+// Mesh metrics relevant to cell-centred solvers: OpenFOAM's measures of faces and cells (docs/method/quality.md, "Cell-centred measures"). They use
+// OpenFOAM's face and cell centres, so that the values agree with checkMesh.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace sterna::check_parts {
 
-/// Statistics over all faces and cells. Ids of faces: 8 cell + local number for sides of columns (corner 0..2) and tops (7) inside columns; k_of_slot + slot
-/// for others. Of cells: their numbers.
+/// Statistics over all faces and cells. Face ids: 8 cell + local number for sides of columns (corner 0..2) and tops (7) inside columns; k_of_slot + slot for
+/// other faces. Cell ids: cell numbers.
 struct CellCentredScan {
   static constexpr std::uint64_t k_of_slot = std::uint64_t{1} << 63;
   explicit CellCentredScan(const GateTable& limits);
@@ -19,16 +19,16 @@ struct CellCentredScan {
   void merge(const CellCentredScan& other);
 };
 
-/// The part of scan_cell_centred() that needs the columns alone: their cells and the faces between them, but for the determinants of cells that may have a face
-/// elsewhere. Parallel; holds nothing for each cell.
-/// \param neighbours of find_open_sides
-/// \pre indices can be used, points are finite
+/// Runs the part of scan_cell_centred() that needs only the columns: their cells and the faces between them. Determinants of cells that may have a face
+/// elsewhere are left out. Parallel; stores nothing per cell.
+/// \param neighbours result of find_open_sides()
+/// \pre valid indices, finite points
 CellCentredScan scan_column_centres(const HybridMesh& mesh, std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context);
-/// Adds all the rest to what was found in the columns. Parallel; holds a byte for each cell, and 32 for each explicit one that is no tetrahedron.
-/// \pre no G1 violation; `match` was made with pairs
+/// Adds all other faces and cells to the scan of the columns. Parallel; holds one byte per cell, and 32 per explicit cell that is not a tetrahedron.
+/// \pre no G1 violation; `match` was computed with pairs
 CellCentredScan scan_cell_centred(CellCentredScan columns, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
                                   std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context);
-/// The gates into the report.
+/// Evaluates the gates and adds them to the report.
 void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots,
                         std::span<const std::uint32_t> neighbours, const GateTable& limits, LazyGivenLayer& given, CheckReport& report);
 

@@ -1,4 +1,4 @@
-// The formulas of cell_quality.cpp, four faces or cells at a time: rounded as there, but for the angle. Private to the *.cpp files of geom/mesh.
+// The formulas of cell_quality.cpp for four faces or cells at a time, with the same rounding except for the angle. Private to the *.cpp files of geom/mesh.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct InnerFaces {
 inline Vec3 lane(const Vec3x4& v, std::size_t k) { return {v.x[k], v.y[k], v.z[k]}; }
 inline void set_lane(Vec3x4& v, std::size_t k, const Vec3& value) { v.x[k] = value.x, v.y[k] = value.y, v.z[k] = value.z; }
 inline check_parts::Place lane(const Places& p, std::size_t k) { return {lane(p.centre, k), p.volume[k]}; }
-/// Four in a row in memory.
+/// Loads four consecutive places from memory.
 inline Places load(const check_parts::Place* at) {
   static_assert(sizeof(check_parts::Place) == 4 * sizeof(double));
   const auto* values = reinterpret_cast<const double*>(at);
@@ -69,7 +69,7 @@ inline FaceShapes face_shapes(const std::array<Vec3x4, 4>& corners) {
           where(norm(normal) / (about_centre + check_parts::k_tiny), all(1.0))};
 }
 
-/// Determinants with all faces inside; others are for cell_shape(). `sizes`: those of the areas.
+/// Returns determinants for cells whose faces are all inner faces; other cells need cell_shape(). `sizes`: magnitudes of the areas.
 template <std::size_t N>
 Packed determinants(const std::array<FaceShapes, N>& faces) {
   Packed mean = all(0.0);
@@ -84,10 +84,10 @@ Packed determinants(const std::array<FaceShapes, N>& faces) {
   return magnitude(xx * yy * zz + xy * yz * xz + xz * xy * yz - xx * yz * yz - xy * xy * zz - xz * yy * xz) / all(k_of_cube);
 }
 
-/// area / 6 over volume^(2/3), where it may be above `least`; else anything below that.
+/// Returns area / 6 over volume^(2/3) if it may be above `least`; else any value below `least`.
 inline Packed cube_ratio(Packed area, Packed volume, Packed least) {
   const Packed sixth = area / all(6.0), squared = volume * volume;
-  // Cubes decide but for their rounding, and but for what under- or overflows.
+  // The cubes decide, except within their rounding and except for values that underflow or overflow.
   const Packed cubed = sixth * sixth * sixth, bound = least * least * least * squared;
   const auto is_below = (cubed < 0.999999 * bound) & (cubed > all(1e-290)) & (bound < all(1e290));
   Packed ratio = all(0.0);
@@ -143,7 +143,7 @@ CellShapes cell_shapes(const std::array<FaceShapes, N>& faces) {
   return shapes;
 }
 
-/// Powers of the tets at four cells' centres (cell_quality.cpp, TetPowers).
+/// Powers of the tets at the centres of four cells (cell_quality.cpp, TetPowers).
 struct TetPowers {
   Packed around;
   std::array<Packed, 2> cuts;
@@ -182,7 +182,7 @@ TetPowers tet_powers(const FaceShapes& face, const std::array<Vec3x4, N>& corner
   return powers;
 }
 
-/// \param n_used lanes that count; the others may hold anything
+/// \param n_used number of valid lanes; the other lanes may hold any values
 template <std::size_t N>
 InnerFaces inner_faces(const std::array<Vec3x4, N>& corners, const FaceShapes& face, const Places& a, const Places& b, std::size_t n_used) {
   using check_parts::k_tiny;

@@ -12,7 +12,7 @@
 namespace sterna {
 namespace {
 
-/// A corner and the ends of its three edges, so that the triple product is positive.
+/// A corner and the ends of its three edges, ordered for a positive triple product.
 struct CornerEdges {
   std::uint8_t at, a, b, c;
 };
@@ -97,7 +97,7 @@ double reach(std::span<const Point> corners, const Point& centre, const Vec3& di
   return reach;
 }
 
-/// How far the line from a cell's centre along d passes a face's centre, over the reach.
+/// Returns the distance at which the line from a cell's centre along d passes a face's centre, over the face's extent.
 double skewness_of(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Vec3& d, double share) {
   const Vec3 to_face = face.centre - cell;
   const Vec3 miss = to_face - (dot(face.area, to_face) / (dot(face.area, d) + k_tiny)) * d;
@@ -105,7 +105,7 @@ double skewness_of(const FaceShape& face, std::span<const Point> corners, const 
   return length / reach(corners, face.centre, miss / (length + k_tiny), share * norm(d) + k_tiny);
 }
 
-/// OpenFOAM's quality of a tet: its signed volume over that of the regular one in the same sphere.
+/// Returns OpenFOAM's quality of a tet: its signed volume over that of the regular tet in the same circumsphere.
 double tet_quality(const Point& p, const Point& q, const Point& r, const Point& s) {
   const Vec3 a = q - p, b = r - p, c = s - p;
   const double six_volumes = dot(cross(a, b), c);
@@ -114,7 +114,7 @@ double tet_quality(const Point& p, const Point& q, const Point& r, const Point& 
   return six_volumes / 6.0 / (8.0 / (9.0 * std::numbers::sqrt3) * radius * radius * radius + k_tiny);
 }
 
-/// Worst of the tets on the face's edges and centre with a cell's centre on the side `sign` (1: that of the face's normal).
+/// Returns the worst quality of the tets formed by the face's edges, its centre and a cell's centre on the side `sign` (1: side of the face normal).
 double worst_around_centre(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
   double worst = 1.0;
   for (std::size_t k = 0; k < corners.size(); ++k)
@@ -122,7 +122,7 @@ double worst_around_centre(const FaceShape& face, std::span<const Point> corners
   return worst;
 }
 
-/// Worst of the two tets that a quadrilateral cut at corner `base` makes with a cell's centre.
+/// Returns the worse quality of the two tets formed by a quadrilateral cut at corner `base` and a cell's centre.
 double worst_from_corner(std::span<const Point> corners, std::size_t base, const Point& cell, double sign) {
   const auto corner = [&](std::size_t k) { return corners[(base + k) % 4]; };
   return std::min(sign * tet_quality(corner(0), corner(1), corner(2), cell), sign * tet_quality(corner(0), corner(2), corner(3), cell));
@@ -135,7 +135,7 @@ double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corn
   if (other != nullptr) worst = std::min(worst, worst_around_centre(face, corners, *other, 1.0));
   if (corners.size() == 3) return worst;
   double best = -k_great;
-  for (std::size_t base = 0; base < 2; ++base) {  // from the opposite corner it is the same cut
+  for (std::size_t base = 0; base < 2; ++base) {  // the opposite corner gives the same cut
     double cut = worst_from_corner(corners, base, cell, -1.0);
     if (other != nullptr) cut = std::min(cut, worst_from_corner(corners, base, *other, 1.0));
     best = std::max(best, cut);
@@ -145,15 +145,15 @@ double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corn
 
 namespace {
 
-/// Of tets at one cell's centre: V^8 / N^6 with V six volumes and N tet_quality's `to_centre`; negative where one is the wrong way round.
+/// Powers for the tets at one cell's centre: V^8 / N^6 with V six times the volume and N tet_quality's `to_centre`; negative if a tet is inverted.
 struct TetPowers {
-  double around = k_great;        ///< the least with the face's centre
-  double cuts[2] = {-1.0, -1.0};  ///< the least of each of a quadrilateral's cuts
+  double around = k_great;        ///< least value of the tets with the face's centre
+  double cuts[2] = {-1.0, -1.0};  ///< least value for each cut of a quadrilateral
 };
 
-/// Crosses of neighbours among the corners serve all tets; `sign` as in worst_around_centre with its sense turned.
+/// Computes the powers. Cross products of neighbouring corners serve all tets; `sign` as in worst_around_centre, with opposite sense.
 TetPowers tet_powers(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
-  std::array<Vec3, 4> a, side, to_centre;  // corners from the cell's centre; crosses with the next corner, with the face's centre
+  std::array<Vec3, 4> a, side, to_centre;  // corners from the cell's centre; cross products with the next corner, with the face's centre
   std::array<double, 4> a2;
   const std::size_t n = corners.size();
   const Vec3 c = face.centre - cell;
@@ -184,7 +184,7 @@ TetPowers tet_powers(const FaceShape& face, std::span<const Point> corners, cons
   return powers;
 }
 
-/// exact_face_tet_quality() at a third of its price where all tets are the right way round: a tet's quality is 1.5 sqrt(3) V^4 / N^3.
+/// Returns exact_face_tet_quality() at a third of its cost if all tets are positive: the quality of a tet is 1.5 sqrt(3) V^4 / N^3.
 double face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
   TetPowers powers = tet_powers(face, corners, cell, 1.0);
   if (other != nullptr) {

@@ -1,7 +1,7 @@
-// Faces and cells as cell-centred solvers see them, one at a time: OpenFOAM's centres and measures (docs/method/quality.md, "Cell-centred measures").
+// Single faces and cells as evaluated by cell-centred solvers: OpenFOAM's centres and measures (docs/method/quality.md, "Cell-centred measures").
 //
-// Face centre: of a triangle the mean of its corners; of a quadrilateral the mean of the triangles around its middle, weighted by area. Cell centre: the mean
-// of the pyramids from the mean of its face centres to its faces, weighted by volume.
+// Face centre: for a triangle the mean of its corners; for a quadrilateral the area-weighted mean of the triangles around the mean of its corners. Cell
+// centre: volume-weighted mean of the pyramids from the mean of its face centres to its faces.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace sterna::check_parts {
 
 /// Keeps quotients finite where a length, an area or a product of them vanishes (OpenFOAM's ROOTVSMALL).
 inline constexpr double k_tiny = 1e-150;
-/// Share of the distance between centres (for a boundary face of the distance to its plane) that counts as the face's reach where the face itself is smaller.
+/// Lower bound of the face extent, as a fraction of the distance between centres (for a boundary face, of the distance to its plane).
 inline constexpr double k_inner_reach = 0.2, k_boundary_reach = 0.4;
-/// A sphere's radius that is as good as none, for flat tets (OpenFOAM's GREAT).
+/// Practically infinite sphere radius, for flat tets (OpenFOAM's GREAT).
 inline constexpr double k_great = 1e15;
-inline constexpr double k_least_power = 1e-250;  ///< powers of volumes below this have lost digits
+inline constexpr double k_least_power = 1e-250;  ///< powers of volumes below this value have lost digits
 
-/// Size, middle and flatness of a face as OpenFOAM has them.
+/// Area, centre and flatness of a face in OpenFOAM's definition.
 struct FaceShape {
   Vec3 area;  ///< m^2, along the normal
   Point centre;
@@ -32,20 +32,20 @@ FaceShape face_shape(std::span<const Point> corners);
 struct CellShape {
   Point centre;
   double volume = 0.0;        ///< m^3
-  double aspect_ratio = 1.0;  ///< larger of: largest over smallest sum of face areas seen along an axis; a sixth of all areas over volume^(2/3)
+  double aspect_ratio = 1.0;  ///< larger of: largest over smallest sum of face areas projected along an axis; a sixth of the total area over volume^(2/3)
   double openness = 0.0;
-  double determinant = 0.0;  ///< of the sum of a a^T over the inner faces' areas a, each over their mean size; over 8, which a cube has
+  double determinant = 0.0;  ///< determinant of the sum of a a^T over the inner faces' areas a, each over their mean size; divided by 8, the value of a cube
 };
-/// `inner`: bit f is set where face f of the kind's table is no boundary face.
+/// Returns the measures of a cell. `inner`: bit f is set if face f of the kind's table is not a boundary face.
 CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner = ~0u);
 
-/// What faces need of a cell.
+/// Centre and volume of a cell, as needed for its faces.
 struct Place {
   Point centre;
   double volume = 0.0;  ///< m^3
 };
 
-/// Of a face between two cells.
+/// Measures of a face between two cells.
 struct InnerFace {
   double non_orthogonality = 0.0;  ///< radians
   double skewness = 0.0, weight = 0.0, volume_ratio = 0.0;
@@ -55,15 +55,15 @@ struct InnerFace {
 /// \pre 3 or 4 corners, normal from a to b
 InnerFace inner_face(std::span<const Point> corners, const Place& a, const Place& b);
 
-/// Of a face of one cell, without what needs two.
+/// Measures of a face of one cell; measures that need two cells are left out.
 struct OuterFace {
   double skewness = 0.0, flatness = 1.0, tets = 0.0;
 };
 /// \pre 3 or 4 corners, normal out of the cell
 OuterFace outer_face(std::span<const Point> corners, const Place& cell);
 
-/// checkMesh's decomposition of a face for tracking: all tets around its centre, and those of the best of its cuts into triangles, must be the right way round
-/// on both sides. Of a triangle the second are as good as the first. `other`: null at the boundary.
+/// Returns the quality of checkMesh's face decomposition for tracking: all tets around the face centre, and the tets of the best of its cuts into triangles,
+/// must be positive on both sides. For a triangle both sets have the same quality. `other`: null at the boundary.
 double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other);
 
 }  // namespace sterna::check_parts

@@ -1,5 +1,5 @@
-// The walker as its list of steps. Together they prove a tiling: positive cells that match face by face cover each point of the fluid equally often
-// between two boundaries; the boundary does not cross itself, and its fluid side is covered once.
+// The walker as a list of steps. Together they prove a tiling: positive cells that match face by face cover each point of the fluid equally often between two
+// boundaries; the boundary does not cross itself, and its fluid side is covered once.
 #include "geom/mesh/check.h"
 
 #include "geom/mesh/cell_centred.h"
@@ -35,7 +35,7 @@ namespace {
 void judge_cell_centres(const LayerCheck::Parts* known, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
                         std::span<const std::uint32_t> neighbours, const CheckOptions& options, LazyGivenLayer& given, const RunContext& context,
                         CheckReport& report) {
-  if (!report.dual_checked) return;  // the mesh does not conform: said already
+  if (!report.dual_checked) return;  // the mesh does not conform, which is already reported
   if (options.measures_cell_centres()) {
     CellCentredScan columns = known && known->centres ? known->centres_joined(options.limits) : scan_column_centres(mesh, neighbours, options.limits, context);
     return judge_cell_centred(scan_cell_centred(std::move(columns), mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots,
@@ -113,7 +113,7 @@ LayerCheck::~LayerCheck() = default;
 
 namespace {
 
-/// What is not known yet.
+/// Scans the missing chunks.
 void find_missing(LayerCheck::Parts& parts, const HybridMesh& mesh, const CellNumbers& cells, std::span<const std::uint32_t> neighbours,
                   const CheckOptions& options, const RunContext& context) {
   parts.columns.fill(context, [&](std::size_t begin, std::size_t end) { return scan_column_chunk(mesh, options.quality, options.limits, begin, end); });
@@ -139,7 +139,7 @@ LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, cons
   Findings unused(0);
   const CellNumbers cells(mesh);
   if (!check_indices(mesh, cells, context, unused)) return LayerCheck(nullptr);
-  if (!mesh.prisms.empty() || !mesh.pyramids.empty() || !mesh.hexahedra.empty()) return LayerCheck(nullptr);  // scans of columns alone would miss them
+  if (!mesh.prisms.empty() || !mesh.pyramids.empty() || !mesh.hexahedra.empty()) return LayerCheck(nullptr);  // scans of columns alone would miss these cells
   const std::size_t n_columns = mesh.layers.n_columns();
   auto parts =
       std::make_unique<LayerCheck::Parts>(LayerCheck::Parts{{n_columns, k_column_chunk}, {mesh.layers.n_lines(), k_line_chunk}, std::nullopt, std::nullopt});

@@ -1,5 +1,5 @@
-// The invariant walker: proves that a HybridMesh tiles its domain and has a dual mesh, or says where not (VALID: G1-G4 and G20 of docs/method/quality.md,
-// "Gates"), and measures the gates that say how good it is (QUALITY: G5-G16, OpenFOAM's measures and the targets of G3 and G4).
+// The invariant walker. Proves that a HybridMesh tiles its domain and has a valid dual mesh, or reports the locations of violations (VALID: G1-G4 and G20 of
+// docs/method/quality.md, "Gates"). Measures the quality gates (QUALITY: G5-G16, OpenFOAM's measures and the targets of G3 and G4).
 #pragma once
 
 #include <cstdint>
@@ -19,72 +19,72 @@ enum class Violation {
   unmatched_face,              ///< G1: a cell face that no other cell and no boundary face shares
   overmatched_face,            ///< G1: more than two cells at a face, or a boundary face between two cells
   same_sense_face,             ///< G1: two cells (or cell and boundary face) see the face from the same side
-  stray_boundary_face,         ///< G1: a boundary face of no cell
+  stray_boundary_face,         ///< G1: a boundary face that belongs to no cell
   duplicate_marker,            ///< G1: a boundary face that belongs to two patches
   bad_index,                   ///< G1: a node, line or patch index out of range, or a node repeated in one cell or boundary face
   bad_point,                   ///< G1: a coordinate that is not finite
   unused_node,                 ///< G1
   boundary_intersection,       ///< G2: boundaries cross each other or themselves
-  envelope_intersection,       ///< G2: the surface between layers and tets crosses itself or a boundary
+  envelope_intersection,       ///< G2: the interface between layers and tets crosses itself or a boundary
   invalid_cell,                ///< G3: exact wedge, pyramid, tet or hexahedron test
-  volume_mismatch,             ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
-  broken_line,                 ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
+  volume_mismatch,             ///< divergence theorem: layer cells against the wall-to-envelope flux; tets against the envelope-to-farfield flux
+  broken_line,                 ///< G1: two growth lines that share nodes, so that at least one has no nodes of its own (column meshes only)
   overlapping_parts,           ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
   no_cells,                    ///< tiling: the mesh has no cell at all
   cell_within_rounding,        ///< G3: a valid cell whose volume or Jacobian is not above k_solver_margin in double precision (computed_volumes.h)
   negative_sub_volume,         ///< G4: a cell with a dual sub-volume that is not positive (exact)
-  sub_volume_within_rounding,  ///< G4: the same for dual sub-volumes as SU2 computes them
+  sub_volume_within_rounding,  ///< G4: a dual sub-volume, as computed by SU2, that is not above k_solver_margin
   open_dual_cell,              ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
   off_symmetry_plane,          ///< G20: a node of a symmetry patch off the patch's plane
-  periodic_mismatch,           ///< G20: periodic sides that are not each other's image, node by node and face by face
+  periodic_mismatch,           ///< G20: periodic sides that do not match node by node and face by face
 };
 std::string_view to_string(Violation v);
-/// "G1", "G2", "G3", "G4", "G20" or "tiling".
+/// Returns "G1", "G2", "G3", "G4", "G20" or "tiling".
 std::string_view gate_of(Violation v);
-/// "conformity"; of a gate of the verdict VALID.
+/// Returns the title of a gate of the verdict VALID, such as "conformity".
 std::string_view title_of_gate(std::string_view gate);
 
 struct CheckFinding {
   Violation violation;
   Point position;
-  std::string what;  ///< entity by name: "prism 12 (column 3, layer 0), patch wing"
+  std::string what;  ///< name of the entity: "prism 12 (column 3, layer 0), patch wing"
 };
 
 struct Quality {
   double min_wedge_quality = 1.0;  ///< scaled Jacobian of the worst prism
   double min_dihedral = 0.0;       ///< radians, over the explicit tets
   double max_dihedral = 0.0;       ///< radians, over the explicit tets
-  Point worst_prism;               ///< where min_wedge_quality was found
-  Point worst_tet;                 ///< where min_dihedral was found
-  Point most_obtuse_tet;           ///< where max_dihedral was found
-  /// Skew angle (13) of the prisms: share below 6, below 18, above 60 degrees. Pyramids and tets of columns over collapsed lines count as prisms above 60.
+  Point worst_prism;               ///< location of min_wedge_quality
+  Point worst_tet;                 ///< location of min_dihedral
+  Point most_obtuse_tet;           ///< location of max_dihedral
+  /// Skew angle (13) of the prisms: fraction below 6, below 18, above 60 degrees. Pyramids and tets of columns over collapsed lines count as prisms above 60.
   double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
 };
 
-/// What became of the layer on one patch, by area (G12). Full: at least 0.9 of the target height, along the wall's normal; compressed: below layers x first
+/// Layer coverage of one patch, by area (G12). Full: at least 0.9 of the target height along the wall normal. Compressed: below number of layers x first
 /// height.
 struct PatchCoverage {
   std::string patch;
   double area = 0.0;                                                    ///< m^2 of wall
-  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;  ///< shares of it; they sum to 1
-  double attainable = 0.0;                                              ///< share on which the geometry permits the full height (layer_room.h)
-  double attained = 0.0;                                                ///< share that has at least 0.9 of the height that the geometry permits
-  std::vector<std::pair<std::string, double>> lost;                     ///< share of the area below full height by reason, largest first
+  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;  ///< fractions of the area; they sum to 1
+  double attainable = 0.0;                                              ///< fraction on which the geometry permits the full height (layer_room.h)
+  double attained = 0.0;                                                ///< fraction with at least 0.9 of the height that the geometry permits
+  std::vector<std::pair<std::string, double>> lost;                     ///< fraction of the area below full height, by reason, largest first
 };
 
-/// Two sides that were found to be each other's image.
+/// Two matching periodic sides.
 struct PeriodicMatchReport {
   std::string first, second;              ///< patches
   Vec3 translation;                       ///< m, from the first to the second
-  std::int64_t n_nodes = 0, n_faces = 0;  ///< of one side
+  std::int64_t n_nodes = 0, n_faces = 0;  ///< per side
   double worst = 0.0;                     ///< m, largest distance of an image from its partner
 };
 
-/// Places of the gates that decide the verdict for one kind of solver: those that FAIL, or where none does those that warn.
+/// Locations of the gates that decide the verdict for one solver class: gates that FAIL, or if none fails, gates that warn.
 struct ConsumerPlaces {
   Consumer consumer = Consumer::cell_centred;
-  std::optional<std::int64_t> n_places;  ///< separate ones; none where these gates have no places, or some have too many to be kept
-  std::int64_t n_beyond = 0;             ///< cells, for node-centred solvers nodes; where some have too many to be kept, of the others alone
+  std::optional<std::int64_t> n_places;  ///< separate locations; none if these gates have no locations, or some have too many to be kept
+  std::int64_t n_beyond = 0;             ///< cells, or nodes for node-centred solvers; gates with too many items to be kept are left out
 };
 
 struct CheckReport {
@@ -94,33 +94,33 @@ struct CheckReport {
   std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
   std::vector<CheckFinding> findings;                      ///< the first few of each kind, in mesh order
   double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3; error relative to layer_volume, limit 1e-11
-  double tet_volume = 0.0, tet_volume_error = 0.0;         ///< likewise for the tets
+  double tet_volume = 0.0, tet_volume_error = 0.0;         ///< the same two values for the tets
   double total_volume = 0.0;
   double dual_volume = 0.0;  ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
-  std::vector<GateResult> gates;               ///< QUALITY, in the order of Measure; empty when quality was not asked for
-  std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty as `gates`
-  Consumers consumers;                         ///< that the states of `gates` are about
-  std::vector<PatchCoverage> coverage;         ///< of wall patches under layers, where the mesh says what was asked for
-  std::vector<PeriodicMatchReport> periodic;   ///< those of HybridMesh::periodic that match
-  bool is_complete = true;                     ///< false: indices out of range or points not finite, so that nothing else could be checked
-  bool intersections_checked = false;          ///< G2 was asked for and tried
-  bool dual_checked = false;                   ///< G4 was tried: faces conform
+  std::vector<GateResult> gates;               ///< QUALITY, in the order of Measure; empty if quality was not requested
+  std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty if `gates` is
+  Consumers consumers;                         ///< consumers that the states of `gates` refer to
+  std::vector<PatchCoverage> coverage;         ///< per wall patch under layers, if the mesh has a layer request
+  std::vector<PeriodicMatchReport> periodic;   ///< matching pairs of HybridMesh::periodic
+  bool is_complete = true;                     ///< false: indices out of range or points not finite, so that no other check was possible
+  bool intersections_checked = false;          ///< G2 was requested and run
+  bool dual_checked = false;                   ///< G4 was run, since faces conform
   bool quality_measured = false;               ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
-  /// Worst state of the QUALITY gates; not_checked when none was.
+  /// Returns the worst state of the QUALITY gates; not_checked if no gate was checked.
   GateState quality_state() const;
-  /// Worst state for one kind of solver.
+  /// Returns the worst state for one solver class.
   GateState quality_state(Consumer consumer) const;
-  /// Leaves the states of gates that some of these consumers use; the others are "not checked". Values stay.
+  /// Keeps the states of gates that at least one of these consumers uses and sets the others to "not checked". Values are kept.
   void restrict_to(Consumers asked);
-  /// Whether the measure belongs to a consumer that is asked about.
+  /// Returns true if the measure belongs to a selected consumer.
   bool is_shown(const GateResult& gate) const { return info_of(gate.measure).consumers.has_any_of(consumers); }
-  /// Violations of hard limits that the given boundary is proven to force, over all measures: they do not FAIL.
+  /// Returns the number of hard-limit violations over all measures that are proven to be forced by the given boundary. They do not FAIL.
   std::int64_t n_forced() const;
   /// \pre quality_measured
   const GateResult& gate(Measure measure) const { return gates[static_cast<std::size_t>(measure)]; }
-  /// Puts a measure that was taken elsewhere in the place of its own (G17, G18). Nothing where quality was not asked for.
+  /// Replaces the entry of a measure that was computed elsewhere (G17, G18). Does nothing if quality was not requested.
   void put(GateResult gate);
   std::int64_t count(Violation v) const;
 };
@@ -128,15 +128,15 @@ struct CheckReport {
 struct CheckOptions {
   bool intersections = true;  ///< G2, the exact triangle-triangle tests
   bool quality = true;        ///< fill CheckReport::quality and gates
-  bool cell_centred = true;   ///< with quality: OpenFOAM's measures, too, where consumers use them
-  Consumers consumers;        ///< gates of others are "not checked"
-  GateTable limits;           ///< of the QUALITY gates
+  bool cell_centred = true;   ///< with quality: also OpenFOAM's measures, if consumers use them
+  Consumers consumers;        ///< gates of other consumers are "not checked"
+  GateTable limits;           ///< limits of the QUALITY gates
   bool measures_cell_centres() const { return quality && cell_centred && consumers.cell_centred; }
   int findings_per_kind = 10;
-  std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
+  std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bounds the memory for matching faces, 16 bytes each; the report does not depend on this value
 };
 
-/// What check_ahead() has found.
+/// Result of check_ahead().
 class LayerCheck {
  public:
   struct Parts;
@@ -144,35 +144,38 @@ class LayerCheck {
   LayerCheck(LayerCheck&&) noexcept;
   LayerCheck& operator=(LayerCheck&&) noexcept;
   ~LayerCheck();
-  /// nullptr: nothing could be found out, the mesh has faults.
+  /// nullptr: the mesh has faults, so no result is available.
   const Parts* parts() const { return parts_.get(); }
 
  private:
   std::unique_ptr<const Parts> parts_;
 };
 
-/// "Layer" is every cell but the explicit tets, "envelope" the faces between layer and tets. Quads take part in the intersection test with both of their
-/// triangulations (planar ones with one).
-/// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its
-/// exact test; boundaries and envelope free of crossings; no unused node; volumes consistent to 1e-11. Column meshes are checked without making
-/// their cells explicit (matching over base edges), explicit ones by sorting faces; both parallel, same report for any thread count.
-/// The dual mesh and the QUALITY gates need a conforming mesh: with a G1 violation they are "not checked". Gates of layers need columns, and those that compare
+/// Checks a mesh.
+/// "Layer" means every cell except the explicit tets; "envelope" means the faces between layer and tets. Quads take part in the intersection test with both
+/// of their triangulations (planar quads with one).
+/// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its exact test;
+/// boundaries and envelope free of crossings; no unused node; volumes consistent to 1e-11.
+/// Column meshes are checked without making their cells explicit (matching over base edges), explicit meshes by sorting faces. Both checks are parallel and
+/// give the same report for any thread count.
+/// The dual mesh and the QUALITY gates need a conforming mesh: with a G1 violation they are "not checked". Gates of layers need columns. Gates that compare
 /// with a request need HybridMesh::request. Never throws for a bad mesh: findings are the result.
-/// `ahead`: of check_ahead() of the same columns, boundary faces and their points, with the same options; saves time, changes nothing.
+/// `ahead`: result of check_ahead() for the same columns, boundary faces and their points, with the same options. It saves time and does not change the
+/// report.
 CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context, const LayerCheck* ahead = nullptr);
 
-/// The part of check() that needs columns and boundary faces only, for a mesh that does not have its other cells and their points yet.
+/// Runs the part of check() that needs only columns and boundary faces, for a mesh that does not have its other cells and their points yet.
 LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context);
 
-/// "VALID; cell-centred: FAIL at 3 places (12 of 3.2 M cells); node-centred: pass"
+/// Returns the verdict in one line: "VALID; cell-centred: FAIL at 3 places (12 of 3.2 M cells); node-centred: pass".
 std::string verdict_line(const CheckReport& report);
-/// The part of it about one kind of solver, without the name: "FAIL at 3 places (12 of 3.2 M cells)", "warn, 2 forced".
+/// Returns the part of verdict_line() for one solver class, without its name: "FAIL at 3 places (12 of 3.2 M cells)", "warn, 2 forced".
 std::string verdict_of(const CheckReport& report, Consumer consumer);
-/// Several lines for people: both verdicts, gates with counts and worst places, the findings with coordinates.
+/// Returns a human-readable report of several lines: both verdicts, gates with counts and worst locations, findings with coordinates.
 std::string to_text(const CheckReport& report);
-/// The lines of one measure in it.
+/// Returns the lines of one measure in this report.
 std::string to_text(const GateResult& gate);
-/// JSON with schema "sterna-check-2", described in docs/check_json.md.
+/// Returns JSON with schema "sterna-check-2", described in docs/check_json.md.
 std::string to_json(const CheckReport& report);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// One pass over all cells: the exact test of each kind (G3), the volumes for the divergence theorem, and quality while the points are at hand.
+// One pass over all cells: the exact test of each kind (G3), the volumes for the divergence theorem, and quality while the points are loaded.
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"

@@ -1,4 +1,4 @@
-// Cells as solvers see them: with rounded sums and products instead of exact signs.
+// Cells as computed by solvers: with rounded sums and products instead of exact signs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,10 +12,10 @@
 namespace sterna {
 namespace {
 
-/// Places that are named.
+/// Maximum number of locations in the report.
 constexpr std::size_t k_most_lost_places = 10;
 
-/// Determinant of three vectors over the product of their lengths; zero where one has none.
+/// Returns the determinant of three vectors over the product of their lengths; zero if one length is zero.
 double relative_determinant(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double scale = norm(a) * norm(b) * norm(c);
   return scale > 0.0 ? dot(cross(a, b), c) / scale : 0.0;
@@ -69,7 +69,7 @@ double least_computed_sub_volume(CellKind kind, std::span<const Vec3> p) {
   for (const LocalFace& face : cell_faces(kind)) {
     const Point middle = mean_place(p, std::span(face.nodes).first(face.size));
     for (std::size_t k = 0; k < face.size; ++k) {
-      // The face runs a, b with its normal out of the cell, so (a, mid-edge, face, cell) turns the other way.
+      // The face runs a, b with its normal out of the cell, so (a, mid-edge, face, cell) has the opposite orientation.
       const Point &a = p[face.nodes[k]], &b = p[face.nodes[(k + 1u) % face.size]];
       const Point mid_edge = (a + b) / 2.0;
       least = std::min({least, relative_determinant(middle - a, mid_edge - a, centre - a), relative_determinant(mid_edge - b, middle - b, centre - b)});
@@ -84,14 +84,14 @@ bool is_positive_in_double(CellKind kind, std::span<const Vec3> points) {
 
 namespace {
 
-/// Looks at cells with the mesh's points and with those of a file.
+/// Compares cells at the mesh's points with cells at the rounded points of a file.
 class LostCellSearch {
  public:
   LostCellSearch(const HybridMesh& mesh, std::span<const Point> rounded) : mesh_(mesh), rounded_(rounded) {}
 
   bool is_lost(const Cell& cell) const { return !is_positive(cell, rounded_) && is_positive(cell, mesh_.points.raw()); }
 
-  /// Numbers of lost cells among those of a block, ascending. `cell_of(i)` gives the cell i.
+  /// Appends the numbers of lost cells in a block, ascending. `cell_of(i)` returns cell i.
   template <class CellOf>
   void add(const RunContext& context, std::uint64_t first_number, std::size_t n, const CellOf& cell_of, std::vector<std::uint64_t>& lost) const {
     const std::vector<std::uint64_t> more =

@@ -1,7 +1,6 @@
-// Faces, cells and crossings cannot tell a tiling from two meshes, one inside the other, that do not touch. The number of cells that cover a point is
-// the winding number of the boundary there; it is constant between boundaries, so one look at each piece of boundary suffices: on the fluid side of
-// every piece it must be 1. At a point of a boundary triangle, without that triangle's own part, the winding number is the mean of its two sides, here
-// 1/2.
+// Faces, cells and crossings cannot distinguish a tiling from two meshes, one inside the other, that do not touch. The number of cells that cover a point is
+// the winding number of the boundary there. It is constant between boundaries, so one test per piece of boundary suffices: on the fluid side of every piece
+// it must be 1. At a point of a boundary triangle, without that triangle's own contribution, the winding number is the mean of its two sides, here 1/2.
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -16,7 +15,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Winding numbers on a boundary are whole numbers and a half; the tree's approximation is far better than this.
+/// Winding numbers on a boundary are integers plus one half; the error of the tree's approximation is far below this tolerance.
 constexpr double k_winding_tolerance = 0.25;
 
 struct BoundarySurface {
@@ -27,7 +26,7 @@ struct BoundarySurface {
 BoundarySurface collect_boundary(const HybridMesh& mesh, const FaceSlots& slots) {
   BoundarySurface surface;
   surface.mesh.points = Column<VertexId, Point>(mesh.points.raw());
-  const SheetSides sheets = find_sheet_sides(mesh);  // their two sides bound nothing
+  const SheetSides sheets = find_sheet_sides(mesh);  // the two sides of a baffle enclose no volume
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot) {
     if (sheets.is_sheet(slot - slots.first_boundary())) continue;
     const Face face = slots.face(slot);
@@ -39,7 +38,7 @@ BoundarySurface collect_boundary(const HybridMesh& mesh, const FaceSlots& slots)
   return surface;
 }
 
-/// Pieces connected over edges that exactly two triangles share: nothing can separate two sides of such an edge.
+/// Labels pieces connected over edges that exactly two triangles share: nothing can separate the two sides of such an edge.
 std::vector<std::uint32_t> label_pieces(const TriMesh& mesh, const RunContext& context) {
   struct Edge {
     std::uint32_t lower, upper, triangle;
@@ -63,7 +62,7 @@ std::vector<std::uint32_t> label_pieces(const TriMesh& mesh, const RunContext& c
   return std::move(pieces).roots();
 }
 
-/// The largest triangle of each piece, ascending.
+/// Returns the largest triangle of each piece, ascending.
 std::vector<TriangleId> choose_witnesses(const TriMesh& mesh, const std::vector<std::uint32_t>& piece) {
   const auto area = [&](TriangleId t) {
     const auto c = corners(mesh, t);
@@ -79,7 +78,7 @@ std::vector<TriangleId> choose_witnesses(const TriMesh& mesh, const std::vector<
   return largest;
 }
 
-/// Share of the full sphere under which a triangle is seen from p, positive from behind its normal (van Oosterom & Strackee 1983).
+/// Returns the solid angle of a triangle seen from p as a fraction of the full sphere, positive from behind its normal (van Oosterom & Strackee 1983).
 double solid_angle_share(const std::array<Point, 3>& corner, const Point& p) {
   const Vec3 a = corner[0] - p, b = corner[1] - p, c = corner[2] - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
@@ -92,9 +91,9 @@ void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContex
   if (findings.has_any_of("G1") || findings.has_any_of("G2")) return;
   const BoundarySurface surface = collect_boundary(mesh, slots);
   const std::vector<TriangleId> witnesses = choose_witnesses(surface.mesh, label_pieces(surface.mesh, context));
-  if (witnesses.size() < 2) return;  // one closed piece that does not cross itself has nothing but 0 and 1 on its sides
+  if (witnesses.size() < 2) return;  // one closed piece that does not cross itself has only the winding numbers 0 and 1 on its sides
 
-  TriMesh rest;  // without the witnesses, whose own part is undefined at their middle
+  TriMesh rest;  // without the witnesses, whose own contribution is undefined at their centre
   rest.points = surface.mesh.points;
   for (const TriangleId t : surface.mesh.triangles.ids())
     if (!std::binary_search(witnesses.begin(), witnesses.end(), t)) rest.triangles.push_back(surface.mesh.triangles[t]);

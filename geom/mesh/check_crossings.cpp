@@ -7,8 +7,8 @@
 namespace sterna::check_parts {
 namespace {
 
-/// A quad stands for both of its triangulations, so that whatever crosses the bilinear surface on either side of a diagonal is seen; the two would overlap in a
-/// planar quad, where one suffices. Faces with a repeated node are left out (bad_index has them).
+/// Adds both triangulations of a quad, so that anything that crosses the bilinear surface on either side of a diagonal is found. In a planar quad the two
+/// would overlap, so one suffices. Faces with a repeated node are left out (reported as bad_index).
 void add_face(const HybridMesh& mesh, const FaceSlots& slots, std::uint32_t slot, CrossingCandidates& candidates) {
   const Face face = slots.face(slot);
   const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
@@ -27,7 +27,7 @@ void add_face(const HybridMesh& mesh, const FaceSlots& slots, std::uint32_t slot
 }
 
 CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match) {
-  std::vector<std::uint32_t> doubled;  // they lie on their first copy; G1 has them
+  std::vector<std::uint32_t> doubled;  // duplicates of a face that is tested once; reported by G1
   for (const FaceIssue& issue : match.issues)
     if (issue.violation == Violation::duplicate_marker) doubled.push_back(issue.slot);
   std::sort(doubled.begin(), doubled.end());
@@ -40,7 +40,7 @@ CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& s
 
 CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled,
                                        std::span<const std::uint32_t> envelope) {
-  // The two sides of a sheet without thickness count once, and so do their nodes.
+  // The two sides of a baffle count once, and so do their nodes.
   const SheetSides sheets = find_sheet_sides(mesh);
   CrossingCandidates candidates;
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot)
@@ -66,7 +66,7 @@ void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceM
     const std::uint32_t slot_a = candidates.slots[a], slot_b = candidates.slots[b];
     const bool is_envelope = !slots.is_boundary(slot_a) || !slots.is_boundary(slot_b);
     findings.add(is_envelope ? Violation::envelope_intersection : Violation::boundary_intersection, [&, a = a, b = b] {
-      // The smaller triangle's middle is nearer to the crossing.
+      // The smaller triangle's centre is nearer to the crossing.
       const auto ca = corners_of(a), cb = corners_of(b);
       const auto& c = triangle_area(ca[0], ca[1], ca[2]) <= triangle_area(cb[0], cb[1], cb[2]) ? ca : cb;
       const Point place = (c[0] + c[1] + c[2]) / 3.0;

@@ -1,4 +1,4 @@
-// G4: the dual mesh exists (every sub-volume positive, by exact signs where rounding leaves a doubt) and is closed.
+// G4: the dual mesh exists (every sub-volume positive, by exact signs where rounding leaves it undecided) and is closed.
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"
@@ -7,9 +7,9 @@
 namespace sterna::check_parts {
 namespace {
 
-/// What becomes of a suspect.
+/// Result of the exact test of a suspect cell.
 struct SubVolumeVerdict {
-  bool is_negative = false;         ///< in exact arithmetic
+  bool is_negative = false;         ///< a sub-volume is not positive in exact arithmetic
   bool is_within_rounding = false;  ///< positive, but not above k_solver_margin in double precision
   double least = 0.0;               ///< least_computed_sub_volume()
 };
@@ -18,7 +18,7 @@ SubVolumeVerdict judge_sub_volumes(const HybridMesh& mesh, const Cell& cell) {
   SubVolumeVerdict verdict;
   std::array<Vec3, 8> p;
   for (std::size_t k = 0; k < cell.span().size(); ++k) p[k] = mesh.points[cell.nodes[k]];
-  // Those of a tetrahedron have a 24th of its volume each: where that is not positive the cell itself is invalid, which is another violation.
+  // Each sub-volume of a tetrahedron is a 24th of its volume. If that is not positive the cell itself is invalid, which is a different violation.
   if (cell.kind == CellKind::tetrahedron) {
     if (!is_tet_valid({p[0], p[1], p[2], p[3]})) return verdict;
   } else if (!are_sub_volumes_positive(mesh, cell)) {

@@ -1,6 +1,6 @@
-// Matches faces by their vertex ids. A face falls into the bucket of its lowest node; inside a bucket the faces are sorted by the remaining nodes in a
-// canonical order that keeps the cycle (a quad is the same face only with the same cycle), with one bit for the sense. Buckets are filled by counting
-// (with atomic cursors: the order inside a bucket is restored by its sort), in batches of node ranges that bound the memory.
+// Matches faces by their vertex ids. A face falls into the bucket of its lowest node. Inside a bucket the faces are sorted by the remaining nodes in a
+// canonical order that keeps the cycle (quads match only with the same cycle), with one bit for the sense. Buckets are filled by counting (with atomic
+// cursors: the order inside a bucket is restored by its sort), in batches of node ranges that bound the memory.
 #include <algorithm>
 #include <atomic>
 #include <string>
@@ -18,7 +18,7 @@ constexpr std::size_t k_used_node_chunk = 4096;
 struct FaceKey {
   std::uint32_t b, c;
   std::uint32_t d;               ///< NodeId::k_invalid for a triangle
-  std::uint32_t slot_and_sense;  ///< 2 * slot + (1 when the face runs a, c, .., b)
+  std::uint32_t slot_and_sense;  ///< 2 * slot + (1 if the face runs a, c, .., b)
 
   std::uint32_t slot() const { return slot_and_sense >> 1; }
   bool is_reversed() const { return (slot_and_sense & 1u) != 0; }
@@ -46,7 +46,7 @@ KeyedFace canonical(std::uint32_t slot, const Face& face) {
   return {at(0), {std::min(after, before), std::max(after, before), opposite, 2 * slot + (after > before ? 1u : 0u)}};
 }
 
-/// Decides one face from all its occurrences, cells first (boundary slots are the highest).
+/// Classifies one face from all its occurrences, cells first (boundary slots are the highest).
 void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, std::span<std::uint32_t> cap_neighbours,
            FaceMatch& match) {
   std::size_t n_cells = 0;
@@ -61,7 +61,7 @@ void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span
   if (n_cells == 2) {
     if (face[0].is_reversed() == face[1].is_reversed()) return add(Violation::same_sense_face, 0, 1);
     if (match.with_pairs) match.pairs.push_back({face[0].slot(), face[1].slot()});
-    // The lower slot belongs to the layer when only one of them does.
+    // If only one of the two slots belongs to the layer, it is the lower one.
     for (std::size_t i = 0; i < 2 && !cap_neighbours.empty(); ++i)
       if (const auto cap = slots.prism_cap(face[i].slot())) cap_neighbours[*cap] = face[1 - i].slot();
     const bool is_layer = slots.is_layer(face[0].slot());
@@ -188,7 +188,7 @@ namespace {
 using check_parts::Face;
 using check_parts::FaceSlots;
 
-/// A hash of the nodes of a face that does not depend on where they begin and which way round they run.
+/// Returns a hash of the nodes of a face that is independent of their first node and sense.
 std::uint64_t hash_of(const Face& face) {
   std::array<std::uint32_t, 4> nodes{};
   for (std::size_t k = 0; k < face.size; ++k) nodes[k] = face.nodes[k].value();
@@ -203,9 +203,9 @@ std::uint64_t hash_of(const Face& face) {
   return hash;
 }
 
-/// Whether every face occurs an even number of times; a false "yes" has the probability 2^-64.
+/// Returns true if every face occurs an even number of times; the probability of a false "true" is 2^-64.
 bool is_paired(const FaceSlots& slots, const RunContext& context) {
-  constexpr std::size_t k_words = 64;  // so that threads do not wait for each other
+  constexpr std::size_t k_words = 64;  // avoids contention between threads
   constexpr std::uint32_t k_slots_per_word = 4096;
   std::array<std::uint64_t, k_words> words{};
   slots.for_each(context, [&](std::uint32_t slot, const Face& face) {

@@ -1,4 +1,4 @@
-// First step of the walker: what must hold before any index may be used as one, and that every node is used.
+// First step of the walker: checks that all indices are valid and that every node is used.
 #include <atomic>
 
 #include "geom/base/error.h"
@@ -15,7 +15,7 @@ bool has_repeated_node(const Nodes& nodes) {
   return false;
 }
 
-/// Entities of one array that break a rule, in order.
+/// Returns the entities of one array that break a rule, in order.
 template <class IsBad>
 std::vector<std::uint64_t> find_bad(const RunContext& context, std::size_t n, const IsBad& is_bad) {
   return parallel_reduce(
@@ -43,7 +43,7 @@ class IndexWalker {
     }
   }
 
-  /// Tables of the columns; false when lines cannot be looked up at all.
+  /// Checks the tables of the columns; returns false if lines cannot be looked up at all.
   void check_columns() {
     const LayerBlock& layers = mesh_.layers;
     if (layers.is_collapsed.size() != layers.n_lines() || layers.n_layers < 0 || (layers.n_layers == 0 && layers.n_columns() > 0)) {
@@ -150,13 +150,13 @@ class IndexWalker {
     findings_.add(Violation::bad_index, [&] { return std::pair(Point{}, std::move(what)); });
   }
 
-  /// No node on two lines: sorted by their first node, each line ends before the next one starts.
+  /// Checks that no node is on two lines: sorted by their first node, each line ends before the next one starts.
   void check_lines() {
     const LayerBlock& layers = mesh_.layers;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted(layers.n_lines());
     for (std::uint32_t k = 0; k < sorted.size(); ++k) sorted[k] = {layers.first_node[k], k};
     if (!std::is_sorted(sorted.begin(), sorted.end())) parallel_sort(context_, sorted, std::less<>{});
-    std::size_t longest = 0;  // the line that reaches furthest so far
+    std::size_t longest = 0;  // the line with the largest end so far
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       const std::uint32_t before = sorted[longest].second, line = sorted[i].second;
       if (end_of_line(before) > sorted[i].first)

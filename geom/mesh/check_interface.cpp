@@ -1,4 +1,4 @@
-// G9: does the last cell of the layer fit the tet above it? The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its
+// G9: match of the layer's last cell with the tet above it. The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its
 // volume.
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Volume of the prism of that height over the tet's: same base and height.
+/// Volume of the prism of the same base and height over that of the tet.
 constexpr double k_regular_volumes = 3.0;
 
 struct InterfaceScan {
@@ -25,8 +25,8 @@ struct InterfaceScan {
   GateScan height, volume;  ///< ids are slots of the prism's face
 };
 
-/// Wall nodes at which fans of opened ridges may begin: those beside triangles only. Where layers end on another wall their sides are quadrilaterals of it.
-/// Empty without explicit prisms.
+/// Marks wall nodes at which multi-normal fans of opened ridges may begin: nodes on boundary triangles only. Where layers end on another wall, their sides
+/// are quadrilaterals of that wall. Empty without explicit prisms.
 std::vector<std::uint8_t> possible_fan_feet(const HybridMesh& mesh) {
   std::vector<std::uint8_t> is_foot(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
   if (is_foot.empty()) return is_foot;
@@ -38,13 +38,13 @@ std::vector<std::uint8_t> possible_fan_feet(const HybridMesh& mesh) {
   return is_foot;
 }
 
-/// Mean edge of a triangle, m.
+/// Returns the mean edge of a triangle, m.
 double edge_of(const HybridMesh& mesh, const Face& face) {
   const auto f = [&](std::size_t k) { return mesh.points[face.nodes[k]]; };
   return (distance(f(0), f(1)) + distance(f(1), f(2)) + distance(f(2), f(0))) / 3.0;
 }
 
-/// Mean of the last steps of a column's lines, m, for the top of a column whose lines all stand.
+/// Returns the mean of the last steps of a column's lines, m, for the top of a column without collapsed lines.
 std::optional<double> mean_last_height(const HybridMesh& mesh, const FaceSlots& slots, std::uint32_t slot) {
   const std::optional<std::uint32_t> column = slots.column_over(slot);
   if (!column || mesh.layers.n_collapsed(*column) > 0) return std::nullopt;
@@ -71,11 +71,11 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const Face face = slots.face(slot);
           const Cell cell = cells.cell(slots.owner(slot));
           if (face.size != 3) continue;
-          if (cell.kind != CellKind::prism) {  // beside a line that ends a layer below the others
+          if (cell.kind != CellKind::prism) {  // beside a line that ends one layer below the others
             if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.add_height(*height, edge_of(mesh, face), slot);
             continue;
           }
-          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // a fan's, beside its first cells
+          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // multi-normal fan, beside its first cells
           WedgePoints p;
           for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
           const double edge = edge_of(mesh, face);
@@ -96,7 +96,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
   const SlotItems face{slots, "top of "};
   const auto prove_height = [&](std::uint64_t id, double) {
     const std::uint64_t number = slots.owner(static_cast<std::uint32_t>(id));
-    if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // not of a column, or nobody says what was asked for
+    if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // not in a column, or the layer request is unknown
     return given.get().interface_height(number / static_cast<std::uint64_t>(mesh.layers.n_layers), gaps, limits[Measure::interface_height].hard);
   };
   const auto put = [&](GateResult result) {

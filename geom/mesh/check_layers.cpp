@@ -13,21 +13,21 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Relative slack of the requested growth ratio: lines are curved, so the lengths of their chords do not grow by quite the ratio of the heights.
+/// Relative slack of the requested growth ratio: lines are curved, so the lengths of their chords do not grow exactly by the ratio of the heights.
 constexpr double k_growth_slack = 0.01;
-/// Relative slack of n h0, the height below which a layer is compressed: rounding of the line's end.
+/// Relative slack of n h0, the height below which a layer is compressed: covers rounding at the end of the line.
 constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_gate_line_chunk = 1024;
 constexpr const char* k_no_boundary_layer = "no boundary layer was asked for: total_height, boundary_layer, or a first_height of flow conditions";
 constexpr const char* k_no_request = "the mesh does not say what was asked for";
 
-/// What the coverage needs of a line.
+/// Data of a line for the coverage.
 struct LineHeight {
-  double height = 0.0;         ///< m, of the layer along the wall's normal
-  Vec3 normal;                 ///< unit, of the wall at the foot
-  double visibility = 0.0;     ///< cosine, as RoomRequest has it; of lines below their full height
-  bool is_full = false;        ///< at least k_full_height_share of what was asked for
-  bool is_compressed = false;  ///< too low for its first height
+  double height = 0.0;         ///< m, layer height along the wall normal
+  Vec3 normal;                 ///< unit, wall normal at the base vertex
+  double visibility = 0.0;     ///< cosine, as in RoomRequest; only for lines below their full height
+  bool is_full = false;        ///< at least k_full_height_share of the target height
+  bool is_compressed = false;  ///< too low for the requested first height
 };
 
 struct LayerScan {
@@ -45,7 +45,7 @@ struct LayerScan {
   GateScan growth, angle, first_height, step;  ///< ids are lines
 };
 
-/// Ids are lines; their nodes are the feet, their cells those beside the wall where lines are columns.
+/// Items whose ids are lines. Their nodes are the base vertices, their cells those beside the wall if lines are columns.
 struct LineItems {
   const HybridMesh& mesh;
   const LayerLines& lines;
@@ -69,7 +69,7 @@ struct LineItems {
 
 class LineScanner {
  public:
-  /// `line_heights` has one entry per line, which is set where the mesh's request can be used.
+  /// `line_heights` has one entry per line, which is set if the mesh's request is usable.
   LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const FacetsOfExplicitPrisms& beside, const MirrorFeet& feet,
               const GateTable& limits, bool is_request_usable, std::vector<LineHeight>& line_heights)
       : mesh_(mesh),
@@ -85,7 +85,7 @@ class LineScanner {
 
   void add(std::uint32_t line) {
     const int n = lines_.n_layers(line);
-    if (fans_.around(line).empty()) return;  // its cells are no columns
+    if (fans_.around(line).empty()) return;  // its cells are not columns
     read_fan(line, n);
     if (lines_.are_columns() && is_request_usable_) read_height(line, n);
     if (n == 0) return;
@@ -98,7 +98,7 @@ class LineScanner {
  private:
   const Point& point(std::uint32_t line, int j) const { return mesh_.points[lines_.node(line, j)]; }
 
-  /// Normals, area and vertex normal of the wall around the line's foot; steps to its neighbours.
+  /// Reads normals, area and vertex normal of the wall around the line's base vertex, and the steps to its neighbours.
   void read_fan(std::uint32_t line, int n) {
     normals_.clear();
     area_ = 0.0;
@@ -114,7 +114,7 @@ class LineScanner {
       area_ += norm(normal) / 3.0;
       normals_.push_back(normalized(normal));
       vertex_normal_ += corner_angle(foot, a, b) * normals_.back();
-      // Each inner edge is the next one of two lines and is looked at from the lower; one at the rim only from its only triangle.
+      // Each inner edge is the next edge of two lines and is evaluated from the lower one; an open-boundary edge from its only triangle.
       const int step = std::abs(n - lines_.n_layers(next));
       if (step == 0) {
         n_level += is_shared(line, next) ? 0.5 : 1.0;
@@ -130,7 +130,7 @@ class LineScanner {
     if (n_level > 0.0) scan_.step.add(0.0, line, n_level);
   }
 
-  /// Whether a triangle runs next -> line.
+  /// Returns true if a triangle runs next -> line.
   bool is_shared(std::uint32_t line, std::uint32_t next) const {
     const auto around = fans_.around(line);
     return std::any_of(around.begin(), around.end(), [&](std::uint32_t t) {
@@ -145,8 +145,8 @@ class LineScanner {
     for (int j = 0; j < n; ++j) heights_[static_cast<std::size_t>(j)] = distance(point(line, j), point(line, j + 1));
   }
 
-  /// Where lines were asked for different growths, the limit is the largest of them: a line that was asked for less is measured as if its ratios were as much
-  /// larger.
+  /// Returns the factor on the growth ratios of a line. If lines have different requested growth ratios, the limit is the largest of them. A line with a
+  /// smaller requested ratio is measured as if its ratios were larger by the same factor.
   double growth_scale(std::uint32_t line) const {
     const LayerRequest& request = mesh_.request;
     if (!lines_.are_columns() || line >= request.line_max_growth.size()) return 1.0;
@@ -157,7 +157,7 @@ class LineScanner {
     LineHeight& own = line_heights_[line];
     own.normal = vertex_normal_;
     own.height = dot(point(line, n) - point(line, 0), vertex_normal_);
-    // What was asked for cannot be met.
+    // The requested first height cannot be met.
     own.is_compressed = n > 0 && own.height < mesh_.request.first_room_of(line, n) * (1.0 - k_height_slack);
     own.is_full = n > 0 && own.height >= k_full_height_share * mesh_.request.target_height[line] * (1.0 - k_height_slack);
     if (own.is_full || normals_.empty()) return;
@@ -187,7 +187,7 @@ class LineScanner {
   double area_ = 0.0;
 };
 
-/// Mean edge of the envelope above each wall triangle, m.
+/// Returns the mean edge of the envelope above each wall triangle, m.
 std::vector<double> envelope_edges(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   std::vector<double> edges(lines.triangles().size());
   parallel_for(context, edges.size(), [&](std::size_t t) {
@@ -197,7 +197,7 @@ std::vector<double> envelope_edges(const HybridMesh& mesh, const LayerLines& lin
   return edges;
 }
 
-/// Walls under layers, with what was asked for on them, and all other boundary faces.
+/// Returns the walls under layers, with their requested heights, and all other boundary faces.
 std::vector<FacingTriangle> facing_triangles(const HybridMesh& mesh, const LayerLines& lines, const std::vector<double>& edges) {
   std::vector<FacingTriangle> facing;
   std::vector<std::uint8_t> has_layers(mesh.patches.size(), 0);
@@ -224,10 +224,10 @@ std::vector<FacingTriangle> facing_triangles(const HybridMesh& mesh, const Layer
   return facing;
 }
 
-/// Of each line, m. Gaps are looked for where a line is below its full height.
+/// Permitted heights of each line, m. Gaps are evaluated only if a line is below its full height.
 struct PermittedHeights {
-  std::vector<double> heights;  ///< that the geometry permits; the target where the line has its full height
-  std::vector<double> gaps;     ///< that gaps permit; infinite where none limits the line
+  std::vector<double> heights;  ///< permitted by the geometry; the target if the line has its full height
+  std::vector<double> gaps;     ///< permitted by gaps; infinite if no gap limits the line
 };
 
 PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const std::vector<LineHeight>& heights,
@@ -249,10 +249,10 @@ PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lin
   return permitted;
 }
 
-/// Areas of one patch by what became of the layer there.
+/// Areas of one patch by state of the layer.
 struct PatchAreas {
   double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
-  double asked = 0.0, covered = 0.0;  ///< where a boundary layer was asked for; where the line has its thickness or what the geometry permits of it
+  double asked = 0.0, covered = 0.0;  ///< area with a requested boundary layer; area where the line covers its thickness or what the geometry permits
   std::map<std::string, double> lost;
   double total() const { return full + reduced + compressed + collapsed; }
   void add(const PatchAreas& more) {
@@ -268,14 +268,14 @@ struct PatchAreas {
   }
 };
 
-/// Whether a line has 0.9 of the boundary layer that was asked for, or of what a gap or a corner permits of it.
+/// Returns true if a line has 0.9 of the requested boundary-layer thickness, or of what a gap or a corner permits.
 bool covers_boundary_layer(double height, double thickness, double target, double permitted, double in_gap) {
   const bool is_limited = permitted < k_full_height_share * target;
   const double possible = std::min({thickness, in_gap, is_limited ? permitted : k_infinity});
   return height >= k_full_height_share * possible * (1.0 - k_height_slack);
 }
 
-/// Each corner of a wall triangle stands for a third of it.
+/// Each corner of a wall triangle represents a third of its area.
 std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights,
                                                      const PermittedHeights& possible, const RunContext& context) {
   const std::vector<double>& permitted = possible.heights;
@@ -342,7 +342,7 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
     GateScan scan(info_of(measure), limits[measure]);
     if (whole > 0.0) scan.add(part / whole, 0, whole);
     GateResult result = scan.result([](std::uint64_t) { return std::pair(Point{}, std::string()); });
-    result.places.clear();  // it is of the whole wall; patches and gate G13 say where
+    result.places.clear();  // the measure applies to the whole wall; the locations are in the patch table and gate G13
     result.n_too_small = result.n_too_large = 0;
     result.share_beyond = 0.0;
     report.gates[static_cast<std::size_t>(measure)] = std::move(result);
@@ -353,7 +353,7 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
   put(Measure::collapsed, collapsed, total);
 }
 
-/// The growth that was asked for replaces the default limit.
+/// Replaces the default growth limit by the requested growth.
 GateTable with_requested_growth(GateTable limits, const HybridMesh& mesh) {
   GateLimits& growth = limits[Measure::stack_growth];
   if (mesh.request.is_known() && growth.usual == info_of(Measure::stack_growth).limits.usual) {

@@ -1,4 +1,4 @@
-// What is known of a layer, kept when some of its lines move.
+// Update of a layer check after some of its lines have moved.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace sterna {
 
-/// What check_ahead() finds in a mesh some of whose lines have moved, to the bit: only chunks of columns and lines around them are looked at again, and all
-/// crossings.
-/// \param known of check_ahead() with the same options, before nodes of `lines` moved and nothing else changed
+/// Returns the result of check_ahead() for a mesh some of whose lines have moved, to the bit: scans only the chunks of columns and lines around them again,
+/// and tests all crossings.
+/// \param known result of check_ahead() with the same options, before nodes of `lines` moved; nothing else may have changed
 LayerCheck check_moved_lines(const LayerCheck& known, const HybridMesh& mesh, std::span<const std::uint32_t> lines, const CheckOptions& options,
                              const RunContext& context);
 

@@ -10,7 +10,7 @@ Point mean_of(const HybridMesh& mesh, const Nodes& nodes, std::size_t n) {
   return sum / static_cast<double>(n);
 }
 
-/// Cells of a kind in the columns before `end`.
+/// Returns the number of cells of a kind in the columns before `end`.
 std::uint64_t n_cells_of_kind(const LayerBlock& layers, std::size_t end, CellKind kind) {
   std::uint64_t n = 0;
   for (std::size_t c = 0; c < end; ++c) {

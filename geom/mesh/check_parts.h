@@ -41,7 +41,7 @@ class Findings {
   }
   /// Counts n violations without a description, after those that have one.
   void add_more(Violation violation, std::int64_t n) { counts_[index(violation)] += n; }
-  /// Whether a gate ("G1", ...) has any violation so far.
+  /// Returns true if a gate ("G1", ...) has any violation so far.
   bool has_any_of(std::string_view gate) const;
   void store(CheckReport& report);
 
@@ -52,8 +52,8 @@ class Findings {
   std::vector<CheckFinding> kept_;
 };
 
-/// Numbers the cells: column * n_layers + layer (fully collapsed columns, and those of fewer than n_layers layers, hold numbers without cells), then prisms,
-/// pyramids, hexahedra, tetrahedra.
+/// Numbers the cells: column * n_layers + layer, then prisms, pyramids, hexahedra, tetrahedra. Fully collapsed columns, and columns of fewer than n_layers
+/// layers, hold numbers without cells.
 class CellNumbers {
  public:
   explicit CellNumbers(const HybridMesh& mesh);
@@ -64,9 +64,9 @@ class CellNumbers {
   bool is_layer(std::uint64_t number) const { return number < first_[3]; }
   /// \pre the number has a cell.
   Cell cell(std::uint64_t number) const;
-  /// Mean of the cell's nodes.
+  /// Returns the mean of the cell's nodes.
   Point center(std::uint64_t number) const;
-  /// "prism 12 (column 3, layer 0)": the number counts cells of one kind in file order, so it is the same for columns and explicit cells.
+  /// Returns "prism 12 (column 3, layer 0)". The number counts cells of one kind in file order, so it is the same for columns and explicit cells.
   std::string name(std::uint64_t number) const;
 
  private:
@@ -97,34 +97,34 @@ class FaceSlots {
   bool is_boundary(std::uint32_t slot) const { return slot >= first_boundary(); }
   Face face(std::uint32_t slot) const;
   Point center(std::uint32_t slot) const;
-  /// Number of the cell that has the face.
+  /// Returns the number of the cell that has the face.
   /// \pre !is_boundary(slot)
   std::uint64_t owner(std::uint32_t slot) const;
   bool is_layer(std::uint32_t slot) const { return slot < first_[k_tetrahedra]; }
-  /// Number of the explicit tet that has the face.
+  /// Returns the number of the explicit tet that has the face.
   /// \pre !is_layer(slot), !is_boundary(slot)
   std::uint32_t tet_of(std::uint32_t slot) const { return (slot - first_[k_tetrahedra]) / 4; }
-  /// Column whose bottom the face is, if it is one.
+  /// Returns the column whose bottom the face is, if any.
   std::optional<std::uint32_t> column_under(std::uint32_t slot) const {
     if (slot >= first_[k_sides] || slot % 2 != 0) return std::nullopt;
     return slot / 2;
   }
-  /// Column whose top the face is, if it is one.
+  /// Returns the column whose top the face is, if any.
   std::optional<std::uint32_t> column_over(std::uint32_t slot) const {
     if (slot >= first_[k_sides] || slot % 2 == 0) return std::nullopt;
     return slot / 2;
   }
-  /// Existing tops of columns, ascending.
+  /// Returns the existing tops of columns, ascending.
   std::vector<std::uint32_t> column_tops() const;
   std::size_t n_prism_caps() const { return 2 * ((first_[k_pyramids] - first_[k_prisms]) / 5); }
-  /// Twice the number of the explicit prism that has the face as its bottom, one more as its top; nothing for other faces.
+  /// Returns twice the number of the explicit prism whose bottom the face is, plus one if the face is its top; nothing for other faces.
   std::optional<std::uint32_t> prism_cap(std::uint32_t slot) const {
     if (slot < first_[k_prisms] || slot >= first_[k_pyramids] || (slot - first_[k_prisms]) % 5 < 3) return std::nullopt;
     return (slot - first_[k_prisms]) / 5 * 2 + ((slot - first_[k_prisms]) % 5 == 4 ? 1 : 0);
   }
-  /// Patch of a boundary face.
+  /// Returns the patch of a boundary face.
   PatchId patch(std::uint32_t slot) const;
-  /// "boundary triangle 12, patch wing", or the face's cell.
+  /// Returns "boundary triangle 12, patch wing", or the name of the face's cell.
   std::string name(std::uint32_t slot) const;
 
   /// Calls f(slot, Face) for every existing face, in parallel, in no particular order.
@@ -172,93 +172,93 @@ void FaceSlots::for_each(const RunContext& context, const F& f) const {
   parallel_for(context, size() - first_boundary(), [&](std::size_t i) { visit(first_boundary() + i); });
 }
 
-/// Name of the patch whose nearest boundary face (by centroid) is next to a point, for messages: ", near patch wing" or "".
+/// Returns the patch whose boundary face is nearest to a point (by centroid), for messages: ", near patch wing" or "".
 std::string near_patch(const HybridMesh& mesh, const Point& p);
-/// Name of a patch, also for an index out of range.
+/// Returns the name of a patch; also valid for an index out of range.
 std::string patch_name(const HybridMesh& mesh, PatchId patch);
 
 struct FaceIssue {
   Violation violation;
-  std::uint32_t n_cells;      ///< that have the face
-  std::uint32_t slot, other;  ///< of the face itself and of the second one concerned (or the same)
+  std::uint32_t n_cells;      ///< cells that have the face
+  std::uint32_t slot, other;  ///< slots of the face itself and of the second face concerned (or the same face)
   friend auto operator<=>(const FaceIssue&, const FaceIssue&) = default;
 };
 
 struct FaceMatch {
   std::vector<FaceIssue> issues;              ///< sorted
   std::vector<std::uint32_t> outer;           ///< cell faces with a boundary face
-  std::vector<std::uint32_t> outer_boundary;  ///< the boundary face of each of them
-  std::vector<std::uint32_t> interface;       ///< faces of layer cells that a tet shares with opposite sense: the envelope
-  std::vector<std::uint32_t> interface_tets;  ///< the tet's face of each of them
-  std::optional<GateScan> tet_growth;         ///< ids are slots; only when asked for
+  std::vector<std::uint32_t> outer_boundary;  ///< the matching boundary face of each of them
+  std::vector<std::uint32_t> interface;       ///< faces that a layer cell and a tet share with opposite sense: the envelope
+  std::vector<std::uint32_t> interface_tets;  ///< the matching tet face of each of them
+  std::optional<GateScan> tet_growth;         ///< ids are slots; only if requested
   bool with_pairs = false;
-  std::vector<std::array<std::uint32_t, 2>> pairs;  ///< faces that two cells share; only when asked for
-  std::vector<std::uint32_t> cap_neighbours;  ///< of explicit prisms, bottom and top: slot on the other side of a face that two cells share, else k_no_slot
+  std::vector<std::array<std::uint32_t, 2>> pairs;  ///< faces that two cells share; only if requested
+  std::vector<std::uint32_t> cap_neighbours;        ///< per bottom and top of explicit prisms: slot on the other side of a shared face, else k_no_slot
 };
 inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
 
-/// What one pass over all cells finds.
+/// Result of one pass over all cells.
 struct CellScan {
   explicit CellScan(const GateTable& limits);
   std::vector<std::uint64_t> invalid;          ///< cell numbers, ascending
-  std::vector<std::uint64_t> within_rounding;  ///< of valid cells that are not above k_solver_margin; ascending
+  std::vector<std::uint64_t> within_rounding;  ///< valid cells that are not above k_solver_margin; ascending
   CompensatedSum layer_volume, tet_volume;
   QualityScan quality;
   GateScan scaled_jacobian, min_dihedral, max_dihedral;  ///< ids are cell numbers
 };
 
-// The steps, each in its own file.
+// The steps of the walker, each in its own file.
 
-/// bad_index, bad_point, broken_line, unused_node. Returns whether every index can be used and every point is finite.
+/// Reports bad_index, bad_point, broken_line, unused_node. Returns true if every index is valid and every point is finite.
 bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, Findings& findings);
-/// Base edges that are not shared by exactly two columns of opposite sense; edges between two collapsed lines have no faces and do not count.
-/// `neighbours`: gets for each column and corner the column on the other side, k_no_slot where there is not exactly one.
+/// Returns the base edges that are not shared by exactly two columns of opposite sense. Edges between two collapsed lines have no faces and do not count.
+/// `neighbours`: receives for each column and corner the column on the other side, or k_no_slot if there is not exactly one.
 std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context, std::vector<std::uint32_t>* neighbours = nullptr);
-/// At most `faces_at_a_time` faces are held at a time, or those of one lowest node if they are more.
-/// Volume ratios over the faces between explicit tets are measured when `tet_volumes` has the tets' volumes.
+/// Matches the faces of cells and boundary. Holds at most `faces_at_a_time` faces at a time, or the faces of one lowest node if they are more.
+/// Measures volume ratios over the faces between explicit tets if `tet_volumes` holds the volumes of the tets.
 FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs,
                       const GateTable& limits, const RunContext& context);
 void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
 CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context);
-/// Adds the explicit cells to what was found in the columns.
+/// Adds the explicit cells to the scan of the columns.
 CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits,
                              const RunContext& context);
-/// invalid_cell, cell_within_rounding (G3).
+/// Reports invalid_cell, cell_within_rounding (G3).
 void report_cells(const HybridMesh& mesh, const CellNumbers& cells, const CellScan& scan, Findings& findings);
-/// Volumes of the explicit tets, m^3; zero where not positive.
+/// Returns the volumes of the explicit tets, m^3; zero if not positive.
 std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context);
-/// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.
+/// Compares the cell volumes with the flux through outer faces and envelope; fills the volumes of the report.
 void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const RunContext& context, CheckReport& report,
                    Findings& findings);
-/// The triangles of one test for crossings: boundary faces, then the envelope.
+/// Triangles of one test for crossings: boundary faces, then the envelope.
 struct CrossingCandidates {
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> slots;  ///< of the face that each triangle stands for
+  std::vector<std::uint32_t> slots;  ///< slot of the face that each triangle represents
 };
-/// A test for crossings that has been made.
+/// Result of a completed test for crossings.
 struct CrossingTest {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   CrossingPairs crossings;
 };
-/// All boundary faces but \p doubled ones, and \p envelope; both ascending.
+/// Returns all boundary faces except \p doubled, and \p envelope; both lists ascending.
 CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled,
                                        std::span<const std::uint32_t> envelope);
-/// boundary_intersection, envelope_intersection. Takes the result of `ahead` if that was about the same triangles.
+/// Reports boundary_intersection, envelope_intersection. Reuses the result of `ahead` if it covers the same triangles.
 void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context,
                      Findings& findings);
-/// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.
+/// Reports overlapping_parts. Does nothing if faces or crossings are faulty, since then the fluid side of a boundary is undefined.
 void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContext& context, Findings& findings);
 
-/// negative_sub_volume, open_dual_cell (G4), and the nodes' statistics.
+/// Reports negative_sub_volume, open_dual_cell (G4), and returns the node statistics.
 /// \pre no G1 violation
 DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context,
                     Findings& findings);
-/// off_symmetry_plane (G20).
+/// Reports off_symmetry_plane (G20).
 void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
-/// Each of HybridMesh::periodic, within periodic_tolerance(); fills the report's list of those that match.
+/// Checks each pair of HybridMesh::periodic within periodic_tolerance(); adds matching pairs to the report.
 void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findings);
 class GivenLayer;
-/// What proves that values of layers are forced, made when it is first asked for.
+/// Data for proofs that layer values are forced by the input surface; computed at the first call of get().
 class LazyGivenLayer {
  public:
   explicit LazyGivenLayer(const HybridMesh& mesh);
@@ -270,17 +270,17 @@ class LazyGivenLayer {
   std::unique_ptr<const GivenLayer> given_;
 };
 
-/// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface. Returns the height along the wall's normal that a
-/// gap permits each line of the columns, m, infinite where none limits it; nothing where it is not known what was asked for.
+/// Evaluates the gates of layers, G8 and G10 - G13, and the coverage by patch. G9 is measured face by face at the interface. Returns the height along the
+/// wall normal that a gap permits each line of the columns, m, infinite if no gap limits the line; empty if the layer request is unknown.
 std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context,
                                  CheckReport& report);
-/// `gaps`: of judge_layers.
+/// Evaluates G9. `gaps`: result of judge_layers().
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
                      const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report);
-/// The QUALITY gates into the report.
+/// Evaluates the QUALITY gates and adds them to the report.
 void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
                  const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report);
-/// Middle of an entity and its name for a place of a gate: of a node, with its line and layer if it has any.
+/// Returns the location and name of a node for the location list of a gate, with its line and layer if it has any.
 std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_t node);
 
 }  // namespace sterna::check_parts

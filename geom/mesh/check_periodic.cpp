@@ -1,4 +1,4 @@
-// Periodic sides that the mesh says it has: each pair must match.
+// Periodic sides declared by the mesh: each pair must match.
 #include <string>
 
 #include "geom/base/error.h"

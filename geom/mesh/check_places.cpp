@@ -1,5 +1,5 @@
-// Separate places of what is beyond a limit. Nodes of one item belong together, and nodes of items that one cell has: so cells that touch, or touch the same
-// cell, are one place. One pass over all cells joins the nodes of all measures.
+// Counts separate locations of items beyond a limit. Nodes of one item belong together, and so do nodes of items that share a cell: cells that touch each
+// other, or touch the same cell, form one location. One pass over all cells joins the nodes of all measures.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -12,7 +12,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Sets of numbers that are joined by any thread in any order. The root of a set is its smallest number, so the result does not depend on the order.
+/// Disjoint sets of numbers that any thread may join in any order. The root of a set is its smallest number, so the result does not depend on the order.
 class SharedSets {
  public:
   explicit SharedSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -49,7 +49,7 @@ double cell_volume(const HybridMesh& mesh, const Cell& cell) {
   return 0.0;
 }
 
-/// Nodes that belong to any of some sets of items, and which.
+/// Nodes that belong to any of several sets of items, with the sets of each node.
 class FlaggedNodes {
  public:
   FlaggedNodes(const HybridMesh& mesh, std::span<const GateExtent* const> sets) : is_flagged_(mesh.points.size(), 0) {
@@ -65,7 +65,7 @@ class FlaggedNodes {
   bool contains(std::uint32_t node) const { return is_flagged_[node] != 0; }
   /// \pre contains(node)
   std::uint32_t index(std::uint32_t node) const { return static_cast<std::uint32_t>(std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin()); }
-  /// Bit i: the node belongs to set i.
+  /// Returns the sets of a node; bit i: the node belongs to set i.
   std::uint64_t sets_of(std::uint32_t index) const { return sets_of_[index]; }
 
  private:
@@ -74,7 +74,7 @@ class FlaggedNodes {
   std::vector<std::uint64_t> sets_of_;
 };
 
-/// Calls f(begin, end) in parallel for ranges of columns, then of explicit cells: `visit(cell)` for every cell of the mesh, sums gathered chunk by chunk.
+/// Calls `visit(cell)` for every cell of the mesh, in parallel over ranges of columns, then of explicit cells; sums are gathered chunk by chunk.
 template <class Sum, class Visit, class Combine>
 Sum over_all_cells(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, const Sum& none, const Visit& visit, const Combine& combine) {
   const LayerBlock& layers = mesh.layers;
@@ -99,7 +99,7 @@ Sum over_all_cells(const HybridMesh& mesh, const CellNumbers& cells, const RunCo
       combine);
 }
 
-/// What the sets of items occupy.
+/// Number of locations and volume of sets of items.
 class PlaceCount {
  public:
   PlaceCount(const HybridMesh& mesh, std::vector<const GateExtent*> sets) : mesh_(mesh), sets_(std::move(sets)), flagged_(mesh, sets_) {
@@ -112,7 +112,7 @@ class PlaceCount {
     }
   }
 
-  /// Joins what cells have in common. Volumes of the cells' shares that belong to flagged nodes, by set.
+  /// Joins the flagged nodes of each cell, and sums per set the share of the cell volumes that belongs to its nodes.
   void walk(const CellNumbers& cells, const RunContext& context) {
     volumes_ = over_all_cells(
         mesh_, cells, context, std::vector<double>(sets_.size(), 0.0), [&](const Cell& cell, std::vector<double>& volumes) { add(cell, volumes); },
@@ -130,7 +130,7 @@ class PlaceCount {
     return std::unique(roots.begin(), roots.end()) - roots.begin();
   }
 
-  /// m^3: of the cells, where the items are or have cells; else each node has its share of the cells around it.
+  /// Returns the volume in m^3: that of the cells if the items are or have cells; else each node has its share of the cells around it.
   double volume(std::size_t set, const CellNumbers& cells) const {
     if (sets_[set]->cells.empty()) return volumes_[set];
     std::vector<std::uint64_t> numbers = sets_[set]->cells;
@@ -173,10 +173,10 @@ class PlaceCount {
   std::vector<double> volumes_;
 };
 
-/// The gates that decide the verdict for a consumer, in one set of items.
+/// Gates that decide the verdict for a consumer, as one set of items.
 struct ConsumerItems {
   GateExtent extent;
-  bool is_complete = true;  ///< no gate of them keeps fewer items than it has
+  bool is_complete = true;  ///< true: every gate keeps all of its items
   std::int64_t n_beyond(Consumer consumer) const {
     std::vector<std::uint64_t> items = extent.cells;
     if (consumer == Consumer::node_centred) items.assign(extent.nodes.begin(), extent.nodes.end());

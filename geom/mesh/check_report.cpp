@@ -13,7 +13,7 @@
 namespace sterna {
 namespace {
 
-/// Of the verdict VALID.
+/// Gates of the verdict VALID.
 constexpr std::array<std::string_view, 6> k_valid_gates = {"G1", "G2", "G3", "G4", "G20", "tiling"};
 
 bool is_checked(const CheckReport& report, std::string_view gate) {
@@ -44,7 +44,7 @@ Json to_array(const Point& p) { return {p.x, p.y, p.z}; }
 
 std::string shown_text(const MeasureInfo& info, double value) { return print_text("%.4g", in_report_unit(info, value)) + (info.is_angle ? " deg" : ""); }
 
-/// "hard 5 deg, target 20 deg, 35 deg on 99.9 %"
+/// Returns "hard 5 deg, target 20 deg, 35 deg on 99.9 %".
 std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
@@ -55,10 +55,10 @@ std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   return text;
 }
 
-/// "prisms"; where areas are counted the items are lines of the layer.
+/// Returns the name of the items, "prisms"; for area-weighted measures the items are lines of the layer.
 std::string_view items_of(const MeasureInfo& info) { return info.counted == "area" ? "lines" : info.counted; }
 
-/// "12", "320 k", "3.2 M"
+/// Returns "12", "320 k", "3.2 M".
 std::string rounded_count(std::int64_t n) {
   constexpr double k_thousand = 1e3, k_million = 1e6;
   const auto value = static_cast<double>(n);
@@ -66,10 +66,10 @@ std::string rounded_count(std::int64_t n) {
   return n >= 10'000 ? number_text(value / k_thousand, 3) + " k" : std::to_string(n);
 }
 
-/// "1 place", "3 places"
+/// Returns "1 place", "3 places".
 std::string places_text(std::int64_t n) { return std::to_string(n) + (n == 1 ? " place" : " places"); }
 
-/// "; 12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target"
+/// Returns "; 12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target".
 std::string counts_text(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   const std::int64_t n = gate.n_too_small + gate.n_too_large;
@@ -109,10 +109,10 @@ std::string gate_text(const GateResult& gate) {
   return text;
 }
 
-/// JSON has no infinity and no NaN: null.
+/// Returns a JSON number; null for infinity and NaN, which JSON does not have.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Classes from the first to the last that hold anything.
+/// Returns the classes from the first to the last non-empty one.
 Json histogram_json(const GateResult& gate, const MeasureInfo& info) {
   const auto is_filled = [](double count) { return count > 0.0; };
   const auto first = std::find_if(gate.histogram.begin(), gate.histogram.end(), is_filled);
@@ -125,10 +125,10 @@ Json histogram_json(const GateResult& gate, const MeasureInfo& info) {
   return json;
 }
 
-/// As JSON spells them: "fail".
+/// Returns the JSON spelling: "fail".
 std::string_view state_name(GateState state) { return state == GateState::fail ? "fail" : to_string(state); }
 
-/// Of the hard limit, by consumer; null where there is none.
+/// Returns the evidence of the hard limit, by consumer; null if there is no hard limit.
 Json evidence_json(const MeasureInfo& info) {
   Json json = Json::object();
   for (const Consumer consumer : k_consumers)

@@ -1,4 +1,4 @@
-// G20: every symmetry patch lies in one plane: of constant x, y or z, else in whatever plane fits.
+// G20: every symmetry patch lies in one plane: x, y or z = constant, else the best-fit plane.
 #include <cmath>
 #include <cstdio>
 
@@ -11,7 +11,7 @@ namespace {
 /// Largest distance of a node from the plane of its symmetry patch, in body lengths (docs/method/quality.md, "Gates", G20).
 constexpr double k_plane_tolerance = 1e-12;
 
-/// Longest side of the box of all walls; of all boundaries when there is none.
+/// Returns the longest side of the box of all walls, or of all boundaries if there are no walls.
 double length_of(const HybridMesh& mesh) {
   Box walls, all;
   const auto look_at = [&](const auto& faces) {
@@ -41,14 +41,14 @@ std::vector<NodeId> nodes_of(const HybridMesh& mesh, PatchId patch) {
   return nodes;
 }
 
-/// The middle of values, of which more than half are the same when most nodes lie in a plane.
+/// Returns the median of the values. If most nodes lie in a plane, more than half of the values are equal.
 long double median(std::vector<long double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Coordinates in extended precision: a plane that is not axis-parallel is met to the rounding of its nodes, not to that of products.
+/// Coordinates in extended precision: for an oblique plane the error is then that of node rounding, not that of products.
 struct Wide {
   long double x = 0.0L, y = 0.0L, z = 0.0L;
   Wide() = default;
@@ -74,7 +74,7 @@ std::string text_of(const char* format, double a, double b, double c, double d) 
   return text;
 }
 
-/// The plane with that normal that most nodes lie in. \pre the normal is not zero
+/// Returns the plane with this normal that contains most nodes. \pre the normal is not zero
 Plane plane_along(const HybridMesh& mesh, const std::vector<NodeId>& nodes, const Wide& normal) {
   const long double length = std::sqrt(dot(normal, normal));
   Plane plane{{normal.x / length, normal.y / length, normal.z / length}, 0.0L, {}};
@@ -94,7 +94,7 @@ Plane axis_plane(const HybridMesh& mesh, const std::vector<NodeId>& nodes, std::
   return plane;
 }
 
-/// Sum of the faces' normals by area. It depends on the patch's rim alone: nodes inside that are off the plane do not tilt it.
+/// Returns the area-weighted sum of the face normals. It depends only on the boundary edges of the patch: inner nodes off the plane do not tilt it.
 Wide area_vector(const HybridMesh& mesh, PatchId patch, const Wide& origin) {
   Wide sum;
   const auto add = [&](const auto& faces) {
@@ -110,8 +110,9 @@ Wide area_vector(const HybridMesh& mesh, PatchId patch, const Wide& origin) {
   return sum;
 }
 
-/// Through three nodes far from each other, of the half of all that are nearest to the plane across the area vector: one node of the rim that is off tilts that
-/// plane a little, but is not one of them. The area vector itself where the patch has no area, or those nodes are in line.
+/// Returns a plane through three nodes far from each other. Candidates are the half of all nodes nearest to the plane perpendicular to the area vector: a
+/// boundary node of the patch that is off tilts that plane slightly, but is not among the candidates. Uses the area vector itself if the patch has no area or
+/// the three nodes are collinear.
 Plane oblique_plane(const HybridMesh& mesh, PatchId patch, std::vector<NodeId> nodes) {
   const std::vector<NodeId> all = nodes;
   const Wide first(mesh.points[nodes.front()]);
@@ -162,7 +163,7 @@ void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings&
     };
     for (const std::size_t axis : {1u, 2u})
       if (!off.empty()) consider(axis_plane(mesh, nodes, axis));
-    if (2 * off.size() > nodes.size()) consider(oblique_plane(mesh, patch, nodes));  // no plane of an axis
+    if (2 * off.size() > nodes.size()) consider(oblique_plane(mesh, patch, nodes));  // not an axis-parallel plane
     for (const NodeId node : off)
       findings.add(Violation::off_symmetry_plane, [&] {
         return std::pair(mesh.points[node], "node " + std::to_string(node.value()) + " of patch " + patch_name(mesh, patch) + " is " +

@@ -1,6 +1,6 @@
-// Divergence theorem: the volume of the layer's cells must equal the flux of x/3 through wall and envelope (and other boundary faces of layer cells),
-// that of the tets the flux through envelope and outer boundary. The flux is summed in extended precision about the middle of the walls: a layer of
-// thickness h about a body of length L is the difference of fluxes that are L/h times larger, and must still come out to 1e-11.
+// Divergence theorem: the volume of the layer cells must equal the flux of x/3 through wall and envelope (and other boundary faces of layer cells), and the
+// volume of the tets the flux through envelope and outer boundary. The flux is summed in extended precision about the centre of the walls: a layer of
+// thickness h about a body of length L is the difference of fluxes that are L/h times larger, and must still be accurate to 1e-11.
 #include <cmath>
 #include <cstdio>
 
@@ -9,14 +9,14 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Largest relative difference of the two volumes, given by the project's requirement; rounding of a 30-layer mesh is about 1e-14.
+/// Largest relative difference of the two volumes, a project requirement; rounding of a 30-layer mesh is about 1e-14.
 constexpr double k_volume_tolerance = 1e-11;
 
 struct WideVec {
   long double x, y, z;
 };
 
-/// Six times the flux of x/3 about the origin through a triangle, that is det(a, b, c).
+/// Returns six times the flux of x/3 about the origin through a triangle, that is det(a, b, c).
 long double determinant(const WideVec& a, const WideVec& b, const WideVec& c) {
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
@@ -32,7 +32,7 @@ class Flux {
       const Point& x = mesh_.points[face.nodes[k]];
       p[k] = {static_cast<long double>(x.x) - origin_.x, static_cast<long double>(x.y) - origin_.y, static_cast<long double>(x.z) - origin_.z};
     }
-    // A bilinear quad carries the mean of its two triangulations.
+    // The flux through a bilinear quad is the mean over its two triangulations.
     long double flux =
         face.size == 3
             ? determinant(p[0], p[1], p[2]) / 6.0L
@@ -59,7 +59,7 @@ PartFluxes merge(PartFluxes all, const PartFluxes& more) {
   return all;
 }
 
-/// Middle of the box of all walls; of everything when there is none.
+/// Returns the centre of the box of all walls, or of all boundaries if there are no walls.
 Point flux_origin(const HybridMesh& mesh) {
   Box walls, all;
   const auto look_at = [&](const auto& faces) {
@@ -73,7 +73,7 @@ Point flux_origin(const HybridMesh& mesh) {
   return !walls.empty() ? walls.center() : !all.empty() ? all.center() : Point{};
 }
 
-/// Relative difference of cells and flux; 0 when the part is empty.
+/// Returns the relative difference of cells and flux; 0 if the part is empty.
 double relative_error(double cells, double flux) {
   if (cells == 0.0 && flux == 0.0) return 0.0;
   return std::abs(cells - flux) / std::max(std::abs(cells), std::abs(flux));

@@ -1,5 +1,6 @@
-// The formulas of geom/math/wedge.cpp, in lanes. The filter bounds the error of a coefficient a x b . d by the product of the lengths instead of the sum of
-// its terms' sizes: weaker, but free, as the lengths are needed anyway; prisms of scaled Jacobian 1e-13 are still decided.
+// The formulas of geom/math/wedge.cpp, in SIMD lanes. The filter bounds the error of a coefficient a x b . d by the product of the lengths instead of the sum
+// of its terms' magnitudes. This bound is weaker but needs no extra work, since the lengths are computed anyway. Prisms of scaled Jacobian 1e-13 are still
+// decided.
 #include "geom/mesh/column_scan.h"
 
 #include "geom/mesh/cell_lanes.h"
@@ -11,9 +12,9 @@ namespace {
 using namespace lanes;
 
 /// Error of a coefficient over the product of its three lengths: at most 10 roundings for each of six terms, each term at most the product (wedge.cpp,
-/// k_roundings); 2 b1 has twelve. Rounded up.
+/// k_roundings); 2 b1 has twelve terms. Rounded up.
 constexpr double k_coefficient_error = 64 * 0x1p-53;
-/// For comparing -2 b1 with 2 sqrt(b0) sqrt(b2), as k_root_margin of wedge.cpp.
+/// Margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2), as k_root_margin of wedge.cpp.
 constexpr double k_column_root_margin = 10 * 0x1p-53;
 
 }  // namespace
@@ -34,11 +35,11 @@ const std::vector<PrismMeasures>& ColumnScan::measure(std::size_t column) {
     const Vec3x4 n0 = cross(a, b), n1_twice = cross(a, b_top) + cross(a_top, b), n2 = cross(a_top, b_top);
     const Packed volume = (1.0 / 18.0) * dot(n0 + 0.5 * n1_twice + n2, d[0] + d[1] + d[2]);
 
-    // Edges opposite to the corners.
+    // Lengths of the edges opposite to the corners.
     const std::array<Packed, 3> base = {norm(p[2] - p[1]), norm(b), norm(a)};
     const std::array<Packed, 3> top = {norm(q[2] - q[1]), norm(b_top), norm(a_top)};
     const Packed bottom_area = norm(n0), top_area = norm(n2);
-    const Packed longest_product = most(base[1], top[1]) * most(base[2], top[2]);  // of |a| |b|, lower or upper
+    const Packed longest_product = most(base[1], top[1]) * most(base[2], top[2]);  // products |a| |b|, maximum of the lower and upper edges
     Packed quality = all(std::numeric_limits<double>::infinity()), skew = zero;
     auto is_certain = zero == zero;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +56,7 @@ const std::vector<PrismMeasures>& ColumnScan::measure(std::size_t column) {
       quality = (b0 > zero) & (b2 > zero) ? least(quality, middle) : quality;
       quality = (base_scale > zero) & (top_scale > zero) ? quality : least(quality, zero);
       const Packed lower = b0 / (bottom_area * height), upper = b2 / (top_area * height);
-      // An edge or normal without length counts as a right angle.
+      // An edge or normal of zero length counts as a right angle.
       skew += arc_sine(bottom_area * height > zero ? lower : zero) + arc_sine(top_area * height > zero ? upper : zero);
     }
     skew = all(0.5 * std::numbers::pi) - (1.0 / 6.0) * skew;
@@ -71,7 +72,7 @@ namespace {
 
 using namespace lanes;
 
-/// A prism's faces in the order of cell_faces(), of four layers.
+/// Returns the faces of a prism in the order of cell_faces(), for four layers.
 std::array<FaceShapes, 5> prism_faces(const std::array<LineVectors, 3>& lines, std::size_t layer) {
   std::array<Vec3x4, 3> low, high;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// All that a pass over the prisms of columns measures, four layers at a time.
+// All measures from a pass over the prisms of columns, four layers at a time.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 
 namespace sterna {
 
-/// Of one prism, as is_wedge_valid (its filter alone), wedge_volume, wedge_quality and skew_angle have it; the angle to 2e-8.
+/// Measures of one prism as in is_wedge_valid (its filter only), wedge_volume, wedge_quality and skew_angle; the angle has an error of 2e-8.
 struct PrismMeasures {
-  bool is_surely_valid = false;  ///< false: ask is_wedge_valid
+  bool is_surely_valid = false;  ///< false: call is_wedge_valid
   double volume = 0.0;           ///< m^3
   double quality = 0.0;
   double skew = 0.0;  ///< radians
@@ -20,7 +20,7 @@ struct PrismMeasures {
 class ColumnScan {
  public:
   explicit ColumnScan(const HybridMesh& mesh) : mesh_(mesh) {}
-  /// Measures of the prisms of a column from the wall up; valid until the next call.
+  /// Returns the measures of the prisms of a column from the wall up; valid until the next call.
   /// \pre is_prismatic(column)
   const std::vector<PrismMeasures>& measure(std::size_t column);
 

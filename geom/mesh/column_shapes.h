@@ -11,21 +11,22 @@
 
 namespace sterna::check_parts {
 
-/// As cell_shape() and inner_face() have them, to the bit but for the angle (two roundings). What it returns is valid until the next call of the same member.
+/// Computes the results of cell_shape() and inner_face(), to the bit except for the angle (two roundings). Returned values are valid until the next call of
+/// the same member.
 class ColumnShapes {
  public:
   explicit ColumnShapes(const HybridMesh& mesh) : mesh_(mesh) {}
 
-  /// The column that the members below are about.
+  /// Sets the column for the members below.
   /// \pre none of its lines is collapsed
   void read(std::size_t column);
-  /// Its prisms from the wall up; their determinants as if no face were on the boundary.
+  /// Returns its prisms from the wall up; their determinants as if no face were on the boundary.
   std::span<const CellShape> cells();
-  /// Their centres and volumes alone, into `places`, one for each layer.
+  /// Writes only their centres and volumes to `places`, one per layer.
   void places(Place* places) const;
-  /// Faces between its prisms, the lowest first. \param places of its prisms; three more may be read
+  /// Returns the faces between its prisms, lowest first. \param places of its prisms; three more may be read
   std::span<const InnerFace> tops(const Place* places);
-  /// Faces between its prisms and those of the column across a side.
+  /// Returns the faces between its prisms and those of the column across a side.
   std::span<const InnerFace> side(std::size_t corner, const Place* places, const Place* places_beyond);
 
  private:

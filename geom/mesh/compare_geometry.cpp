@@ -13,36 +13,36 @@
 namespace sterna {
 namespace {
 
-constexpr std::size_t k_samples = 24;        ///< facets of a part that are looked up in the result
-constexpr double k_near_of_length = 1e-3;    ///< a part is there where the result is this near, as a share of the length of all
-constexpr double k_near_of_part = 0.05;      ///< or as a share of the part's own length
-constexpr double k_share_of_division = 0.1;  ///< of a part's samples, from which on a second part of the result counts
+constexpr std::size_t k_samples = 24;        ///< facets of a part that are searched in the result
+constexpr double k_near_of_length = 1e-3;    ///< a part is present if the result is within this distance, relative to the length of the whole surface
+constexpr double k_near_of_part = 0.05;      ///< or relative to the part's own length
+constexpr double k_share_of_division = 0.1;  ///< fraction of a part's samples from which a second part of the result counts
 constexpr std::uint32_t k_none = 0xffffffffu;
 
 struct Part {
   std::vector<TriangleId> triangles;
   Box box;
   double area = 0.0;
-  double volume = 0.0;  ///< signed, in the sense of most of its area
+  double volume = 0.0;  ///< signed, oriented by most of its area
   bool is_closed = true;
-  bool is_turned = false;  ///< in the result
-  PatchId patch;           ///< has most of the area
+  bool is_turned = false;  ///< its orientation is reversed in the result
+  PatchId patch;           ///< patch with most of the area
 };
 
 struct Parts {
   Column<TriangleId, std::uint32_t> part;
-  Column<TriangleId, char> is_flipped;  ///< against the sense of its part
+  Column<TriangleId, char> is_flipped;  ///< opposite to the sense of its part
   std::vector<Part> parts;
 };
 
-/// One number for all vertices at a place.
+/// Returns one common number for all vertices at a location.
 Column<VertexId, std::uint32_t> places_of(const TriMesh& mesh) {
   std::vector<VertexId> order;
   order.reserve(mesh.n_vertices());
   for (const VertexId v : mesh.points.ids()) order.push_back(v);
   const auto key = [&](VertexId v) {
     const Point& p = mesh.points[v];
-    return std::array<double, 3>{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 is 0
+    return std::array<double, 3>{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 becomes 0
   };
   std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
     const auto ka = key(a), kb = key(b);
@@ -57,13 +57,13 @@ Column<VertexId, std::uint32_t> places_of(const TriMesh& mesh) {
   return place;
 }
 
-/// The neighbour over each side, where the edge has exactly two facets.
+/// Neighbour over each side, if the edge has exactly two facets.
 struct Neighbours {
   std::vector<std::uint32_t> twin;  ///< half-edge 3 * triangle + corner; k_none
   std::vector<char> has_same_sense;
 };
 
-/// Joins sides that have no neighbour yet where exactly two of them run between the same two numbers.
+/// Joins sides without a neighbour if exactly two of them run between the same two numbers.
 void match_sides(const TriMesh& mesh, const Column<VertexId, std::uint32_t>& number, Neighbours& result) {
   struct Side {
     std::uint32_t low, high, halfedge;
@@ -94,7 +94,7 @@ void match_sides(const TriMesh& mesh, const Column<VertexId, std::uint32_t>& num
   }
 }
 
-/// By vertices first, so that parts with vertices of their own stay apart where they touch; then by places.
+/// Finds neighbours by vertices first, so that parts with separate vertices stay apart where they touch; then by locations.
 Neighbours neighbours_of(const TriMesh& mesh) {
   Neighbours result{std::vector<std::uint32_t>(3 * mesh.n_triangles(), k_none), std::vector<char>(3 * mesh.n_triangles(), 0)};
   Column<VertexId, std::uint32_t> own(mesh.n_vertices(), 0);
@@ -104,7 +104,7 @@ Neighbours neighbours_of(const TriMesh& mesh) {
   return result;
 }
 
-/// Boxes, areas, volumes, senses and patches of the parts.
+/// Measures boxes, areas, volumes, senses and patches of the parts.
 void measure(const TriMesh& mesh, Parts& all) {
   std::map<std::pair<std::uint32_t, PatchId>, double> of_patch;
   for (const TriangleId t : mesh.triangles.ids()) {
@@ -191,7 +191,7 @@ std::map<std::string, double> areas_of(const TriMesh& mesh) {
 
 bool is_number(std::string_view text) { return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos; }
 
-/// The area under this name, or of its numbered pieces.
+/// Returns the area of the patch with this name, or of its numbered pieces.
 std::optional<double> area_under(const std::map<std::string, double>& areas, const std::string& name) {
   if (const auto found = areas.find(name); found != areas.end()) return found->second;
   std::optional<double> sum;
@@ -216,7 +216,7 @@ void compare_patches(const TriMesh& before, const TriMesh& after, GeometryChange
                            [](const PatchChange& a, const PatchChange& b) { return std::abs(a.after - a.before) > std::abs(b.after - b.before); });
 }
 
-/// Parts of the result that samples of a part of the input lie on, with their numbers.
+/// Parts of the result on which the samples of an input part lie, with the sample counts.
 struct Found {
   std::map<std::uint32_t, std::size_t> n;
   std::size_t n_turned = 0, n_near = 0, n_samples = 0;
@@ -264,7 +264,7 @@ void compare_parts(const TriMesh& before, Parts& all, const TriMesh& after, cons
   Box box;
   for (const Part& part : all.parts) box.add(part.box);
   const double length = box.longest_side();
-  std::map<std::uint32_t, std::vector<std::size_t>> closed_in;  // of each part of the result
+  std::map<std::uint32_t, std::vector<std::size_t>> closed_in;  // per part of the result
   for (std::size_t i = 0; i < all.parts.size(); ++i) {
     context.check_stop();
     Part& part = all.parts[i];
@@ -289,7 +289,7 @@ void compare_parts(const TriMesh& before, Parts& all, const TriMesh& after, cons
     std::vector<PartChange>& joined = change.joined_parts.emplace_back();
     for (const std::size_t i : parts) joined.push_back(names.describe(all.parts[i]));
   }
-  // A part that is near several others seems divided where they only touch it.
+  // A part that is near several others only appears divided if they merely touch it.
   if (now.parts.size() <= all.parts.size()) change.divided_parts.clear();
   std::ranges::stable_sort(change.missing_parts, [](const PartChange& a, const PartChange& b) { return a.area > b.area; });
 }

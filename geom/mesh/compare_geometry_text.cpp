@@ -12,8 +12,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int k_digits = 4;
-constexpr std::size_t k_worst = 3;           ///< named in a sentence
-constexpr std::size_t k_most_in_json = 100;  ///< entries of a list
+constexpr std::size_t k_worst = 3;           ///< names per sentence
+constexpr std::size_t k_most_in_json = 100;  ///< entries per list
 
 std::string percent(double before, double after) {
   const double share = 100.0 * (after - before) / before;
@@ -39,7 +39,7 @@ std::string words_of(const PartChange& part) {
 
 std::string box_text(const Box& box) { return format_point(box.min) + " to " + format_point(box.max); }
 
-/// "area ..., enclosed volume ..., patch ...": what differs.
+/// Returns the differences: "area ..., enclosed volume ..., patch ...".
 std::string differences(const GeometryChange& change) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
@@ -51,7 +51,7 @@ std::string differences(const GeometryChange& change) {
   return text;
 }
 
-/// Area or volume beyond what the union of these bodies can have.
+/// Returns true if area or volume exceed the possible range of a union of these bodies.
 bool is_beyond_union(const GeometryChange& change) {
   return change.after.area > (1.0 + k_reported_change) * change.before.area ||
          (change.before.volume && change.after.volume && *change.after.volume > (1.0 + k_reported_change) * *change.before.volume);

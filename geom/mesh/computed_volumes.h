@@ -1,4 +1,4 @@
-// What a solver computes of the cells in double precision, from the coordinates of their nodes as they are written to a file.
+// Cell volumes and Jacobians as a solver computes them in double precision, from the node coordinates written to a file.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,32 @@
 
 namespace sterna {
 
-/// A volume, sub-volume or Jacobian counts as positive in double precision above this share of the product of the lengths of the three vectors that span it.
-/// Rounding of the product itself is 1e-15; solvers add and average coordinates before they multiply.
+/// Relative margin above which a volume, sub-volume or Jacobian counts as positive in double precision, over the product of the lengths of the three vectors
+/// that span it. Rounding of the product itself is 1e-15; solvers add and average coordinates before they multiply.
 inline constexpr double k_solver_margin = 1e-13;
 
-/// Returns the smallest Jacobian of a cell over the product of its three edges, as computed in double precision: of tetrahedra the six-fold volume over the
-/// largest product of three edges at a corner, of prisms wedge_quality(), of pyramids and hexahedra the smallest value at the corners of a base or hexahedron.
+/// Returns the smallest Jacobian of a cell over the product of its three edges, as computed in double precision: for tetrahedra the six-fold volume over the
+/// largest product of three edges at a corner, for prisms wedge_quality(), for pyramids and hexahedra the smallest value at the corners of a base or
+/// hexahedron.
 /// \pre points of a cell of this kind in CGNS order
 double least_computed_jacobian(CellKind kind, std::span<const Vec3> points);
 
 /// Returns the smallest dual sub-volume of a cell as SU2 computes it: the tetrahedron of a node, the midpoint of an edge, the mean of a face's nodes and the
-/// mean of the cell's nodes, all rounded as coordinates; six-fold, over the product of the lengths of the three vectors from the node. Zero where a length is
-/// zero. \pre as above
+/// mean of the cell's nodes, all rounded as coordinates. Normalised: six times the volume over the product of the lengths of the three vectors from the node.
+/// Zero if a length is zero.
+/// \pre points of a cell of this kind in CGNS order
 double least_computed_sub_volume(CellKind kind, std::span<const Vec3> points);
 
-/// Whether both figures are above k_solver_margin.
+/// Returns true if both figures are above k_solver_margin.
 bool is_positive_in_double(CellKind kind, std::span<const Vec3> points);
 
-/// Cells that are positive in double precision at the points of the mesh and no longer at those of a file.
+/// Cells that are positive in double precision at the points of the mesh but not at the rounded points of a file.
 struct LostCells {
   std::int64_t n = 0;
   std::vector<ErrorPlace> places;  ///< the first ten in mesh order: name, patch nearby, value
 };
 
-/// Finds the cells that rounding of the coordinates makes flat or folds.
+/// Finds the cells that become flat or folded by rounding of the coordinates.
 /// \pre one rounded point for each point of the mesh, indices in range
 LostCells cells_lost_by_rounding(const HybridMesh& mesh, std::span<const Point> rounded, const RunContext& context);
 

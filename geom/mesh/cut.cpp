@@ -1,6 +1,6 @@
-// A cell's section is traced face by face. Going round a face counter-clockwise as seen from outside, the plane is crossed downwards (from above to below) as
-// often as upwards; a segment of the section runs from each crossing downwards to the crossing upwards that belongs to it. Both faces of an edge see its
-// crossing in opposite senses, so the segments of all faces join to closed loops, right-handed about the normal.
+// The section of a cell is traced face by face. Around a face, counter-clockwise as seen from outside, the plane is crossed downwards (from above to below)
+// as often as upwards. A segment of the section runs from each downward crossing to the matching upward crossing. The two faces of an edge have its crossing
+// in opposite senses, so the segments of all faces join to closed loops, right-handed about the normal.
 #include "geom/mesh/cut.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 /// Dihedral angle of a regular tetrahedron, acos(1/3), radians.
 constexpr double k_regular_dihedral = 1.2309594173407747;
-/// Cells per chunk: the sign test of one takes a few nanoseconds.
+/// Cells per chunk: the sign test of one cell takes a few nanoseconds.
 constexpr std::size_t k_cell_chunk = 16384;
 constexpr std::size_t k_cut_column_chunk = 1024;
 /// Edges of a cell are numbered lower local node * 8 + higher.
@@ -55,7 +55,7 @@ void measure(CutPolygon& polygon, const std::array<Point, 8>& p) {
   }
 }
 
-/// Which nodes are above the plane, and where edges cross it.
+/// Classifies nodes as above or below the plane, and computes the crossings of edges.
 class Sides {
  public:
   Sides(const HybridMesh& mesh, const CutPlane& plane, const RunContext& context)
@@ -73,7 +73,7 @@ class Sides {
   bool is_above(NodeId node) const { return is_above_[node.index()] != 0; }
   double height(NodeId node) const { return height(node.index()); }
   const Point& point(NodeId node) const { return points_[node.index()]; }
-  /// The same bits from whichever cell it is asked for. \pre the nodes lie on two sides
+  /// Returns the crossing point of an edge, with identical bits for every cell of the edge. \pre the nodes lie on different sides
   Point crossing(NodeId a, NodeId b) const {
     if (b < a) std::swap(a, b);
     const double from = height(a), to = height(b);
@@ -81,7 +81,7 @@ class Sides {
     if (to == 0.0) return point(b);
     return point(a) + (from / (from - to)) * (point(b) - point(a));
   }
-  /// Whether all nodes of a line are above the plane (1), none (0), or some (2).
+  /// Returns 1 if all nodes of a line are above the plane, 0 if none is, 2 if some are.
   int side_of_line(const LayerBlock& layers, std::size_t line) const {
     const std::size_t first = layers.first_node[line], n = static_cast<std::size_t>(layers.n_steps(line)) + 1;
     std::size_t n_above = 0;
@@ -104,7 +104,7 @@ class CellCutter {
 
   MeshCut take() { return std::move(cut_); }
 
-  /// Appends the polygons of a cell; `polygon` says which one it is.
+  /// Appends the polygons of a cell; `polygon` identifies the cell.
   void add(std::span<const NodeId> nodes, CutPolygon polygon) {
     unsigned above = 0;
     for (std::size_t k = 0; k < nodes.size(); ++k) above |= static_cast<unsigned>(sides_.is_above(nodes[k])) << k;
@@ -134,13 +134,13 @@ class CellCutter {
   bool is_above(std::size_t local) const { return ((above_ >> local) & 1u) != 0; }
   static std::size_t key(std::size_t a, std::size_t b) { return 8 * std::min(a, b) + std::max(a, b); }
 
-  /// Fills next_: from each crossing downwards to the one upwards of the same segment.
+  /// Fills next_: from each downward crossing to the upward crossing of the same segment.
   void link(std::span<const NodeId> nodes, CellKind kind) {
     open_ = 0;
     for (const LocalFace& face : cell_faces(kind)) {
       const std::size_t n = face.size;
       std::array<std::size_t, 2> down{};
-      std::array<std::size_t, 4> up_at{};  // key of the edge that starts at a corner, where it is crossed upwards
+      std::array<std::size_t, 4> up_at{};  // key of the edge that starts at a corner, if it is crossed upwards
       std::size_t n_down = 0, up = 0;
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t a = face.nodes[i], b = face.nodes[(i + 1) % n];
@@ -160,14 +160,14 @@ class CellCutter {
     }
   }
 
-  /// Whether the two corners above the plane are joined within a bilinear face: the sign of its saddle.
+  /// Returns true if the two corners above the plane are connected within a bilinear face: the sign of its saddle.
   bool joins_above(std::span<const NodeId> nodes, const LocalFace& face) const {
     const std::size_t odd = is_above(face.nodes[0]) ? 0 : 1;
     const auto height = [&](std::size_t i) { return sides_.height(nodes[face.nodes[i % 4]]); };
     return height(odd) * height(odd + 2) >= height(odd + 1) * height(odd + 3);
   }
 
-  /// Appends the corners of the loop of the lowest open crossing; neighbours that coincide are one corner.
+  /// Appends the corners of the loop that starts at the lowest open crossing; coincident neighbours are merged.
   void trace(std::span<const NodeId> nodes) {
     const std::size_t start = cut_.corners.size();
     for (auto at = static_cast<std::size_t>(std::countr_zero(open_)); ((open_ >> at) & 1u) != 0; at = next_[at]) {
@@ -194,7 +194,7 @@ class CellCutter {
   MeshCut cut_;
   unsigned above_ = 0;
   std::array<std::uint8_t, k_n_keys> next_{};
-  std::uint64_t open_ = 0;  ///< crossings downwards that no polygon has yet
+  std::uint64_t open_ = 0;  ///< downward crossings that are not yet part of a polygon
 };
 
 MeshCut join(MeshCut all, MeshCut more) {
@@ -214,7 +214,7 @@ MeshCut cut_columns(const HybridMesh& mesh, const Sides& sides, const std::optio
   const LayerBlock& layers = mesh.layers;
   std::vector<std::uint8_t> side(layers.n_lines());
   parallel_for(context, side.size(), [&](std::size_t line) { side[line] = static_cast<std::uint8_t>(sides.side_of_line(layers, line)); });
-  std::vector<KindCounts> first_cell(layers.n_columns());  // as if the column's cells of the kind went on down to the wall
+  std::vector<KindCounts> first_cell(layers.n_columns());  // counted as if the column's cells of this kind continued down to the wall
   for (std::size_t c = 0; c < layers.n_columns(); ++c)
     for (const CellKind kind : {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron}) {
       const auto [begin, end] = layers.layers_of_kind(c, kind);

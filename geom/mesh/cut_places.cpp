@@ -11,25 +11,25 @@
 namespace sterna {
 namespace {
 
-/// Share of the half span where a wing is cut: outside of engines and kinks, inside of tips.
+/// Fraction of the half span at which a wing is cut: outboard of engines and kinks, inboard of the tip.
 constexpr double k_station = 0.55;
-/// Share of the half span to the sections that say how the wing's edges run.
+/// Fraction of the half span to the neighbouring sections that give the direction of the wing's edges.
 constexpr double k_station_step = 0.02;
-/// Edges that run more across the span than this cosine are no wing's: the sections are of different bodies.
+/// Edges whose direction has a smaller cosine with the span are not wing edges: the sections belong to different bodies.
 constexpr double k_most_swept = 0.3;
-/// Thickness over length of a section that counts as a wing's; airfoils have up to 0.25, nacelles and fuselages more.
+/// Largest thickness over length of a wing section; airfoils have up to 0.25, nacelles and fuselages more.
 constexpr double k_wing_thickness = 0.4;
-/// Thinner sections are of plates that end nowhere, such as a tunnel's floor.
+/// Thinner sections belong to plates without a free edge, such as a tunnel floor.
 constexpr double k_plate_thickness = 1e-3;
-/// Sections shorter than this share of the longest one at the station are pylons, flaps' tracks, antennas.
+/// Sections shorter than this fraction of the longest one at the station belong to pylons, flap tracks, antennas.
 constexpr double k_least_chord = 0.3;
-/// Edges that turn by more are sharp, radians.
+/// Edges that turn by more than this angle are sharp, radians.
 constexpr double k_sharp_cut = std::numbers::pi / 6.0;
-/// How far inside the symmetry plane the cut is, over the walls' longest side: beyond the rounding of coordinates, far below an edge.
+/// Distance of the cut inside the symmetry plane, over the walls' longest side: above the rounding of coordinates, far below an edge length.
 constexpr double k_hair = 1e-7;
-/// What is seen around a focus: so many heights of the layer, at least so many edges of the wall.
+/// Radius of the region of interest around a focus: this multiple of the layer height, and at least this multiple of the wall edge length.
 constexpr double k_layers_seen = 3.0, k_edges_seen = 6.0;
-/// A body whose box is off the plane y = 0 by less than this share of its width is a whole one.
+/// A body is complete if the offset of its box from the plane y = 0 is less than this fraction of its width.
 constexpr double k_whole = 0.02;
 
 class PlaceFinder {
@@ -60,7 +60,7 @@ class PlaceFinder {
   double low(std::size_t axis) const { return walls_.box().min[axis]; }
   double high(std::size_t axis) const { return walls_.box().max[axis]; }
 
-  /// Adds a plane when it crosses walls, with the whole section in sight.
+  /// Adds a plane if it crosses walls, with the whole section in view.
   bool add_whole(std::string name, const Point& origin, const Vec3& normal) {
     Box box;
     for (const SectionPiece& piece : walls_.section(origin, normal)) box.add(piece.box);
@@ -71,7 +71,7 @@ class PlaceFinder {
     return true;
   }
 
-  /// Adds a plane through a point of the walls, with its surroundings in sight.
+  /// Adds a plane through a point of the walls, with the surroundings of the point in view.
   bool add_close(std::string name, const Point& at, const Vec3& normal) {
     for (const double sense : {1.0, -1.0}) {
       if (walls_.section(at, sense * normal).empty()) continue;
@@ -87,7 +87,7 @@ class PlaceFinder {
     double area = 0.0;
     const auto add = [&](const auto& face, const Vec3& vector) {
       if (face.patch.index() >= mesh_.patches.size() || mesh_.patches[face.patch].kind != PatchKind::symmetry) return;
-      if (area > 0.0 && dot(vector, normal) < 0.5 * norm(vector) * norm(normal)) return;  // of another plane than the first
+      if (area > 0.0 && dot(vector, normal) < 0.5 * norm(vector) * norm(normal)) return;  // part of a different plane than the first face
       normal += vector;
       middle += norm(vector) * mesh_.points[face.nodes[0]];
       area += norm(vector);
@@ -104,10 +104,10 @@ class PlaceFinder {
     add_whole("middle plane", at, unit(span_));
   }
 
-  /// Whether the walls are on both sides of the plane span = 0 alike.
+  /// Returns true if the walls extend equally to both sides of the plane span = 0.
   bool is_whole() const { return std::abs(low(span_) + high(span_)) < k_whole * (high(span_) - low(span_)); }
 
-  /// The flattest piece of the section at a station that may be a wing's.
+  /// Returns the flattest piece of the section at a station that may be a wing section.
   std::optional<SectionPiece> wing_at(double station) const {
     Point at = walls_.box().center();
     at[span_] = station;
@@ -125,7 +125,7 @@ class PlaceFinder {
   static double chord(const SectionPiece& piece) { return piece.box.max.x - piece.box.min.x; }
   double thickness(const SectionPiece& piece) const { return piece.box.max[3 - span_] - piece.box.min[3 - span_]; }
 
-  /// Its first (sense -1) or last point along x.
+  /// Returns its first (sense -1) or last point along x.
   static Point end_of(const SectionPiece& wing, double sense) {
     Point best = wing.segments.front()[0];
     for (const auto& segment : wing.segments)
@@ -144,7 +144,7 @@ class PlaceFinder {
     const auto add_edge = [&](std::string name, double sense) {
       Point at = end_of(*wing, sense);
       at[span_] = station;
-      // Across the edge, along which cells are stretched: a plane along the flow would cut swept ones aslant.
+      // The plane is perpendicular to the edge, along which cells are stretched: a plane along the flow would cut swept edges obliquely.
       const Vec3 along = before && behind ? end_of(*behind, sense) - end_of(*before, sense) : unit(span_);
       add_close(std::move(name), at, std::abs(normalized(along)[span_]) > k_most_swept ? normalized(along) : unit(span_));
     };
@@ -153,7 +153,7 @@ class PlaceFinder {
     add_close("tip", walls_.point(walls_.extreme_node(is_left ? -unit(span_) : unit(span_))), unit(0));
   }
 
-  /// Across the edge in the middle of a chain, by x.
+  /// Adds a plane perpendicular to the middle edge of a chain, by x.
   bool add_chain(std::string name, bool is_concave, bool between_patches) {
     EdgeChain chain = walls_.longest_chain(k_sharp_cut, is_concave, between_patches);
     if (chain.edges.empty()) return false;

@@ -1,5 +1,5 @@
-// Inner nodes of the columns. The line is gathered around, not scattered to: each prism is looked at from each of its three lines, which costs three times the
-// arithmetic of one look but no memory for edges or nodes, and lets four layers be computed at once.
+// Inner nodes of the columns. Contributions are gathered per line, not scattered: each prism is evaluated from each of its three lines. This costs three
+// times the arithmetic, but needs no memory for edges or nodes, and four layers are computed at once.
 //
 // In a prism (a0 b0 c0 | a1 b1 c1), seen from a0 (u relative to a0; g the centroid, m an edge's midpoint, f a face's centroid): the edge's two faces f1, f2
 // give the dual face (f1 - f2) x (g - m) / 2, and each the sub-volume |f . (g x m)| / 6.
@@ -44,7 +44,7 @@ void LineDual::reset() {
   for (std::vector<double>* values : {&most_above_, &most_below_}) std::fill(values->begin(), values->end(), -k_infinity);
 }
 
-// (own, b, c) is seen counter-clockwise from above. Outward faces: own c b (bottom), own b b1 own1, c own own1 c1, own1 b1 c1 (top).
+// The triangle (own, b, c) is counter-clockwise as seen from above. Outward faces: own c b (bottom), own b b1 own1, c own own1 c1, own1 b1 c1 (top).
 void LineDual::add_column(std::uint32_t column, const LineVectors& b, const LineVectors& c, Slot& to_b, Slot& to_c) {
   const auto n = static_cast<std::size_t>(mesh_.layers.layers_of_column(column));
   const auto per_column = static_cast<std::uint64_t>(mesh_.layers.n_layers);  // numbers, not cells
@@ -64,7 +64,7 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
       highest = most(highest, six_times);
       sum += six_times;
     };
-    /// Dual face of the edge with midpoint m, from its face before (running towards the corner) and after (running away from it).
+    /// Returns the dual face of the edge with midpoint m, from its faces before (running towards the corner) and after (running away from it).
     const auto piece = [&](const Vec3x4& before, const Vec3x4& after, const Vec3x4& g, const Vec3x4& m) {
       const Vec3x4 moment = cross(g, m);
       note(dot(before, moment));
@@ -72,7 +72,7 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
       return 0.5 * cross(before - after, g - m);
     };
 
-    // The edge upwards belongs to both corners.
+    // The upward edge belongs to both corners.
     const Vec3x4 at_top_b = side_b - half_up, at_top_c = side_c - half_up;
     const Vec3x4 at_bottom_b = side_b + half_up, at_bottom_c = side_c + half_up;
     const Vec3x4 from_bottom = middle + half_up, from_top = middle - half_up;
@@ -101,7 +101,7 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
   }
 }
 
-// Edges along the layer, then the two upright ones, four layers at a time.
+// Processes the edges along the layer, then the two upright edges, four layers at a time.
 void LineDual::finish(std::size_t n_layers) {
   for (std::size_t j = 0; j < n_layers; j += k_width) {
     Packed area_sum = all(0.0), weighted = all(0.0), largest = all(0.0), smallest = all(k_infinity), longest = all(0.0), shortest = all(k_infinity);
@@ -125,7 +125,7 @@ void LineDual::finish(std::size_t n_layers) {
     const Vec3x4 up = own_.at(j + 1) - a;
     const Packed height_above = root(dot(up, up));
     add_face(upward_.at(j), up, height_above);
-    // Layer 0 has no edge downwards and is not asked for: its lanes repeat the upper one.
+    // Layer 0 has no downward edge and is not used: its lanes repeat the upper edge.
     const std::size_t k_shift = j == 0 ? 0 : 1;
     Vec3x4 below = own_.at(j - k_shift), normal_below = upward_.at(j - k_shift);
     if (j == 0) {
@@ -163,7 +163,7 @@ std::span<const NodeMetrics> LineDual::measure(std::uint32_t line) {
     const std::size_t corner = base[0] == line ? 0 : base[1] == line ? 1 : 2;
     const std::uint32_t b = base[(corner + 1) % 3], c = base[(corner + 2) % 3];
     slot_of(b);
-    slot_of(c);  // may move the slots
+    slot_of(c);  // may reallocate the slots
     Slot &to_b = slot_of(b), &to_c = slot_of(c);
     add_column(column, neighbours_[static_cast<std::size_t>(&to_b - slots_.data())], neighbours_[static_cast<std::size_t>(&to_c - slots_.data())], to_b, to_c);
   }

@@ -1,5 +1,5 @@
-// All nodes, each measured one of two ways: inner nodes of regular lines by LineDual, all others ("special") by NodeDual, which needs to know the explicit
-// cells and boundary faces around a node. The two ways agree to rounding; tests compare them with each other and with loops over edges.
+// Metrics of all nodes, by one of two algorithms: inner nodes of regular lines by LineDual, all others ("special") by NodeDual, which needs the explicit
+// cells and boundary faces around a node. The two algorithms agree to rounding; tests compare them with each other and with loops over edges.
 #include "geom/mesh/dual_metrics.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr std::size_t k_node_chunk = 4096;
 /// Corners held at a time: 256 MB.
 constexpr std::uint64_t k_most_corners = std::uint64_t{1} << 26;
 
-/// Calls f(number, nodes) for every explicit cell and boundary face in [begin, end) of all of them, numbered as NodeDual does.
+/// Calls f(number, nodes) for the explicit cells and boundary faces numbered [begin, end), with the numbers of NodeDual.
 template <class F>
 void for_each_explicit(const HybridMesh& mesh, const RunContext& context, const F& f) {
   std::uint32_t first = 0;
@@ -67,7 +67,7 @@ class DualWalk {
     std::vector<std::uint64_t> suspects;
   };
 
-  /// Whether explicit cells or boundary faces touch a node that lines() would have to itself.
+  /// Returns true if explicit cells or boundary faces touch a node that only lines() should cover.
   bool has_special_inner_node() const {
     const LayerBlock& layers = mesh_.layers;
     return parallel_reduce(
@@ -81,7 +81,7 @@ class DualWalk {
         [](bool a, bool b) { return a || b; });
   }
 
-  /// Nodes of lines() on some lines. `take(part, node, metrics)` adds a node.
+  /// Adds the nodes of lines() on a range of lines. `take(part, node, metrics)` adds a node.
   template <class Part, class Take>
   void add_lines(std::size_t begin, std::size_t end, const Take& take, WithSuspects<Part>& part) const {
     LineDual lines(mesh_, rings_);
@@ -94,7 +94,7 @@ class DualWalk {
     part.suspects = lines.take_suspects();
   }
 
-  /// `make()` gives an empty part; `take(part, node, metrics)` adds a node to it; `merge(all, part)`.
+  /// Measures the inner nodes of regular lines. `make()` returns an empty part; `take(part, node, metrics)` adds a node to it; `merge(all, part)`.
   template <class Part, class Make, class Take, class Merge>
   WithSuspects<Part> lines(const Make& make, const Take& take, const Merge& merge) const {
     return parallel_reduce(
@@ -107,7 +107,7 @@ class DualWalk {
         joined<Part>(merge), k_line_chunk);
   }
 
-  /// All nodes that lines() has left, added to what it has found.
+  /// Measures all nodes that lines() leaves out, and adds them to its result.
   template <class Part, class Make, class Take, class Merge>
   WithSuspects<Part> others(WithSuspects<Part> all, const Make& make, const Take& take, const Merge& merge) const {
     std::vector<std::uint32_t> cursor(nodes_.size(), 0);
@@ -137,7 +137,7 @@ class DualWalk {
             NodeDual nodes(mesh_, rings_);
             for (std::size_t i = begin_node + begin; i < begin_node + end; ++i) {
               const std::span<std::uint32_t> around(corners.data() + (first[i] - first_corner), first[i + 1] - first[i]);
-              std::sort(around.begin(), around.end());  // filled in no particular order
+              std::sort(around.begin(), around.end());  // the corners were filled in no particular order
               take(part.part, nodes_[i], nodes.measure(nodes_[i], line_of_[i], around));
             }
             part.suspects = nodes.take_suspects();
@@ -167,8 +167,8 @@ class DualWalk {
   LineRings rings_;
   std::vector<std::uint8_t> is_regular_;
   NodeSubset special_;
-  std::vector<std::uint32_t> nodes_;    ///< the special ones, ascending
-  std::vector<std::uint32_t> line_of_;  ///< of each special node; NodeId::k_invalid = on none
+  std::vector<std::uint32_t> nodes_;    ///< the special nodes, ascending
+  std::vector<std::uint32_t> line_of_;  ///< line of each special node; NodeId::k_invalid = on no line
 };
 
 }  // namespace
@@ -204,7 +204,7 @@ void DualScan::merge(DualScan&& other) {
 
 namespace {
 
-/// How DualWalk fills a DualScan.
+/// Callbacks with which DualWalk fills a DualScan.
 struct ScanSteps {
   const GateTable& limits;
   auto make() const {

@@ -1,4 +1,4 @@
-// Nodes with cells of any kind around them: all that a control volume needs is gathered from the cells and boundary faces of its node, in a fixed order.
+// Nodes with cells of any kind around them: all data of a control volume are gathered from the cells and boundary faces of its node, in a fixed order.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +31,7 @@ std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const Lin
     const auto line = static_cast<std::uint32_t>(k);
     const auto columns = rings.columns(line);
     if (columns.empty()) return;
-    // Closed: each neighbour is once the next and once the previous line of a column.
+    // Closed: each neighbour is the next line of one column and the previous line of one column.
     std::int64_t balance = 0;
     bool is_closed = true;
     for (const std::uint32_t column : columns) {
@@ -86,7 +86,8 @@ void NodeDual::add_sub_volume(double six_times) {
 }
 
 void NodeDual::add_tet(std::span<const NodeId> nodes, std::uint64_t number) {
-  // Others in the order that sees the corner's tet positive; all sub-tets have a 24th of the volume, and the dual faces close in three cross products.
+  // The other corners are ordered for a positive tet as seen from the corner; each sub-tet has a 24th of the volume, and the dual faces follow from three
+  // cross products.
   constexpr std::array<std::array<std::uint8_t, 3>, 4> k_others = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   std::size_t corner = 0;
   while (nodes[corner].value() != node_) ++corner;
@@ -140,7 +141,7 @@ void NodeDual::add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint6
 void NodeDual::add_columns(std::uint32_t line, std::uint32_t layer) {
   const LayerBlock& layers = mesh_.layers;
   const auto per_column = static_cast<std::uint32_t>(layers.n_layers);            // numbers, not cells
-  const bool is_end = layer == static_cast<std::uint32_t>(layers.n_steps(line));  // it is a corner of all cells above, too
+  const bool is_end = layer == static_cast<std::uint32_t>(layers.n_steps(line));  // the last node is a corner of all cells above, too
   const std::uint32_t begin = layer == 0 ? 0 : layer - 1;
   for (const std::uint32_t column : rings_.columns(line)) {
     const auto n = static_cast<std::uint32_t>(layers.layers_of_column(column));
@@ -205,7 +206,7 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
   metrics.orthogonality = edge_area > 0.0 ? weighted / edge_area : -0.5 * std::numbers::pi;
   metrics.face_area_ratio = smallest > 0.0 ? largest / smallest : k_infinity;
   metrics.sub_volume_ratio = least_ > 0.0 ? most_ / least_ : k_infinity;
-  // Around fans of opened ridges prisms stand in more than one direction: no edge is across the stack there.
+  // Around multi-normal fans of opened ridges, prisms are stacked in more than one direction: no edge is perpendicular to the stack there.
   const bool is_turned = std::ranges::any_of(edges_, [&](const Edge& edge) { return is_stack(edge) && edge.is_flat; });
   metrics.edge_ratio = has_hexahedron_ || is_turned || longest == 0.0 ? k_nan : shortest > 0.0 ? longest / shortest : k_infinity;
   metrics.closure = all_area > 0.0 ? norm(closure) / all_area : k_infinity;

@@ -1,4 +1,4 @@
-// Shared by the dual_*.cpp files only: the two ways to the metrics of a node, and what decides between them.
+// Shared by the dual_*.cpp files only: the two algorithms for the metrics of a node, and the selection between them.
 #pragma once
 
 #include <array>
@@ -12,22 +12,24 @@
 
 namespace sterna::dual_parts {
 
-/// A sub-tet is certainly above k_solver_margin (computed_volumes.h), and so positive, when six times its volume exceeds this times the cube of the cell's size
-/// as seen from the corner (root of the sum of squared edges from there): two of its three vectors are at most that long, the third half of it. Rounding of the
-/// formulas here, 64 units at most, is less than the difference. Sub-tets of a prism of aspect ratio 1e9 are still certain.
+/// Relative margin for certain sub-tets. A sub-tet is certainly above k_solver_margin (computed_volumes.h), and so positive, if six times its volume exceeds
+/// this factor times the cube of the cell's size. The size is measured from the corner (root of the sum of squared edges from there): two of the sub-tet's
+/// three vectors are at most that long, the third at most half as long. The rounding error of the formulas here, at most 64 units, is less than the
+/// difference. Sub-tets of a prism of aspect ratio 1e9 are still certain.
 inline constexpr double k_certain = 1e-13;
-/// Plus this times the distance of the cell from the origin and the square of the size: solvers round midpoints and centroids as coordinates, one to eight
-/// units of the distance each.
+/// Absolute part of the margin: this factor times the distance of the cell from the origin and the square of the size. Solvers round midpoints and centroids
+/// as coordinates, one to eight units of the distance each.
 inline constexpr double k_place_rounding = 32 * 0x1p-53;
-/// Bound of six times the volume of a sub-tet that is certain. \p reach: distance of the corner from the origin; \p size2: square of the size.
+/// Returns the bound of six times the volume above which a sub-tet is certain. \p reach: distance of the corner from the origin; \p size2: square of the
+/// size.
 template <class T>
 T certain_sub_volume(const T& reach, const T& size, const T& size2) {
   return size2 * (k_certain * size + k_place_rounding * (reach + size));
 }
-/// Rounding of the dual faces around a node, as a share of its number of edges times the square of the longest: six cross products of such edges for each, with
-/// the differences before them.
+/// Rounding error of the dual faces around a node, relative to its number of edges times the square of the longest edge: six cross products of such edges per
+/// face, with the differences before them.
 inline constexpr double k_face_rounding = 96 * 0x1p-53;
-/// Closure counts as at most this where rounding explains it: around cells that are 1e5 times as long as they are wide rounding alone is 1e-11 of the faces.
+/// Upper bound of a closure that rounding explains: around cells of length-to-width ratio 1e5, rounding alone contributes 1e-11 of the faces.
 inline constexpr double k_rounding_closure = 0x1p-40;
 
 /// Columns around each line.
@@ -40,19 +42,19 @@ class LineRings {
   std::vector<std::uint32_t> first_, columns_;
 };
 
-/// 1 for lines that stand, closed all around by columns of prisms: inside their columns, nodes have nothing but those prisms.
+/// Returns 1 for regular lines: not collapsed and closed all around by columns of prisms. Nodes inside their columns belong to those prisms only.
 std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const LineRings& rings, const RunContext& context);
 
-/// Metrics of the inner nodes of one regular line after the other, vectorised over the layers.
+/// Computes the metrics of the inner nodes of regular lines, line by line, vectorised over the layers.
 class LineDual {
  public:
   LineDual(const HybridMesh& mesh, const LineRings& rings);
-  /// Metrics of layers 1 .. n - 1 of a regular line of n layers; valid until the next call.
+  /// Returns the metrics of layers 1 .. n - 1 of a regular line of n layers; valid until the next call.
   std::span<const NodeMetrics> measure(std::uint32_t line);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
  private:
-  /// Dual faces of one edge along the layer: part of the prisms above, by layer, and of those below, at their upper layer.
+  /// Dual faces of one edge along the layer: the part from the prisms above, by layer, and the part from the prisms below, at their upper layer.
   struct Slot {
     std::uint32_t line = 0;
     lanes::LineVectors above, below;
@@ -64,7 +66,7 @@ class LineDual {
 
   const HybridMesh& mesh_;
   const LineRings& rings_;
-  std::size_t n_padded_;  ///< of the longest line
+  std::size_t n_padded_;  ///< padded number of nodes of the longest line
   lanes::LineVectors own_;
   std::vector<lanes::LineVectors> neighbours_;  ///< by slot
   std::vector<Slot> slots_;
@@ -75,11 +77,12 @@ class LineDual {
   std::vector<std::uint64_t> suspects_;
 };
 
-/// Metrics of any node from the cells and boundary faces around it. Used for all that LineDual leaves.
+/// Computes the metrics of any node from the cells and boundary faces around it. Used for all nodes that LineDual does not cover.
 class NodeDual {
  public:
   NodeDual(const HybridMesh& mesh, const LineRings& rings);
-  /// A node of a line (`line` valid) or of none (NodeId::k_invalid); explicit cells and boundary faces by number, see Incidence.
+  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells`: explicit cells and boundary faces by common number, in the order of
+  /// `first_`.
   NodeMetrics measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
@@ -88,7 +91,7 @@ class NodeDual {
     std::uint32_t other;
     bool is_stack;
     Vec3 normal;
-    bool is_flat = false;  ///< of a triangle of a prism
+    bool is_flat = false;  ///< edge of a triangle of a prism
   };
   struct BoundaryPiece {
     PatchId patch;

@@ -1,5 +1,5 @@
-// The rule: h0/f, n f layers, constant layers f, growth r^(1/f), growth of tetrahedra 1 + (g - 1)/f, the same farfield and patches (docs/method/quality.md,
-// "Mesh families").
+// The family rule: h0/f, n f layers, constant layers f, growth r^(1/f), growth of tetrahedra 1 + (g - 1)/f, the same farfield and patches
+// (docs/method/quality.md, "Mesh families").
 #include "geom/mesh/family.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace sterna {
 namespace {
 
-/// Steps of a line whose heights differ by less are constant: far below any growth that is asked for, far above rounding.
+/// Relative difference below which two steps of a line count as equal: far below any requested growth, far above rounding.
 constexpr double k_equal_steps = 1e-3;
 
 double median(std::vector<double> values) {
@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Distinct edges of wall faces, lower node first.
+/// Returns the distinct edges of wall faces, lower node first.
 std::vector<std::array<std::uint32_t, 2>> wall_edges(const HybridMesh& mesh, std::int64_t& n_faces, const RunContext& context) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   const auto add = [&](const auto& nodes) {
@@ -36,7 +36,7 @@ std::vector<std::array<std::uint32_t, 2>> wall_edges(const HybridMesh& mesh, std
     if (mesh.patches[face.patch].kind == PatchKind::wall) add(face.nodes);
   for (const BoundaryQuad& face : mesh.boundary_quads)
     if (mesh.patches[face.patch].kind == PatchKind::wall) add(face.nodes);
-  // Equal ones are equal in every respect, so their order says nothing.
+  // Equal edges are identical, so their order does not matter.
   parallel_sort(context, edges, [](const auto& a, const auto& b) { return a < b; });
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -73,7 +73,7 @@ class StepRules {
   StepRules(const FamilyMember& coarse, const FamilyMember& fine, const FamilyTolerances& tolerances, FamilyStep& step)
       : coarse_(coarse), fine_(fine), tolerances_(tolerances), step_(step) {}
 
-  /// A rule that compares `value` with `expected`, off by `deviation`.
+  /// Adds a rule that compares `value` with `expected`; `deviation` is their difference.
   void add(std::string name, std::string title, double coarse, double fine, double value, double expected, double deviation, double tolerance) {
     const GateState state = deviation <= tolerance ? GateState::pass : deviation <= tolerances_.fail * tolerance ? GateState::warn : GateState::fail;
     step_.rules.push_back({std::move(name), std::move(title), state, {}, coarse, fine, value, expected, deviation, tolerance});
@@ -82,7 +82,7 @@ class StepRules {
     step_.rules.push_back({.name = std::move(name), .title = std::move(title), .reason = std::move(reason)});
   }
 
-  /// Of what both members may know: f(coarse, fine) adds it, or it is skipped.
+  /// Compares a quantity that may be unknown: calls f(coarse, fine) if both members know it, else marks the rule as not checked.
   template <class T, class F>
   void compare(std::optional<T> FamilyMember::*of, const char* name, const char* title, const char* why, const F& f) {
     if (coarse_.*of && fine_.*of) return f(*(coarse_.*of), *(fine_.*of));
@@ -95,7 +95,7 @@ class StepRules {
   }
   void growth(const char* name, const char* title, double coarse, double fine, double tolerance) {
     const double expected = std::pow(coarse, 1.0 / step_.factor), log_expected = std::log(expected);
-    // No growth at all stays none.
+    // Without growth (ratio 1) the logarithms are zero.
     add(name, title, coarse, fine, fine, expected, log_expected > 0.0 ? std::abs(std::log(fine) / log_expected - 1.0) : std::abs(std::log(fine)), tolerance);
   }
 

@@ -1,5 +1,5 @@
-// The family rule of docs/method/quality.md, "Mesh families": whether meshes are members of one family, each finer than the one before by one factor in every
-// direction.
+// The family rule of docs/method/quality.md, "Mesh families": checks if meshes are members of one family, each finer than the previous one by the same factor
+// in every direction.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,25 @@
 
 namespace sterna {
 
-/// What the rule compares of one mesh. What is absent is not known: a mesh read from a file without columns, or without its manifest.
+/// Quantities of one mesh that the family rule compares. An absent value is unknown: the mesh was read from a file without columns, or without its manifest.
 struct FamilyMember {
-  std::string name;  ///< for people: a file, or "mesh 2"
+  std::string name;  ///< human-readable: a file name, or "mesh 2"
   std::int64_t nodes = 0;
   std::int64_t wall_faces = 0;
-  double wall_edge = 0.0;                                    ///< m: mean length of the edges of wall faces; 0: there are none
-  Box box;                                                   ///< of all nodes: of the farfield
+  double wall_edge = 0.0;                                    ///< m: mean edge length of the wall faces; 0: no wall faces
+  Box box;                                                   ///< bounding box of all nodes, so of the farfield
   std::vector<std::pair<std::string, std::string>> patches;  ///< name and kind, by name
-  std::optional<int> layers;                                 ///< of the tallest columns
-  std::optional<double> first_height;                        ///< m, asked for: the smallest
-  std::optional<double> measured_first;                      ///< m: median over the lines of the length of the first edge
-  std::optional<double> growth;                              ///< asked for: the largest
-  std::optional<double> measured_growth;                     ///< median over the lines of the mean ratio of consecutive steps
-  std::optional<int> constant_layers;  ///< median over the lines of the first steps of equal height, the first included: 1 = it grows from the wall on
-  std::optional<double> tet_growth;    ///< growth of tetrahedra asked for; of the manifest
-  std::optional<double> refinement;    ///< member of a family that it was asked to be; of the manifest
+  std::optional<int> layers;                                 ///< layers of the tallest columns
+  std::optional<double> first_height;                        ///< m: smallest requested first height
+  std::optional<double> measured_first;                      ///< m: median length of the first edge of the growth lines
+  std::optional<double> growth;                              ///< largest requested growth ratio
+  std::optional<double> measured_growth;                     ///< median over the growth lines of the mean ratio of consecutive steps
+  std::optional<int> constant_layers;  ///< median over the growth lines of the number of equal first steps, including the first: 1 = grows from the wall
+  std::optional<double> tet_growth;    ///< requested growth of tetrahedra, from the manifest
+  std::optional<double> refinement;    ///< requested refinement relative to the family, from the manifest
 };
 
-/// Everything that the mesh itself says. Parallel.
+/// Computes every quantity that follows from the mesh itself. Parallel.
 FamilyMember family_member(const HybridMesh& mesh, std::string name, const RunContext& context);
 
 struct FamilyTolerances {
@@ -51,22 +51,22 @@ struct FamilyTolerances {
   double fail = 3.0;
 };
 
-/// One rule between two consecutive members.
+/// Result of one rule for two consecutive members.
 struct FamilyRule {
-  std::string name;   ///< of its JSON entry: "first_height"
-  std::string title;  ///< for people
+  std::string name;   ///< JSON key: "first_height"
+  std::string title;  ///< human-readable
   GateState state = GateState::not_checked;
-  std::string reason;                       ///< why it was not checked, or what differs
-  double coarse = 0.0, fine = 0.0;          ///< of the two members
-  double value = 0.0, expected = 0.0;       ///< what is compared: a ratio, a number of layers, growth - 1
+  std::string reason;                       ///< why the rule was not checked, or what differs
+  double coarse = 0.0, fine = 0.0;          ///< values of the two members
+  double value = 0.0, expected = 0.0;       ///< compared quantities: a ratio, a number of layers, growth - 1
   double deviation = 0.0, tolerance = 0.0;  ///< pass up to the tolerance, warn up to `fail` times it
 };
 
 struct FamilyStep {
-  std::string coarse, fine;                             ///< names
-  double factor = 0.0;                                  ///< per direction: that asked for, else by wall edges
+  std::string coarse, fine;                             ///< names of the two members
+  double factor = 0.0;                                  ///< refinement per direction: the requested factor, else from wall edges
   std::string factor_from;                              ///< "the option factor", "the refinements asked for", "the mean wall edges", "the nodes"
-  double factor_by_nodes = 0.0, factor_by_edges = 0.0;  ///< 0: not known
+  double factor_by_nodes = 0.0, factor_by_edges = 0.0;  ///< 0: unknown
   std::vector<FamilyRule> rules;
 };
 
@@ -77,12 +77,12 @@ struct FamilyReport {
 };
 
 /// Checks consecutive members, from coarse to fine.
-/// \throws Error(bad_argument) for fewer than two members, or one that is not finer than the one before
+/// \throws Error(bad_argument) for fewer than two members, or for a member that is not finer than the previous one
 FamilyReport check_family(std::vector<FamilyMember> members, const FamilyTolerances& tolerances);
 
-/// Tables for people: the members, then each step with its rules.
+/// Returns human-readable tables: the members, then each step with its rules.
 std::string to_text(const FamilyReport& report);
-/// JSON with schema "sterna-family-1", described in docs/quality_gates.md.
+/// Returns JSON with schema "sterna-family-1", described in docs/quality_gates.md.
 std::string to_json(const FamilyReport& report);
 
 template <>

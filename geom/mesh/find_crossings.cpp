@@ -1,14 +1,13 @@
-// Crossing pairs of a set of triangles: a tree of boxes over triangles in the order of a space-filling curve, a cheap proof that neighbours do not cross, the
-// exact test for the rest.
+// Crossing pairs of a set of triangles: a tree of boxes over triangles in the order of a space-filling curve, a cheap proof that neighbours do not cross, and
+// the exact test for the remaining pairs.
 //
-// 1. Triangles along Morton's curve (their centres in 2^21 cells of each axis), eight to a leaf, leaves in a tree of eight children each, level by level: no
-// pointers, and what is
-//    near in space is near in memory.
-// 2. Boxes as floats about the middle of all: each is a monotone function of its double, so boxes that overlap still do.
-// 3. Each leaf walks the tree for the leaves after it that overlap; of those the pairs of triangles whose boxes overlap.
-// 4. Most of them are neighbours on a smooth surface: seen along an axis, an edge of one separates them (two triangles whose projections are apart but for what
-// they share
-//    cannot cross). By a filter of orient2d that is sure or silent; triangles_cross decides whatever remains.
+// 1. Triangles are sorted along Morton's curve (their centres in 2^21 cells of each axis), eight to a leaf, leaves in a tree of eight children each,
+//    level by level: no pointers, and triangles near in space are near in memory.
+// 2. Boxes are stored as floats about the centre of all. Each float is a monotone function of its double, so boxes that overlap still do.
+// 3. Each leaf searches the tree for later leaves that overlap, and tests the pairs of triangles whose boxes overlap.
+// 4. Most of these pairs are neighbours on a smooth surface: in the projection along an axis, an edge of one triangle separates them (two triangles whose
+//    projections are apart except for shared vertices cannot cross). A filter of orient2d proves the separation or is undecided; triangles_cross decides the
+//    rest.
 #include "geom/mesh/find_crossings.h"
 
 #include <algorithm>
@@ -29,11 +28,11 @@ namespace {
 
 using CornerIndices = std::array<std::uint32_t, 3>;
 
-/// Boxes of a packet, triangles in a leaf, children of a node: one vector register of floats.
+/// Number of boxes in a packet, triangles in a leaf, children of a node: one vector register of floats.
 constexpr std::size_t k_leaf_width = 8;
 /// Leaves per task: about 1 ms.
 constexpr std::size_t k_chunk = 128;
-/// Cells of Morton's curve along an axis: three times as many bits fit into a key.
+/// Bits per axis of Morton's curve; a key holds three times as many bits.
 constexpr int k_curve_bits = 21;
 
 void check_input(std::span<const Vec3> points, std::span<const CornerIndices> triangles) {
@@ -54,7 +53,7 @@ struct FloatBox {
   std::array<float, 3> low, high;
 };
 
-/// Eight boxes, coordinate by coordinate; unused ones overlap nothing.
+/// Eight boxes, coordinate by coordinate; unused boxes overlap nothing.
 struct alignas(32) Packet {
   std::array<std::array<float, k_leaf_width>, 3> low, high;
   Packet() {
@@ -78,7 +77,7 @@ struct alignas(32) Packet {
     }
     return all;
   }
-  /// Bit k: box k overlaps.
+  /// Returns a bit mask; bit k: box k overlaps.
   std::uint32_t overlapping(const FloatBox& b) const {
     constexpr std::array<std::uint32_t, k_leaf_width> bit{1, 2, 4, 8, 16, 32, 64, 128};
     std::uint32_t mask = 0;
@@ -91,7 +90,7 @@ struct alignas(32) Packet {
   }
 };
 
-/// The 21 lowest bits of x, two zeros after each.
+/// Returns the 21 lowest bits of x, with two zeros after each.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffffu;
   x = (x | x << 16) & 0x001f0000ff0000ffu;
@@ -100,7 +99,7 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249u;
 }
 
-/// A monotone function of x: what is in order stays so, whatever is lost.
+/// Returns a monotone function of x: the order is preserved despite the rounding.
 float rounded(double x) {
   constexpr double k_largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(x, -k_largest, k_largest));
@@ -108,7 +107,7 @@ float rounded(double x) {
 
 struct TriangleLeaves {
   std::vector<std::uint32_t> order;         ///< triangles along the curve; leaf i has 8 i .. 8 i + 7
-  std::vector<std::vector<Packet>> levels;  ///< [0]: boxes of triangles, a packet for each leaf; [l + 1]: of the packets of level l
+  std::vector<std::vector<Packet>> levels;  ///< [0]: boxes of triangles, one packet per leaf; [l + 1]: boxes of the packets of level l
   std::size_t n_leaves() const { return levels.empty() ? 0 : levels[0].size(); }
 };
 
@@ -157,13 +156,13 @@ TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const CornerI
   return tree;
 }
 
-/// Calls visit(leaf) for the leaves from `first` on whose box overlaps.
+/// Calls visit(leaf) for the leaves from `first` onwards whose box overlaps.
 template <class Visit>
 void for_each_leaf(const TriangleLeaves& tree, const FloatBox& box, std::size_t first, const Visit& visit) {
   struct Step {
     std::size_t level, packet;
   };
-  // At most seven siblings wait on each of the 11 levels that 2^32 triangles need.
+  // At most seven siblings are pending on each of the 11 levels that 2^32 triangles need.
   std::array<Step, 96> stack;
   std::size_t n = 0;
   const std::size_t top = tree.levels.size() - 1;
@@ -172,7 +171,7 @@ void for_each_leaf(const TriangleLeaves& tree, const FloatBox& box, std::size_t 
   while (n > 0) {
     const Step step = stack[--n];
     std::uint32_t mask = tree.levels[step.level][step.packet].overlapping(box);
-    // Children before that of `first` hold nothing but leaves before it.
+    // Children before that of `first` contain only leaves before `first`.
     const std::size_t least = first >> (3 * (step.level - 1));
     for (; mask != 0; mask &= mask - 1) {
       const std::size_t child = step.packet * k_leaf_width + static_cast<std::size_t>(std::countr_zero(mask));
@@ -185,7 +184,8 @@ void for_each_leaf(const TriangleLeaves& tree, const FloatBox& box, std::size_t 
 
 // ---------------------------------------------------------------- proof that two triangles are apart
 
-/// Sure sign of orient2d of three points seen along an axis, zero when rounding may decide (Shewchuk 1997, bound A; products that underflow stay undecided).
+/// Returns the certain sign of orient2d of three points projected along an axis, or zero if rounding may decide (Shewchuk 1997, bound A; products that
+/// underflow stay undecided).
 int sure_turn(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t u, std::size_t v) {
   constexpr double k_bound = 3.4e-16, k_least = 1e-290;
   const double left = (b[u] - a[u]) * (c[v] - a[v]), right = (b[v] - a[v]) * (c[u] - a[u]);
@@ -210,7 +210,7 @@ Pair gather(std::span<const Vec3> points, const CornerIndices& a, const CornerIn
     if (is_shared_a[i]) pair.a[n_a++] = &points[a[i]];
   for (std::size_t i = 0; i < 3; ++i)
     if (is_shared_b[i]) pair.b[n_b++] = &points[b[i]];
-  pair.n_shared = n_a == n_b ? n_a : 3;  // a corner that one of them repeats: left to the exact test
+  pair.n_shared = n_a == n_b ? n_a : 3;  // a corner repeated within one triangle: left to the exact test
   for (std::size_t i = 0; i < 3; ++i)
     if (!is_shared_a[i]) pair.a[n_a++] = &points[a[i]];
   for (std::size_t i = 0; i < 3; ++i)
@@ -218,11 +218,11 @@ Pair gather(std::span<const Vec3> points, const CornerIndices& a, const CornerIn
   return pair;
 }
 
-/// An edge of `a` that ends at all shared corners has the rest of `a` strictly on one side and the rest of `b` strictly on the other: then their common points
-/// project into the shared ones, and since `a` has area in the projection they are the shared ones.
+/// Returns true if an edge of `a` that contains all shared corners has the rest of `a` strictly on one side and the rest of `b` strictly on the other. Common
+/// points then project onto the shared corners, and since `a` has area in the projection they are the shared corners.
 bool edge_separates(const std::array<const Vec3*, 3>& a, const std::array<const Vec3*, 3>& b, std::size_t n_shared, std::size_t u, std::size_t v) {
   constexpr std::size_t k_edge[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
-  // Shared are: none (three edges will do), corner 0 (two), corners 0 and 1 (one).
+  // Candidate edges by shared corners: none (three edges), corner 0 (two edges), corners 0 and 1 (one edge).
   for (std::size_t e = 0; e < 3 - n_shared; ++e) {
     const Vec3 &from = *a[k_edge[e][0]], &to = *a[k_edge[e][1]];
     const int side = sure_turn(from, to, *a[k_edge[e][2]], u, v);
@@ -234,7 +234,7 @@ bool edge_separates(const std::array<const Vec3*, 3>& a, const std::array<const 
   return false;
 }
 
-/// True only when the triangles do not cross.
+/// Returns true only if the triangles do not cross.
 bool are_apart(std::span<const Vec3> points, const CornerIndices& a, const CornerIndices& b) {
   const Pair pair = gather(points, a, b);
   if (pair.n_shared == 3) return false;
@@ -261,7 +261,7 @@ CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::
   const TriangleLeaves tree = make_leaves(points, triangles, context);
 
   const auto crossings_of = [&](std::size_t begin, std::size_t end) {
-    // More than `limit` are kept for a while, so that dropping the last ones costs little for each.
+    // More than `limit` pairs are kept temporarily, so that the amortised cost of dropping the last pairs is small.
     const std::size_t many = limit > std::numeric_limits<std::size_t>::max() / 4 ? limit : 2 * limit + 1024;
     CrossingPairs found;
     const auto test = [&](std::uint32_t i, std::uint32_t j) {

@@ -1,4 +1,4 @@
-// The self-intersections of a set of triangles, by the exact test of geom/math/intersect.h.
+// Self-intersections of a set of triangles, by the exact test of geom/math/intersect.h.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@ namespace sterna {
 
 struct TriMesh;
 
-/// All crossing pairs (i < j) by triangles_cross, sorted; parallel over a tree of boxes, about 1e6 triangles/s/core measured on clean surfaces. At most `limit`
-/// pairs are returned (the first in order), `total` counts all.
+/// All crossing pairs (i < j) by triangles_cross, sorted. Parallel over a tree of boxes, about 1e6 triangles/s/core measured on clean surfaces. At most
+/// `limit` pairs are stored (the first in order); `total` counts all.
 struct CrossingPairs {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   std::int64_t total = 0;
 };
-/// \throws Error(bad_argument) for an index out of range or a triangle's point that is not finite.
+/// \throws Error(bad_argument) for an index out of range or a non-finite point of a triangle.
 CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, const RunContext& context,
                              std::size_t limit = static_cast<std::size_t>(-1));
-/// The same of a mesh.
+/// As above, for a mesh.
 CrossingPairs find_crossings(const TriMesh& mesh, const RunContext& context, std::size_t limit = static_cast<std::size_t>(-1));
 
 }  // namespace sterna

@@ -12,7 +12,7 @@
 namespace sterna::check_parts {
 namespace {
 
-constexpr int k_proof_digits = 3;  ///< of lengths in texts
+constexpr int k_proof_digits = 3;  ///< digits of lengths in messages
 constexpr const char* k_remesh = "remesh the wall there (surface_mesh), or split its needles";
 constexpr const char* k_open_edge = "open or fill the edge in the given surface";
 
@@ -78,7 +78,7 @@ std::optional<Forcing> GivenBoundary::edge_ratio(NodeId node, double limit) cons
       k_remesh};
 }
 
-/// Angle of the fluid between two boundary triangles at their common side; `a` runs along the side the way that `b` runs against.
+/// Returns the angle of the fluid between two boundary triangles at their common side; `a` and `b` run along the side in opposite directions.
 double GivenBoundary::fluid_angle(std::uint32_t a, std::uint32_t b) const {
   const auto corner = [&](std::uint32_t t, std::size_t k) { return mesh_.points[mesh_.boundary_triangles[t].nodes[k % 3]]; };
   const Vec3 na = area_vector(corner(a, 0), corner(a, 1), corner(a, 2)), nb = area_vector(corner(b, 0), corner(b, 1), corner(b, 2));
@@ -96,7 +96,7 @@ std::optional<Forcing> GivenBoundary::min_dihedral(const std::array<NodeId, 4>& 
       const Edge side = std::minmax(tet[i].value(), tet[j].value());
       const auto first = std::lower_bound(boundary_sides_.begin(), boundary_sides_.end(), std::pair(side, std::uint32_t{0}));
       if (boundary_sides_.end() - first < 2 || first->first != side || std::next(first)->first != side) continue;
-      if (boundary_sides_.end() - first > 2 && std::next(first, 2)->first == side) continue;  // sheets and slits: which two face each other is not told
+      if (boundary_sides_.end() - first > 2 && std::next(first, 2)->first == side) continue;  // baffles, disc cuts: the facing sides are unknown
       const double angle = fluid_angle(first->second, std::next(first)->second);
       if (angle > 0.0 && angle < limit)
         return Forcing{"the boundary's triangles at its edge leave " + print_text("%.3g deg", angle * k_degrees) + " of fluid", k_open_edge};

@@ -1,4 +1,5 @@
-// Proofs that the given boundary alone puts a value beyond its hard limit. Each is a bound, stated in docs/quality_gates.md: what is not proven is not forced.
+// Proofs that the given boundary alone forces a value beyond its hard limit. Each proof is a bound, stated in docs/quality_gates.md. A value without proof
+// does not count as forced.
 #pragma once
 
 #include <array>
@@ -16,10 +17,10 @@ class GivenBoundary {
  public:
   explicit GivenBoundary(const HybridMesh& mesh);
 
-  /// G16. A wall node has its wall edges in any mesh, so their own ratio bounds the measure. In layer j both ends of an edge are at most d_j, the length of the
-  /// line so far, off their feet: edges there are at least L - d - d' and at most s + d + d' long.
+  /// Returns a proof for G16. A wall node has its wall edges in any mesh, so their ratio bounds the measure. In layer j both ends of an edge are at most d_j,
+  /// the length of the line up to there, away from their base vertices: edges there are at least L - d - d' and at most s + d + d' long.
   std::optional<Forcing> edge_ratio(NodeId node, double limit) const;
-  /// G14. Tets at an edge of the boundary share the angle of the fluid there: none of them has more.
+  /// Returns a proof for G14. Tets at a boundary edge divide the fluid angle there: none of them has a larger angle.
   std::optional<Forcing> min_dihedral(const std::array<NodeId, 4>& tet, double limit) const;
 
  private:
@@ -37,7 +38,7 @@ class GivenBoundary {
   double fluid_angle(std::uint32_t a, std::uint32_t b) const;
 
   const HybridMesh& mesh_;
-  std::vector<Edge> wall_edges_;                                  ///< of walls, from each end, ascending
+  std::vector<Edge> wall_edges_;                                  ///< wall edges, from each end, ascending
   std::vector<std::pair<Edge, std::uint32_t>> boundary_sides_;    ///< sides of boundary triangles, lower node first, ascending
   std::vector<std::pair<std::uint32_t, std::uint32_t>> line_at_;  ///< first node and line, ascending
 };

@@ -14,26 +14,27 @@
 namespace sterna::check_parts {
 namespace {
 
-constexpr int k_forced_digits = 3;  ///< of lengths in texts
-/// Proofs about sides hold for lines that lean by at most k_lean_room more than the best direction at their feet; beyond this angle to a normal beside them
-/// (rad) nothing is proven.
+constexpr int k_forced_digits = 3;  ///< digits of lengths in messages
+/// Proofs about sides hold for lines that lean by at most k_lean_room more than the best direction at their base vertices. Beyond this angle to an adjacent
+/// normal (rad) nothing is proven.
 constexpr double k_most_forced_skew = 88 * k_degree;
-/// Tilt of a side's normal against the plane across the wall's edge (sine) beyond which nothing is proven.
+/// Tilt of a side's normal against the plane perpendicular to the wall's edge (sine) beyond which nothing is proven.
 constexpr double k_most_tilt = 0.4;
-/// A first height that is within its target (G11), and a growth that is as asked for.
+/// Factors for a first height within its target (G11), and for a growth ratio equal to the requested one.
 constexpr double k_first_height_room = 1.02, k_growth_room = 1.001;
-/// Lines that lean by more than this (cosine) may be any length for their height.
+/// Lines that lean by more than this (cosine) may have any length for a given height.
 constexpr double k_least_lean_cosine = 0.1;
-/// Sweeps of the search for a bound's multipliers; any multipliers are a proof, more sweeps a better one.
+/// Sweeps of the search for a bound's multipliers. Any multipliers give a proof; more sweeps give a tighter bound.
 constexpr int k_multiplier_sweeps = 100;
-/// Of the measures of this mesh against bounds that must hold for it, too: rounding.
+/// Rounding tolerance for the measures of this mesh against bounds that must hold for it, too.
 constexpr double k_bound_slack = 1e-9;
 
 constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or split its needles";
 constexpr const char* k_ask_more = "more layers, a larger growth or first height, or a finer wall there";
 constexpr const char* k_fewer_layers = "truncate the layer there, or ask for fewer layers";
 
-/// Least share of corner `own` in the centre of a prism with these lengths at its corners, where heights are at least `stand` of the lengths; and the largest.
+/// Returns the least share (largest_share() below: the largest) of corner `own` in the centre of a prism with these lengths at its corners, where heights are
+/// at least `stand` times the lengths.
 double least_share(double own, double others, double stand) { return (2.0 * stand * own + others) / (4.0 * (stand * own + others)); }
 double largest_share(double own, double others, double stand) { return (2.0 * own + stand * others) / (4.0 * (own + stand * others)); }
 
@@ -41,29 +42,29 @@ double largest_share(double own, double others, double stand) { return (2.0 * ow
 
 /// Two wall triangles at a common edge, and bounds of the layer above them.
 struct GivenLayer::Pair {
-  /// One of them, seen from the edge.
+  /// One of the two triangles, relative to the edge.
   struct Half {
     double area = 0.0;     ///< m^2
-    double reach = 0.0;    ///< m, of the opposite corner from the edge's line
-    double longest = 0.0;  ///< m, side
-    double step = 0.0;     ///< m, of the opposite line in the layer
+    double reach = 0.0;    ///< m, distance of the opposite corner from the edge's line
+    double longest = 0.0;  ///< m, longest side
+    double step = 0.0;     ///< m, step of the opposite line in the layer
   };
   std::array<Half, 2> halves;
   double edge = 0.0;          ///< m
-  double steps = 0.0;         ///< m, of the edge's two lines in the layer, together
-  double moved = 0.0;         ///< m, farthest that a corner of the two cells is off the wall
-  double moved_across = 0.0;  ///< m, the same along the side's normal
-  double tilt = 0.0;          ///< sine of the largest angle between the side's normal and the plane across the wall's edge
-  double carry = 0.0;         ///< least quotient of what a step or a side's normal has along one triangle's axes and along the other's
-  double stand = 0.0;         ///< least cosine between a step and the normal of a triangle beside it
-  double stands = 0.0;        ///< least component of the side's normal along a triangle, across the edge
+  double steps = 0.0;         ///< m, sum of the steps of the edge's two lines in the layer
+  double moved = 0.0;         ///< m, largest distance of a corner of the two cells from the wall
+  double moved_across = 0.0;  ///< m, as `moved`, along the side's normal
+  double tilt = 0.0;          ///< sine of the largest angle between the side's normal and the plane perpendicular to the wall's edge
+  double carry = 0.0;         ///< least quotient of the components of a step or a side's normal along one triangle's axes and along the other's
+  double stand = 0.0;         ///< least cosine between a step and the normal of an adjacent triangle
+  double stands = 0.0;        ///< least component of the side's normal along a triangle, perpendicular to the edge
 };
 
 struct GivenLayer::Room {
   double last = 0.0, total = 0.0;                    ///< m, largest length of the last cell and of the line
-  double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, the same without the gap
-  Vec3 best;                                         ///< unit, the direction of lines that sees the facets best
-  /// Of a line's length, what it can go along a direction while it is within k_lean_room of the best.
+  double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, as above, without the gap
+  Vec3 best;                                         ///< unit, the direction of lines with the best view of the facets
+  /// Returns the largest fraction of a line's length along a direction while the line is within k_lean_room of the best direction.
   double most_along(const Vec3& direction) const { return std::max(0.0, std::cos(std::max(0.0, angle_between(best, direction) - k_lean_room))); }
 };
 
@@ -76,7 +77,7 @@ double GivenLayer::step(std::uint32_t line, int layer) const {
   return distance(mesh_.points[mesh_.layers.node(line, layer)], mesh_.points[mesh_.layers.node(line, layer + 1)]);
 }
 
-/// Of a line up to a layer, m.
+/// Returns the length of a line up to a layer, m.
 double GivenLayer::length(std::uint32_t line, int layer) const {
   double sum = 0.0;
   for (int j = 0; j < layer; ++j) sum += step(line, j);
@@ -93,7 +94,7 @@ std::vector<Vec3> GivenLayer::normals_around(std::uint32_t line) const {
   return normals;
 }
 
-/// Whether columns of prisms alone go all around the line.
+/// Returns true if the line is surrounded by columns of prisms only.
 bool GivenLayer::is_closed(std::uint32_t line) const {
   std::vector<std::uint32_t> before, after;
   for (const std::uint32_t column : rings_.columns(line)) {
@@ -130,7 +131,7 @@ std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) cons
   }
   const double turn = angle_between(area_vector(pa, pb, pc), area_vector(pb, pa, pe)), skew = best + k_lean_room;
   if (!(skew < k_most_forced_skew)) return std::nullopt;
-  // The side's normal is across a step, so within `skew` of the triangles' planes, and lines are within `skew` of their normals.
+  // The side's normal is perpendicular to a step, so it is within `skew` of the planes of the triangles, and lines are within `skew` of the triangle normals.
   pair.moved_across = pair.moved * std::sin(std::min(2.0 * skew, 0.5 * std::numbers::pi));
   pair.steps = step(a, side.layer) + step(b, side.layer);
   pair.halves[0] = {triangle_area(pa, pb, pc), 0.0, longest_side(pa, pb, pc), step(c, side.layer)};
@@ -138,14 +139,14 @@ std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) cons
   double turned = 0.0;
   for (Pair::Half& half : pair.halves) {
     half.reach = 2.0 * half.area / pair.edge;
-    // Heights over a triangle differ by at most `rise`; the plane through them is no steeper than that over the triangle's least height.
+    // Heights over a triangle differ by at most `rise`; the plane through them is at most as steep as `rise` over the triangle's least height.
     const double rise = pair.moved - std::cos(skew) * least_length, width = 2.0 * half.area / half.longest - 2.0 * pair.moved * std::sin(skew);
     if (!(width > 0.0)) return std::nullopt;
     turned = std::max(turned, std::atan(rise / width));
   }
   pair.tilt = 2.0 * pair.moved_across / pair.edge;
   if (!(pair.tilt < k_most_tilt)) return std::nullopt;
-  // With n the side's normal less its part along the edge: its angles to the two triangles' normals are at most `widest`.
+  // Let n be the side's normal minus its component along the edge: its angles to the two triangle normals are at most `widest`.
   if (!(skew + turned < k_most_forced_skew)) return std::nullopt;
   const double sine = std::sin(skew) / std::sqrt(1.0 - pair.tilt * pair.tilt);
   if (!(sine < 1.0)) return std::nullopt;
@@ -163,7 +164,7 @@ std::optional<Forcing> GivenLayer::face_weight(const ColumnSide& side, double li
   if (!pair) return std::nullopt;
   for (std::size_t k = 0; k < 2; ++k) {
     const Pair::Half &near = pair->halves[k], &far = pair->halves[1 - k];
-    // Along the edge points of a triangle are at most its longest side apart; centres of side and cell are `moved` off their places.
+    // Along the edge, points of a triangle are at most its longest side apart; centres of side and cell are displaced by `moved`.
     const double near_error = (pair->tilt * near.longest + 2.0 * pair->moved_across) / pair->stands;
     const double far_error = (pair->tilt * far.longest + 2.0 * pair->moved_across) / pair->stands;
     const double to_far = pair->carry * least_share(far.step, pair->steps, pair->stand) * far.reach - far_error;
@@ -217,7 +218,7 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
       moved = std::max(moved, length(k, layer + 1));
       tallest = std::max({tallest, step(k, layer), layer > 0 ? step(k, layer - 1) : 0.0});
     }
-    moved += own;  // of a side of the triangle from the line
+    moved += own;  // displacement of a side of the triangle from the line
     const double longest = longest_side(foot(base[0]), foot(base[1]), foot(base[2]));
     const Vec3 area = area_vector(foot(base[0]), foot(base[1]), foot(base[2]));
     const double off = moved * (longest + 0.5 * moved);
@@ -225,7 +226,8 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
     sum += area / 3.0;
     error += off / 3.0;
     slack = std::max(slack, off / norm(area));
-    // Dual faces beside the line: two in each cell, each within (|r| 13/6 + t 7/6) t / 2 with t the tallest step, r from an edge's middle to a triangle's.
+    // Dual faces beside the line: two in each cell, each within (|r| 13/6 + t 7/6) t / 2 with t the tallest step and r from an edge's midpoint to a
+    // triangle's centroid.
     const double r = 0.5 * longest + moved;
     beside += (layer > 0 ? 2.0 : 1.0) * tallest * (r * 13.0 + tallest * 7.0) / 6.0;
   }
@@ -258,7 +260,7 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
   const SphericalCap cap = smallest_spherical_cap(normals);
   const double lean = std::cos(std::min(cap.angle + k_lean_room, 0.5 * std::numbers::pi));
   if (!(lean > k_least_lean_cosine)) return std::nullopt;
-  // Asked for are at least as many layers as the line has; a gap leaves the tallest last cell to those that it has.
+  // The request has at least as many layers as the line; in a gap the tallest last cell results from the actual number of layers.
   const int n = mesh_.layers.n_steps(line), n_asked = request.line_layers.empty() ? n : request.line_layers[line];
   const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
   if (!(growth > 1.0) || n < 1) return std::nullopt;
@@ -287,7 +289,7 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
     rooms[k] = *room;
   }
   double wall = 0.0, edge = 0.0, height = 0.0;
-  Room most;  // total: by how much the top's edges can be shorter than the wall's, in the mean
+  Room most;  // total: maximum mean difference between the edges of the wall and the shorter edges of the top
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t j = (k + 1) % 3;
     const Vec3 along = foot(base[j]) - foot(base[k]);
@@ -300,7 +302,7 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
     edge += distance(mesh_.points[layers.top(base[k])], mesh_.points[layers.top(base[j])]) / 3.0;
     height += step(base[k], n - 1) / 3.0;
   }
-  // A mesh that does not keep what the bounds suppose proves nothing.
+  // A mesh that violates the assumptions of the bounds proves nothing.
   if (height > most.last * (1.0 + k_bound_slack) || edge < (wall - most.total) * (1.0 - k_bound_slack)) return std::nullopt;
   const double as_asked = k_regular_height * (wall - most.total_as_asked) / most.last_as_asked;
   const double in_gap = k_regular_height * (wall - most.total) / most.last;

@@ -1,7 +1,7 @@
-// OpenFOAM's skewness at sharp edges of the wall. A line that sees both facets lies in the narrow wedge that their extensions leave; the side between the two
-// columns lies there, too, while the centres of their cells lie far back on the two facets: the line between them passes the side's centre at a distance that
-// hardly any direction within the wedge changes. All directions of the edge's two lines that see both facets at least half as well as the best
-// one does are searched, box by box, each with a bound by intervals.
+// OpenFOAM's skewness at sharp edges of the wall. A line that sees both facets lies in the narrow wedge between their extensions. The side between the two
+// columns also lies there, while the centres of their cells lie far back on the two facets. The line between the centres passes the side's centre at a
+// distance that hardly depends on the direction within the wedge. The search covers all directions of the edge's two lines that see both facets at least half
+// as well as the best direction does. It proceeds box by box, each with a bound by interval arithmetic.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,20 +15,21 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Boxes of directions of each of the edge's lines.
+/// Number of direction boxes for each of the edge's lines.
 constexpr int k_wedge_boxes = 16;
-/// Of the distance between the centres, counts as a side's reach (OpenFOAM).
+/// Fraction of the distance between the centres that counts as a side's extent (OpenFOAM).
 constexpr double k_centre_reach = 0.2;
-/// Half of the widest wedge that is looked at, rad: beyond it no skewness is forced.
+/// Half of the widest wedge that is searched, rad: beyond it no skewness is forced.
 constexpr double k_widest_half_wedge = 15 * k_degree;
-/// Part of the wedge, around its middle, in which lines are supposed to be: they see both facets at least half as well as the best direction does.
+/// Part of the wedge, around its middle, that is assumed to contain the lines: they see both facets at least half as well as the best direction does.
 constexpr double k_used_wedge = 0.5;
-/// Of the rise of a triangle's end over its other one, over their distance: most that it adds to the angle of a step that leans by 10 degrees along the edge.
+/// Bound on the rise of one end of a triangle over the other, relative to their distance; the maximum that it adds to the angle of a step that leans by 10
+/// degrees along the edge.
 constexpr double k_twist = 0.1;
 
-/// Edges at which the wall turns back within less, rad, are sharp: several normals are for them.
+/// Edges at which the wall turns back within less than this angle, rad, are sharp: they need several normals.
 constexpr double k_sharp = 80 * k_degree;
-/// The bare wall's edge gives the skewness of a thin layer to so much.
+/// Factor to which the bare wall's edge predicts the skewness of a thin layer.
 constexpr double k_like = 1.05;
 
 struct Interval {
@@ -40,16 +41,16 @@ Interval operator*(double factor, const Interval& i) {
 }
 Interval operator+(const Interval& a, const Interval& b) { return {a.low + b.low, a.high + b.high}; }
 
-/// Of the centre of a prism: share of a corner with height `own` where the others have `others` together.
+/// Returns the share of a corner with height `own` in the centre of a prism whose other two heights sum to `others`.
 double share_of(double own, double others) { return (2.0 * own + others) / (4.0 * (own + others)); }
 Interval share(const Interval& own, const Interval& others) { return {share_of(own.low, others.high), share_of(own.high, others.low)}; }
 
-/// Heights over a facet of a step of length `length` at angles `turned` off the facet's plane.
+/// Returns the heights over a facet of a step of length `length` at angles `from` to `to` off the facet's plane.
 Interval heights(const Interval& length, double from, double to) {
   return {length.low * std::sin(std::clamp(from, 0.0, 0.5 * std::numbers::pi)), length.high * std::sin(std::clamp(to, 0.0, 0.5 * std::numbers::pi))};
 }
 
-/// x / (x + y), both at least zero and known but for `error`.
+/// Returns x / (x + y) for x and y of at least zero, each known within `error`.
 Interval part(const Interval& x, const Interval& y, double error) {
   const auto of = [](double a, double b) { return a + b > 0.0 ? a / (a + b) : 0.5; };
   return {of(std::max(0.0, x.low - error), y.high + error), of(x.high + error, std::max(0.0, y.low - error))};
@@ -57,19 +58,19 @@ Interval part(const Interval& x, const Interval& y, double error) {
 
 }  // namespace
 
-/// The edge's place: two triangles that meet at it in a wedge.
+/// Geometry of the edge: two triangles that meet at it in a wedge.
 struct GivenLayer::Wedge {
-  std::array<double, 2> reach{};     ///< m, of the opposite corners from the edge
-  std::array<double, 2> along{};     ///< m, of the opposite corners, along the edge from its first end
-  std::array<Interval, 2> far{};     ///< m, heights of the opposite lines' steps
-  std::array<Interval, 2> opened{};  ///< rad, by which the triangles of the layer stand wider than the wall's: their far corners have risen
-  std::array<Interval, 2> across{};  ///< m, components of the steps at the edge's ends across it
+  std::array<double, 2> reach{};     ///< m, distances of the opposite corners from the edge
+  std::array<double, 2> along{};     ///< m, positions of the opposite corners along the edge, from its first end
+  std::array<Interval, 2> far{};     ///< m, heights of the steps of the opposite lines
+  std::array<Interval, 2> opened{};  ///< rad, opening of the layer triangles beyond the wall triangles, since their far corners have risen
+  std::array<Interval, 2> across{};  ///< m, components of the steps at the edge's ends, perpendicular to it
   double edge = 0.0;                 ///< m
   double half = 0.0;                 ///< rad, half of the angle between the triangles
-  double visible = 0.0;              ///< rad, largest angle of a step to the wedge's middle
-  double moved_along = 0.0;          ///< m, the same along the edge
-  double moved = 0.0;                ///< m, farthest that a corner of the two cells is off the wall
-  double error = 0.0;                ///< m, of the centres' distances from the side's plane
+  double visible = 0.0;              ///< rad, largest angle of a step to the wedge's middle plane
+  double moved_along = 0.0;          ///< m, as `moved`, along the edge
+  double moved = 0.0;                ///< m, largest distance of a corner of the two cells from the wall
+  double error = 0.0;                ///< m, error of the centres' distances from the side's plane
 
   double least_skewness(int box_a, int box_b) const;
 };
@@ -81,7 +82,7 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
   };
   const std::array<Interval, 2> psi = {direction(box_a), direction(box_b)};
   const Interval middle = {std::min(psi[0].low, psi[1].low), std::max(psi[0].high, psi[1].high)};
-  std::array<Interval, 2> t, y, off;  // of the cells' centres: along the edge, from it in the triangle's plane, off the side's plane
+  std::array<Interval, 2> t, y, off;  // cell centres: position along the edge, distance from it in the triangle's plane, distance from the side's plane
   for (std::size_t i = 0; i < 2; ++i) {
     const double sign = i == 0 ? 1.0 : -1.0;
     const auto to_facet = [&](const Interval& p) { return sign > 0.0 ? Interval{half - p.high, half - p.low} : Interval{half + p.low, half + p.high}; };
@@ -107,7 +108,7 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
           apart = std::max(apart, std::sqrt((t1 - t0) * (t1 - t0) + y0 * y0 + y1 * y1 - 2.0 * y0 * y1 * std::cos(2.0 * half)));
     }
   apart += 2.0 * moved;
-  // The side's centre along the edge, and how far its corners are from there.
+  // The side's centre along the edge, and the distance of its corners from there.
   const auto centre_at = [&](double first, double second) { return edge * (first + 2.0 * second) / (3.0 * (first + second)); };
   const Interval centre = {centre_at(across[0].high, across[1].low), centre_at(across[0].low, across[1].high)};
   const double reach_along = std::max(centre.high, edge - centre.low) + 2.0 * moved_along;
@@ -116,8 +117,8 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
   const double least_beside = beside.low > 0.0 ? beside.low : beside.high < 0.0 ? -beside.high : 0.0;
   const double back = std::min(y[0].low, y[1].low) * std::cos(half + visible) - 2.0 * moved;
   if (!(back > 0.0)) return 0.0;
-  // For a miss (e, x) along the edge and across it the side's reach is at most (e reach_along + x thick) / |miss|; the skewness is least where e is `worst`,
-  // and grows with x if the side is thin.
+  // For a miss (e, x) along and perpendicular to the edge, the side's extent is at most (e reach_along + x thick) / |miss|. The skewness is least at e =
+  // `worst`, and grows with x if the side is thin.
   const double thick = 2.0 * moved;
   if (thick * most_beside > 2.0 * back * reach_along) return 0.0;
   const double worst = std::clamp(back * (std::hypot(thick, reach_along) - thick) / reach_along, least_beside, most_beside);
@@ -130,7 +131,7 @@ std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit
   const std::array<std::uint32_t, 4> lines = lines_of(side);
   const Point &a = foot(lines[0]), &b = foot(lines[1]);
   const Vec3 n0 = area_vector(a, b, foot(lines[2])), n1 = area_vector(b, a, foot(lines[3]));
-  if (!(dot(n0, foot(lines[3]) - a) < 0.0)) return std::nullopt;  // the fluid's side is not the outer one
+  if (!(dot(n0, foot(lines[3]) - a) < 0.0)) return std::nullopt;  // the fluid is not on the outer side
   Wedge wedge;
   wedge.edge = distance(a, b);
   wedge.half = 0.5 * (std::numbers::pi - angle_between(n0, n1));

@@ -1,4 +1,4 @@
-// The items that measures are of: where they are, what they are called, and which nodes and cells they have. Private to the check_*.cpp files.
+// Items of measures: their locations, names, nodes and cells. Private to the check_*.cpp files.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,27 @@ inline void gather_cell(const CellNumbers& cells, std::uint64_t number, GateExte
   for (const NodeId node : cells.cell(number).span()) extent.nodes.push_back(node.value());
   extent.cells.push_back(number);
 }
-/// Adds the nodes of a face, and the cell that it is named after.
+/// Adds the nodes of a face and the cell that identifies the face.
 inline void gather_face(std::span<const NodeId> nodes, std::uint64_t cell, GateExtent& extent) {
   for (const NodeId node : nodes) extent.nodes.push_back(node.value());
   extent.cells.push_back(cell);
 }
 
-/// Ids are nodes.
+/// Items whose ids are nodes.
 struct NodeItems {
   const HybridMesh& mesh;
   std::pair<Point, std::string> operator()(std::uint64_t id) const { return describe_node(mesh, id); }
   void gather(std::uint64_t id, GateExtent& extent) const { extent.nodes.push_back(static_cast<std::uint32_t>(id)); }
 };
 
-/// Ids are cell numbers.
+/// Items whose ids are cell numbers.
 struct CellItems {
   const CellNumbers& cells;
   std::pair<Point, std::string> operator()(std::uint64_t id) const { return {cells.center(id), cells.name(id)}; }
   void gather(std::uint64_t id, GateExtent& extent) const { gather_cell(cells, id, extent); }
 };
 
-/// Ids are slots of faces of cells.
+/// Items whose ids are slots of cell faces.
 struct SlotItems {
   const FaceSlots& slots;
   std::string_view prefix;  ///< "face of "
@@ -49,7 +49,7 @@ struct SlotItems {
   }
 };
 
-/// Counts the places of all gates, and the share of the volume where items are no areas; empties the extents.
+/// Counts the locations of all gates, and the share of the volume for items that are not areas; empties the extents.
 /// \pre indices are in range
 void count_places(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, CheckReport& report);
 

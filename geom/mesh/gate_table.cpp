@@ -1,5 +1,5 @@
-// The one table of the gates that are numbers: what each measures, its limits, whose solvers feel it, and the evidence for its hard limit.
-// docs/quality_gates.md says what the kinds of evidence mean; a limit that a measurement replaces gets the page's name here.
+// Table of the numeric gates: the quantity each gate measures, its limits, the solver classes it affects, and the evidence for its hard limit.
+// docs/quality_gates.md explains the kinds of evidence. If a measurement replaces a limit, its source here is the name of the page.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,7 +14,7 @@ constexpr double k_right = std::numbers::pi / 2.0;
 
 using M = Measure;
 
-// Coverage asks for 99 % of the whole; the wing's 99.5 % need a script that knows which patch is a wing.
+// The coverage limit is 99 % of the whole wall. A limit of 99.5 % for the wing needs a script that identifies the wing patch.
 constexpr Consumers k_of_both{};
 constexpr LimitEvidence k_no_limit{Evidence::none, Evidence::none, ""};
 constexpr LimitEvidence k_proposal{Evidence::cited, Evidence::cited, "a proposal of this project, which no run has tested yet"};
@@ -200,7 +200,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {1, 0x1p10, 50, 5},
      k_node_centred_alone,
      {Evidence::none, Evidence::cited, k_proposal.source}},
-    // Limits are those at which checkMesh and meshQualityDict object. Aspect ratios of y+ = 1 prisms are beyond any limit of theirs: shown only.
+    // Limits are the thresholds of checkMesh and meshQualityDict. Aspect ratios of y+ = 1 prisms exceed all their limits, so the measure is shown only.
     {M::non_orthogonality,
      "OF",
      "non_orthogonality",
@@ -278,7 +278,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0x1p-60, 0x1p-20, 40, 1},
      k_cell_centred_alone,
      {Evidence::cited, Evidence::none, "OpenFOAM's checkMesh: 1e-6"}},
-    // The limit is checkMesh's (SMALL squared): tets that are upside down or flat; their shape does not matter to it.
+    // The limit is checkMesh's (SMALL squared): it detects inverted or flat tets and ignores their shape.
     {M::face_tets,
      "OF",
      "face_tets",
@@ -290,7 +290,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0, 1, 50},
      k_cell_centred_alone,
      {Evidence::cited, Evidence::none, "OpenFOAM's checkMesh: 1e-30"}},
-    // Runs diverge from such faces near the wall (docs/heights.md); what FAILs is the measure over all faces.
+    // Solver runs diverge from such faces near the wall (docs/heights.md), but the hard limit applies to the measure over all faces.
     {M::stacked_orthogonality,
      "OF",
      "stacked_orthogonality",
@@ -313,7 +313,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0x1p-6, 0x1p4, 40, 4},
      k_cell_centred_alone,
      k_no_limit},
-    // First cells of y+ = 1 are beyond any limit of checkMesh's here, too: shown only.
+    // First cells of y+ = 1 are beyond checkMesh's limit here, too, so the measure is shown only.
     {M::cell_determinant,
      "OF",
      "cell_determinant",

@@ -11,7 +11,7 @@ namespace {
 
 bool is_none(double limit) { return limit != limit; }
 
-/// Worst first; equal ones by ascending id, whichever side they are on.
+/// Orders the worst first; ties by ascending id, ignoring the flag of the side.
 bool is_before(const GateScan::Item& a, const GateScan::Item& b) {
   if (a.badness != b.badness) return a.badness > b.badness;
   return (a.id & ~GateScan::k_too_small) < (b.id & ~GateScan::k_too_small);
@@ -23,7 +23,7 @@ int HistogramClasses::of(double value) const {
   if (value != value || value >= to) return n - 1;
   if (value <= from) return 0;
   if (per_octave == 0) return std::min(n - 1, static_cast<int>((value - from) / (to - from) * n));
-  // Exponent and mantissa off the bits: cheap, and the same everywhere.
+  // Exponent and mantissa are taken from the bits: fast, and identical on every platform.
   const auto bits = std::bit_cast<std::uint64_t>(value), low = std::bit_cast<std::uint64_t>(from);
   const int octave = static_cast<int>(bits >> 52) - static_cast<int>(low >> 52);
   const double mantissa = static_cast<double>(bits & 0xfffffffffffffULL) * 0x1p-52;
@@ -148,7 +148,7 @@ GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
   }
   result.worst = value_of(worst_.front());
   result.share_within = total_ > 0.0 ? within_ / total_ : 0.0;
-  // What is forced counts as if it kept its limits.
+  // Forced items count as if they met their limits.
   const bool is_usual_missed = !is_none(limits_.usual) && within_ + forced_weight < limits_.usual_share * total_;
   result.is_hard_missed = n_forced < result.n_beyond_hard;
   result.is_soft_missed = worst_within_ > target_ || is_usual_missed;
@@ -162,7 +162,7 @@ GateState state_for(const GateResult& gate, Consumer consumer) {
   const MeasureInfo& info = info_of(gate.measure);
   if (gate.state == GateState::not_checked || !info.consumers.has(consumer)) return GateState::not_checked;
   if (!gate.is_hard_missed) return gate.is_soft_missed ? GateState::warn : GateState::pass;
-  // G8: where the growth asked for is beyond the default limit it is the limit, usual and hard.
+  // G8: a requested growth ratio beyond the default limit replaces it, usual and hard.
   const bool is_own_limit = gate.limits.hard != info.limits.hard && gate.limits.hard != gate.limits.usual;
   const Evidence evidence = info.evidence.of(consumer);
   const bool may_fail = consumer == Consumer::cell_centred || is_own_limit || evidence == Evidence::definition || evidence == Evidence::measured;

@@ -1,4 +1,4 @@
-// The gates that are numbers (docs/quality_gates.md): what each measures, its limits, and the running statistics that decide it.
+// Numeric quality gates (docs/quality_gates.md): the quantity each gate measures, its limits, and the running statistics that decide the gate.
 #pragma once
 
 #include <algorithm>
@@ -14,53 +14,53 @@
 
 namespace sterna {
 
-/// One measured quantity of a gate; a gate may have several.
+/// A measured quantity of a gate; a gate may have several.
 enum class Measure : std::uint8_t {
   scaled_jacobian,           ///< G3: wedge_quality of each prism
   dual_closure,              ///< G4: sum of a dual cell's face normals over the sum of their areas
-  orthogonality,             ///< G5: SU2's, per node
-  sub_volume_ratio,          ///< G6: SU2's, per node
+  orthogonality,             ///< G5: SU2's definition, per node
+  sub_volume_ratio,          ///< G6: SU2's definition, per node
   face_area_ratio,           ///< G7: SU2's CV face area aspect ratio, per node
-  relative_face_area_ratio,  ///< G7: the same over l_t / H, longest edge along the layer over height of the dual cell
-  stack_growth,              ///< G8: heights of consecutive cells of a line, the larger over the smaller
+  relative_face_area_ratio,  ///< G7: face_area_ratio over l_t / H, longest edge along the layer over height of the dual cell
+  stack_growth,              ///< G8: heights of consecutive cells of a growth line, the larger over the smaller
   interface_height,          ///< G9: last layer height over 0.816 mean envelope edge, or its inverse
   interface_volume,          ///< G9: thrice the tet's over the prism's volume, or its inverse
-  stack_angle,               ///< G10: steepest of the first cells against the wall's facets, less the best possible
+  stack_angle,               ///< G10: steepest of the first cells against the wall facets, minus the best possible angle
   first_height,              ///< G11: relative deviation of the first height along the vertex normal
-  boundary_layer,            ///< G12: share of the area on which a boundary layer was asked for with its thickness, or what the geometry permits of it
-  coverage,                  ///< G12: share of the wall's area with the height along the normal that the geometry permits
-  collapsed,                 ///< G12: share of the wall's area without cells
-  layer_step,                ///< G13: difference of the number of layers over an edge
+  boundary_layer,            ///< G12: area share that covers the requested boundary-layer thickness, or the part of it that the geometry permits
+  coverage,                  ///< G12: share of the wall area with the height along the normal that the geometry permits
+  collapsed,                 ///< G12: share of the wall area without layer cells
+  layer_step,                ///< G13: difference of the number of layers across an edge
   min_dihedral,              ///< G14
   max_dihedral,              ///< G14
   tet_growth,                ///< G15: volumes of two tets with a common face, the larger over the smaller
-  edge_ratio,                ///< G16: longest over shortest edge of a node, edges of its stack left out
-  non_orthogonality,         ///< OpenFOAM's, per inner face: angle between its normal and the line of the centres of its cells
-  skewness,                  ///< OpenFOAM's, per face: how far that line passes the face's centre, over the face's reach (or 0.2 of the line)
-  face_weight,               ///< OpenFOAM's, per inner face: share of the nearer centre in the distance of both from the face's plane
+  edge_ratio,                ///< G16: longest over shortest edge of a node, without edges along its stack
+  non_orthogonality,         ///< OpenFOAM's, per inner face: angle between its normal and the line through the centres of its cells
+  skewness,                  ///< OpenFOAM's, per face: distance from that line to the face centre, over the face's extent (or 0.2 of the line)
+  face_weight,               ///< OpenFOAM's, per inner face: distance of the nearer cell centre from the face plane, over the sum for both centres
   volume_ratio,              ///< OpenFOAM's, per inner face: smaller over larger volume of its cells
-  face_flatness,             ///< OpenFOAM's, per quadrilateral: area over the sum of the areas of its triangles around its middle
+  face_flatness,             ///< OpenFOAM's, per quadrilateral: area over the sum of the areas of its triangles around its centre
   cell_aspect_ratio,         ///< OpenFOAM's, per cell; reported only
   cell_openness,             ///< OpenFOAM's, per cell: sum of its face normals over the sum of their sizes
   face_tets,                 ///< OpenFOAM's, per face: quality of the worst tet into which it and its cells are cut
-  stacked_orthogonality,     ///< non_orthogonality between two prisms of one column, by which the proportions of their corners' heights differ
-  stacked_skewness,          ///< skewness of these faces
-  cell_determinant,          ///< OpenFOAM's, per cell: determinant of the tensor of its inner faces, a cube's being 1; reported only
+  stacked_orthogonality,     ///< non_orthogonality between two prisms of one column, caused by different height proportions at their corners
+  stacked_skewness,          ///< skewness of the same faces
+  cell_determinant,          ///< OpenFOAM's, per cell: determinant of the tensor of its inner faces, 1 for a cube; reported only
   cad_distance,              ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
-  cad_normal,                ///< G18: facet normal against the model's at the facet's centroid (the same)
+  cad_normal,                ///< G18: facet normal against the model normal at the facet's centroid (same source)
 };
 inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
 
-/// Solvers by what their control volumes are.
+/// Solver classes by type of control volume.
 enum class Consumer : std::uint8_t {
-  cell_centred,  ///< the cells: OpenFOAM, Fluent
-  node_centred,  ///< the dual cells of the nodes: SU2, TAU, Edge
+  cell_centred,  ///< control volumes are cells: OpenFOAM, Fluent
+  node_centred,  ///< control volumes are dual cells of nodes: SU2, TAU, Edge
 };
 inline constexpr std::array k_consumers = {Consumer::cell_centred, Consumer::node_centred};
-/// "cell-centred", "node-centred"
+/// Returns "cell-centred" or "node-centred".
 std::string_view to_string(Consumer consumer);
 
-/// Some of them.
+/// A set of solver classes.
 struct Consumers {
   bool cell_centred = true, node_centred = true;
   bool has(Consumer consumer) const { return consumer == Consumer::cell_centred ? cell_centred : node_centred; }
@@ -70,66 +70,66 @@ struct Consumers {
 
 inline constexpr Consumers k_cell_centred_alone{.cell_centred = true, .node_centred = false}, k_node_centred_alone{.cell_centred = false, .node_centred = true};
 
-/// Why a hard limit is where it is.
+/// Justification of a hard limit.
 enum class Evidence : std::uint8_t {
-  none,        ///< there is no hard limit, or the consumer does not use the measure
-  definition,  ///< beyond it the mesh cannot be used, or is not what was asked for
-  measured,    ///< runs of a solver; the source names the page
-  cited,       ///< a program's or guideline's limit that no run has tested here
+  none,        ///< no hard limit, or the consumer does not use the measure
+  definition,  ///< beyond the limit the mesh is unusable, or does not meet the request
+  measured,    ///< solver runs; the source names the page
+  cited,       ///< limit of a program or guideline, not tested by runs here
 };
-/// "definition", ...; "" for none
+/// Returns "definition", ...; "" for none.
 std::string_view to_string(Evidence evidence);
 struct LimitEvidence {
   Evidence cell_centred, node_centred;
-  std::string_view source;  ///< of the limit, for people
+  std::string_view source;  ///< source of the limit, human-readable
   Evidence of(Consumer consumer) const { return consumer == Consumer::cell_centred ? cell_centred : node_centred; }
 };
 
-/// Classes of a measure's histogram: values below the first edge are in the first class, above the last edge (and no numbers) in the last.
+/// Histogram classes of a measure: values below the first edge are in the first class; values above the last edge, and NaN, are in the last.
 struct HistogramClasses {
-  double from = 0.0, to = 0.0;  ///< of logarithmic classes: powers of two
+  double from = 0.0, to = 0.0;  ///< powers of two for logarithmic classes
   int n = 0;                    ///< 0: the measure has no histogram
-  int per_octave = 0;           ///< 0: equal widths; else each doubling is cut into so many equal parts
+  int per_octave = 0;           ///< 0: equal widths; else number of equal parts per doubling
   static constexpr int k_most = 64;
   int of(double value) const;
-  /// n + 1 values, ascending.
+  /// Returns n + 1 class edges, ascending.
   std::vector<double> edges() const;
 };
 
-/// Limits of a measure in SI and radians; NaN where there is none.
+/// Limits of a measure in SI units and radians; NaN for no limit.
 struct GateLimits {
-  double hard;         ///< beyond it the gate FAILs
-  double target;       ///< beyond it the gate warns
-  double usual;        ///< the measure's share `usual_share` must not be beyond it, or the gate warns
-  double usual_share;  ///< in [0, 1]
+  double hard;         ///< beyond this value the gate FAILs
+  double target;       ///< beyond this value the gate warns
+  double usual;        ///< the gate warns unless at least the fraction `usual_share` of the measure is within this limit
+  double usual_share;  ///< fraction in [0, 1]
 };
 
-/// What is fixed of a measure.
+/// Fixed properties of a measure.
 struct MeasureInfo {
   Measure measure;
   std::string_view gate;     ///< "G5"
-  std::string_view name;     ///< of its JSON entry: "orthogonality"
-  std::string_view title;    ///< for people
-  std::string_view counted;  ///< what the share counts: "nodes", "area", ...
+  std::string_view name;     ///< JSON key: "orthogonality"
+  std::string_view title;    ///< human-readable
+  std::string_view counted;  ///< unit of the share: "nodes", "area", ...
   bool is_angle;             ///< radians inside, degrees in reports
   bool is_low_bad;           ///< limits are lower bounds
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
-  Consumers consumers;       ///< whose solutions depend on it
-  LimitEvidence evidence;    ///< of the hard limit
+  Consumers consumers;       ///< solver classes whose solutions depend on the measure
+  LimitEvidence evidence;    ///< evidence for the hard limit
 };
 
 /// The table of docs/quality_gates.md, in the order of Measure.
 const std::array<MeasureInfo, k_n_measures>& measures();
 const MeasureInfo& info_of(Measure measure);
-/// What is wrong where the measure misses a limit, in plain words: "heights of layers jump".
+/// Returns a short description of the defect where the measure misses a limit: "heights of layers jump".
 std::string_view trouble_of(Measure measure);
-/// What a user can do about it.
+/// Returns a remedy for the user.
 std::string_view remedy_of(Measure measure);
-/// A value of the measure in the unit of reports: degrees for angles.
+/// Converts a value of the measure to the unit of reports: degrees for angles.
 double in_report_unit(const MeasureInfo& info, double value);
 
-/// Limits of all measures; starts with the defaults.
+/// Limits of all measures; initialised with the defaults.
 class GateTable {
  public:
   GateTable();
@@ -141,30 +141,30 @@ class GateTable {
 };
 
 enum class GateState : std::uint8_t { pass, warn, fail, not_checked };
-/// "pass", "warn", "FAIL", "not checked"
+/// Returns "pass", "warn", "FAIL" or "not checked".
 std::string_view to_string(GateState state);
-/// The measure of this name; nothing for others.
+/// Returns the measure with this name, or nullptr.
 const MeasureInfo* find_measure(std::string_view name);
 
-/// Why no mesh on the given boundary keeps a limit at a place: a proof, and what would remove the cause.
+/// Proof that no mesh on the given boundary can meet a limit at a location, with a remedy that removes the cause.
 struct Forcing {
   std::string why;
   std::string remedy;
 };
 
-/// One of the worst places of a measure.
+/// One of the worst locations of a measure.
 struct GatePlace {
   double value = 0.0;
   Point position;
-  std::string what;  ///< entity by name
-  Forcing forcing;   ///< empty: ours to mend
+  std::string what;  ///< name of the entity
+  Forcing forcing;   ///< empty: a mesher defect
 };
 
-/// Nodes and cells of the items of a measure that are beyond a limit; check_places.cpp makes places and shares of them.
+/// Nodes and cells of the items of a measure that are beyond a limit; check_places.cpp derives locations and shares from them.
 struct GateExtent {
   std::vector<std::uint32_t> nodes;        ///< item after item
-  std::vector<std::uint32_t> first = {0};  ///< of each item in `nodes`, and the end
-  std::vector<std::uint64_t> cells;        ///< numbers (check_parts::CellNumbers) of the cells that the items are or belong to; none of items that are nodes
+  std::vector<std::uint32_t> first = {0};  ///< start of each item in `nodes`, and the end
+  std::vector<std::uint64_t> cells;        ///< numbers (check_parts::CellNumbers) of the cells that the items are or belong to; empty for node items
   void end_item() { first.push_back(static_cast<std::uint32_t>(nodes.size())); }
   bool empty() const { return nodes.empty(); }
 };
@@ -172,32 +172,32 @@ struct GateExtent {
 struct GateResult {
   Measure measure = Measure::scaled_jacobian;
   GateLimits limits{};
-  GateState state = GateState::not_checked;  ///< the worst of state_for() the consumers that are asked about
-  bool is_hard_missed = false;               ///< by an item that is not forced
-  bool is_soft_missed = false;               ///< target or usual limit
-  std::string reason;                        ///< why it was not checked
+  GateState state = GateState::not_checked;  ///< the worst state_for() over the selected consumers
+  bool is_hard_missed = false;               ///< an item not forced by the input surface misses the hard limit
+  bool is_soft_missed = false;               ///< the target or the usual limit is missed
+  std::string reason;                        ///< why the gate was not checked
   double worst = 0.0;
-  double total = 0.0;                ///< number of items, or m^2 where areas are counted
-  double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
-  std::int64_t n_beyond_hard = 0;    ///< items
-  std::int64_t n_forced = 0;         ///< of them, proven to be forced by the given boundary: they do not FAIL
-  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual where there is no target; those beyond the hard limit are among them
-  // Of the items that decide: those beyond the hard limit that are not forced, or where there are none those beyond the target.
-  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values on either side of what they should be
-  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none where items have no place, or are too many to be kept
-  double share_beyond = 0.0;                      ///< of the wall's area where areas are counted, else of the fluid's volume
-  GateExtent extent;                              ///< of them; empty after check()
-  std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
-  std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
-  std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
+  double total = 0.0;                ///< number of items, or m^2 for area-weighted measures
+  double share_within = 0.0;         ///< fraction of `total` within limits.usual; within limits.target if there is no usual limit
+  std::int64_t n_beyond_hard = 0;    ///< number of items
+  std::int64_t n_forced = 0;         ///< subset of n_beyond_hard proven to be forced by the given boundary: these items do not FAIL
+  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual if there is no target; includes items beyond the hard limit
+  // The following members describe the deciding items: items beyond the hard limit that are not forced, or if there are none, items beyond the target.
+  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values below or above the ideal
+  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none if items have no location, or are too many to be kept
+  double share_beyond = 0.0;                      ///< share of the wall area for area-weighted measures, else of the fluid volume
+  GateExtent extent;                              ///< nodes and cells of the deciding items; empty after check()
+  std::vector<GatePlace> places;                  ///< the ten worst that miss a limit and are not forced (any, for a measure without limits), worst first
+  std::vector<GatePlace> forced;                  ///< the ten worst forced items, worst first
+  std::vector<double> histogram;                  ///< items, or m^2, in each class of MeasureInfo::classes; empty if the measure has no histogram
 };
 
-/// What a result says to one kind of solver: beyond a hard limit FAIL, but warn where the consumer is node-centred and the limit is neither by definition, nor
-/// measured, nor the user's own. not_checked where the consumer does not use the measure.
+/// Returns the state of a result for one solver class. A value beyond a hard limit FAILs. It only warns if the consumer is node-centred and the limit is
+/// neither by definition, nor measured, nor set by the user. Returns not_checked if the consumer does not use the measure.
 GateState state_for(const GateResult& gate, Consumer consumer);
 
-/// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
-/// but for the rounding of weights that are not whole numbers.
+/// Running statistics of one measure: weight within the usual limit, and the worst items. The result of merging does not depend on how items were distributed
+/// to the parts, except for the rounding of non-integer weights.
 class GateScan {
  public:
   static constexpr std::size_t k_most_places = 10;
@@ -208,11 +208,11 @@ class GateScan {
   };
 
   GateScan(const MeasureInfo& info, const GateLimits& limits);
-  /// In the id of an item whose measure is a deviation to either side: the value is below what it should be.
+  /// Flag in the id of an item whose measure is a two-sided deviation: the value is below the ideal.
   static constexpr std::uint64_t k_too_small = std::uint64_t{1} << 62;
-  /// Items beyond the target whose ids are kept for counting places: 800 KB of each measure.
+  /// Maximum number of items beyond the target whose ids are kept for counting locations: 800 KB per measure.
   static constexpr std::size_t k_most_soft = 100'000;
-  /// A value that is not a number counts as infinitely bad.
+  /// Adds an item. NaN counts as infinitely bad.
   void add(double value, std::uint64_t id, double weight = 1.0) {
     const double badness = value == value ? sign_ * value : std::numeric_limits<double>::infinity();
     total_ += weight;
@@ -225,16 +225,16 @@ class GateScan {
   }
   void merge(const GateScan& other);
   bool empty() const { return worst_.empty(); }
-  /// Worst first; equal ones by ascending id.
+  /// Returns the worst items, worst first; ties by ascending id.
   const std::vector<Item>& worst() const { return worst_; }
   double value_of(const Item& item) const { return sign_ * item.badness; }
-  /// `describe(id) -> pair(Point, string)` names the places; where it has `gather(id, GateExtent&)`, which adds the nodes and cells of an item, the result has
-  /// an extent.
+  /// Returns the result. `describe(id) -> pair(Point, string)` names the locations. If it has `gather(id, GateExtent&)`, which adds the nodes and cells of an
+  /// item, the result has an extent.
   template <class Describe>
   GateResult result(const Describe& describe) const {
     return result(describe, [](std::uint64_t, double) { return std::optional<Forcing>(); });
   }
-  /// `prove(id, value) -> optional<Forcing>` is asked for every item beyond the hard limit.
+  /// Returns the result. `prove(id, value) -> optional<Forcing>` is called for every item beyond the hard limit.
   template <class Describe, class Prove>
   GateResult result(const Describe& describe, const Prove& prove) const {
     std::vector<GatePlace> places, forced;
@@ -281,33 +281,34 @@ class GateScan {
   };
   void remember(const Item& item);
   void add_soft(double badness, std::uint64_t id, double weight);
-  /// Fills what GateResult says of the items that decide; \p own are those beyond the hard limit that are not forced. Returns the ids of them that are kept.
+  /// Fills the members of GateResult that describe the deciding items, and returns the ids of the deciding items that were kept. \p own: items beyond the
+  /// hard limit that are not forced.
   std::vector<std::uint64_t> decide(std::vector<std::uint64_t> own, double own_weight, GateResult& result) const;
   bool is_notable(const Item& item) const;
-  /// Worst first; equal ones by ascending id.
+  /// Returns the items beyond the hard limit, worst first; ties by ascending id.
   std::vector<Beyond> beyond_hard() const;
   GateResult judge(std::int64_t n_forced, double forced_weight) const;
 
   Measure measure_;
   GateLimits limits_;
   double sign_;
-  double hard_, target_, usual_;  ///< as badness; infinity where there is none
-  double soft_;                   ///< the target, or the usual limit where there is none
+  double hard_, target_, usual_;  ///< as badness; infinity if there is no limit
+  double soft_;                   ///< the target, or the usual limit if there is no target
   double entry_ = -std::numeric_limits<double>::infinity();
   double total_ = 0.0, within_ = 0.0;
-  double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of what keeps the hard limit
-  std::vector<Beyond> beyond_;                                      ///< all beyond the hard limit
-  // Beyond the soft limit: all, and those that keep the hard limit.
+  double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of items within the hard limit
+  std::vector<Beyond> beyond_;                                      ///< all items beyond the hard limit
+  // Items beyond the soft limit: all, and those within the hard limit.
   std::int64_t n_soft_ = 0, n_soft_within_ = 0, n_soft_small_ = 0;
   double soft_weight_ = 0.0;
   bool has_dropped_soft_ = false;
-  std::vector<std::uint64_t> soft_ids_;  ///< of those that keep the hard limit; none where they are more than k_most_soft
+  std::vector<std::uint64_t> soft_ids_;  ///< ids of items within the hard limit; empty if there are more than k_most_soft
   const HistogramClasses* classes_;
   std::array<double, HistogramClasses::k_most> histogram_{};
   std::vector<Item> worst_;
 };
 
-/// A measure that could not be taken.
+/// Returns the result for a measure that could not be computed.
 GateResult not_checked(Measure measure, const GateTable& limits, std::string reason);
 
 }  // namespace sterna

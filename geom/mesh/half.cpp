@@ -1,8 +1,8 @@
-// Problem: cut a surface with a plane so that every decision is made once per vertex or edge, and neighbours agree.
-// 1. place_vertices: distances to the plane; those within the tolerance are zero, their vertices in the plane;
-// 2. snap_near_vertices: vertices with a cut close by on one of their edges move there, the sharpest such edge first, so that features stay where they are;
-// 3. cut: triangles by the signs of their corners; a crossed edge gets one vertex;
-// 4. require_rim: what is said in the header about the rim.
+// Cuts a surface with a plane so that every decision is made once per vertex or edge, and neighbours agree.
+// 1. place_vertices: distances to the plane; distances within the tolerance are set to zero and their vertices moved into the plane.
+// 2. snap_near_vertices: vertices with a cut close by on one of their edges move there, along the sharpest such edge, so that features stay in place.
+// 3. cut: triangles by the signs of their corners; a crossed edge gets one vertex.
+// 4. require_rim: checks the conditions on the open boundary that half.h states.
 #include "geom/mesh/half.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 namespace sterna {
 namespace {
 
-constexpr double k_tolerance_share = 1e-6;  ///< of the longest side: files keep 6 to 7 digits
-constexpr double k_max_turn_cosine = 0.94;  ///< 20 degrees: by more, a vertex that is moved into the plane would change the shape
-constexpr double k_min_kept_area = 0.2;     ///< of a triangle's area must be left when a vertex of it moves
+constexpr double k_tolerance_share = 1e-6;  ///< relative to the longest side: files keep 6 to 7 digits
+constexpr double k_max_turn_cosine = 0.94;  ///< 20 degrees: moves that turn a triangle by more would change the shape
+constexpr double k_min_kept_area = 0.2;     ///< fraction of a triangle's area that must remain if one of its vertices moves
 
 struct HalvingPlane {
   std::size_t axis = 1;
   double at = 0.0;
-  double side = 1.0;  ///< +1: larger coordinates are kept
+  double side = 1.0;  ///< +1: the side of larger coordinates is kept
   double tolerance = 0.0;
   std::string text() const {
     std::string number = std::to_string(at);
@@ -35,7 +35,7 @@ struct HalvingPlane {
 
 HalvingPlane plane_of(const TriMesh& surface, const HalfOptions& options) {
   HalfOptions copy = options;
-  for (const Option& option : options_of(copy)) set_option(option, option.get());  // refuses what is out of range
+  for (const Option& option : options_of(copy)) set_option(option, option.get());  // throws for values out of range
   const double length = bounding_box(surface).longest_side();
   return {.axis = static_cast<std::size_t>(options.axis.front() - 'x'),
           .at = options.at,
@@ -43,10 +43,10 @@ HalvingPlane plane_of(const TriMesh& surface, const HalfOptions& options) {
           .tolerance = is_automatic(options.tolerance) ? k_tolerance_share * length : options.tolerance};
 }
 
-/// The surface while it is being cut: distances of zero are vertices in the plane, exactly.
+/// The surface during the cut: vertices with distance zero lie exactly in the plane.
 struct Cutting {
   TriMesh mesh;
-  Column<VertexId, double> distance;  ///< metres, positive where it is kept
+  Column<VertexId, double> distance;  ///< metres, positive on the kept side
 };
 
 std::array<double, 3> distances(const Cutting& cutting, TriangleId t) {
@@ -89,7 +89,7 @@ Cutting place_vertices(const TriMesh& surface, const HalvingPlane& plane) {
   return cutting;
 }
 
-/// Cosine between the normals of the triangles at an edge: the smaller, the sharper; -1 on a boundary.
+/// Returns the cosine between the normals of the triangles at an edge: smaller means sharper; -1 on a boundary.
 double fold_cosine(const TriMesh& mesh, const Topology& topology, HalfedgeId h) {
   const HalfedgeId twin = topology.twin(h);
   if (!twin.is_valid()) return -1.0;
@@ -102,11 +102,12 @@ struct Move {
   VertexId vertex;
   Point to;
   double share = 0.0;  ///< distance over the shortest edge
-  double fold = 1.0;   ///< of the edge that it moves along
+  double fold = 1.0;   ///< fold cosine of the edge along which it moves
 };
 
-/// Where a vertex would go, if it has a crossed edge with the cut near enough; one of a rim, which may lie in another plane, only along that.
-/// \return share above `limit` when not
+/// Returns the move of a vertex if it has a crossed edge with the cut near enough. A vertex on an open boundary, which may lie in another plane, moves only
+/// along that boundary.
+/// \return a move with share above `limit` if there is none
 Move propose(const Cutting& cutting, const Topology& topology, VertexId v, const HalvingPlane& plane, double limit) {
   Move best{.vertex = v, .to = {}, .share = 2.0 * limit, .fold = 2.0};
   const double d = cutting.distance[v];
@@ -128,7 +129,7 @@ Move propose(const Cutting& cutting, const Topology& topology, VertexId v, const
   return best;
 }
 
-/// No triangle at the vertex turns or shrinks too much, nor comes to lie in the plane.
+/// Returns true if no triangle at the vertex turns or shrinks too much, or falls into the plane.
 bool is_move_harmless(const Cutting& cutting, const Topology& topology, const Move& move) {
   for (const HalfedgeId h : topology.outgoing(move.vertex)) {
     const Point& b = cutting.mesh.points[topology.to(h)];
@@ -145,7 +146,7 @@ struct SnapReport {
   double farthest = 0.0;  ///< m
 };
 
-/// The nearest first, each by its edges as they are then.
+/// Moves vertices into the plane, the nearest first, each tested with the current positions of its edges.
 SnapReport snap_near_vertices(Cutting& cutting, const Topology& topology, const HalvingPlane& plane, double limit) {
   SnapReport report;
   std::vector<Move> moves;
@@ -165,7 +166,7 @@ SnapReport snap_near_vertices(Cutting& cutting, const Topology& topology, const 
   return report;
 }
 
-/// Crossed edges, lower vertex first, in order: the new vertices.
+/// Crossed edges, lower vertex first, in ascending order; each edge becomes a new vertex.
 using EdgeList = std::vector<std::array<VertexId, 2>>;
 
 EdgeList crossed_edges(const Cutting& cutting) {
@@ -180,7 +181,7 @@ EdgeList crossed_edges(const Cutting& cutting) {
   return edges;
 }
 
-/// The part of each triangle that is kept: itself, a triangle, or two. Vertices beyond those of the mesh are crossed edges.
+/// The kept part of each triangle: the triangle itself, a smaller triangle, or two triangles. Vertex numbers beyond those of the mesh are crossed edges.
 class Cutter {
  public:
   Cutter(const Cutting& cutting, const HalvingPlane& plane) : cutting_(cutting), edges_(crossed_edges(cutting)), points_(cutting.mesh.points) {
@@ -188,7 +189,7 @@ class Cutter {
     for (const TriangleId t : cutting.mesh.triangles.ids()) cut(t);
   }
 
-  /// Kept vertices and patches alone.
+  /// Returns the result with the kept vertices and patches only.
   TriMesh take() const {
     TriMesh result;
     Column<VertexId, VertexId> old2new(points_.size());
@@ -233,7 +234,8 @@ class Cutter {
     }
     n_cut_ += d[0] < 0.0 || d[1] < 0.0 || d[2] < 0.0 ? 1 : 0;
     if (n == 3) return add(t, corner[0], corner[1], corner[2]);
-    // Four: by the shorter diagonal; of equal ones that of the smaller vertex, wherever the triangle begins.
+    // Four corners: split by the shorter diagonal. Of equal diagonals, the one at the smaller vertex is used, so the result does not depend on the triangle's
+    // first corner.
     const double first = distance2(corner[0], corner[2]), second = distance2(corner[1], corner[3]);
     const bool is_first = first < second || (first == second && std::min(corner[0], corner[2]) < std::min(corner[1], corner[3]));
     add(t, corner[0], corner[1], corner[is_first ? 2 : 3]);
@@ -267,7 +269,7 @@ void require_reach(const TriMesh& surface, const TriMesh& half, const HalvingPla
   throw Error(std::move(info));
 }
 
-/// The edge lies in a plane of constant coordinate, to the bit, where the surface ends, and its triangle does not.
+/// Returns true if the edge lies exactly in a plane of constant coordinate where the surface ends, and its triangle does not.
 bool is_in_some_plane(const TriMesh& half, const Box& box, const Topology& topology, HalfedgeId h) {
   const Point &a = half.points[topology.from(h)], &b = half.points[topology.to(h)], &c = half.points[topology.from(previous(h))];
   for (std::size_t k = 0; k < 3; ++k)
@@ -310,7 +312,7 @@ void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContex
   throw Error(std::move(touching));
 }
 
-/// What is left out should be the image of what is kept: a deflected aileron, a tail of one side are not.
+/// Warns if the removed part is not the mirror image of the kept part: for example a deflected aileron, or a tail on one side.
 void tell_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const RunContext& context) {
   constexpr double k_share_of_edge = 0.3, k_share_of_length = 3e-4;
   const MirrorGap gap = mirror_gap(surface, plane.axis, plane.at, k_share_of_edge, context);

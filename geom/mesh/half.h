@@ -1,4 +1,4 @@
-// The half of a triangulated surface on one side of a plane x, y or z = constant: its rim closed, and in the plane to the bit.
+// The half of a triangulated surface on one side of a plane x, y or z = constant. Its boundary edges form closed loops that lie exactly in the plane.
 #pragma once
 
 #include <string>
@@ -17,22 +17,24 @@ struct HalfOptions {
   double snap = 0.1;
 };
 
-/// Vertices within the tolerance are moved into the plane, so that a half model stays as it is but for them; triangles across it are cut, new vertices are
-/// shared by their neighbours; what is beyond it, and triangles in it (the flat side of a closed half model), are left out. Before the cut, vertices are moved
-/// along an edge to where it meets the plane when that is near (`snap`) and no triangle turns by more than 20 degrees: there are no slivers beside the rim.
-/// With snap = 0 the cut is exact. Kept vertices and triangles keep their order, the rim's new vertices follow them; patches that lost all triangles are left
-/// out.
-/// \pre edges with one triangle or two with opposite sense A surface that ends in other planes x, y or z = constant, as the half of which this is the quarter,
-/// ends in them still, to the bit.
-/// \post every edge with one triangle has both ends in the plane, exactly, or in such another one; such edges form closed loops; no other vertex is in the
-/// plane
-/// \throws Error(bad_argument) when the surface does not reach the plane; (open_surface) with places when it has rims elsewhere; (non_manifold_surface) where
-/// the rim touches itself or the surface touches the plane beside it; (mesh_invalid) when moving vertices within the tolerance would turn a triangle over
-/// \param is_image_expected whether what is left out should be the image of what is kept: a warning says where it is not
+/// Cuts a surface at a symmetry plane.
+/// Vertices within the tolerance are moved into the plane, so an existing half model stays unchanged except for these vertices. Triangles across the plane
+/// are cut; new vertices are shared by neighbouring triangles. Everything beyond the plane, and triangles in the plane (the flat side of a closed half
+/// model), are left out. Before the cut, vertices are moved along an edge to its intersection with the plane if that is near (`snap`) and no triangle turns
+/// by more than 20 degrees; this avoids slivers beside the open boundary. With snap = 0 the cut is exact. Kept vertices and triangles keep their order; new
+/// vertices on the open boundary follow them. Patches that lost all triangles are left out. If the surface already ends in other planes x, y or z = constant
+/// (the result is then a quarter model), it still ends exactly in these planes.
+/// \pre edges with one triangle, or with two of opposite sense
+/// \post every edge with one triangle has both ends exactly in the plane, or exactly in another such plane; these edges form closed loops; no other vertex is
+/// in the plane
+/// \throws Error(bad_argument) if the surface does not reach the plane; (open_surface) with locations if the surface has other open boundaries;
+/// (non_manifold_surface) if the open boundary touches itself or the surface touches the plane beside it; (mesh_invalid) if moving vertices within the
+/// tolerance would invert a triangle
+/// \param is_image_expected true if the removed part should be the mirror image of the kept part: a warning reports where it is not
 TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context, bool is_image_expected = true);
 
-/// The part of all triangles on the side of the plane that half_of keeps, cut exactly and without any repair: what half_of's result is compared with. Triangles
-/// within the tolerance of the plane are left out; cut triangles have vertices of their own.
+/// Returns the part of all triangles on the side of the plane that half_of() keeps, cut exactly and without any repair; the reference for the result of
+/// half_of(). Triangles within the tolerance of the plane are left out; cut triangles do not share vertices.
 TriMesh beyond_plane(const TriMesh& surface, const HalfOptions& options);
 
 template <>

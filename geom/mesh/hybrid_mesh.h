@@ -35,15 +35,16 @@ struct LocalFace {
   std::array<std::uint8_t, 4> nodes{};
   std::uint8_t size = 3;
 };
-/// The SIDS face table of a kind: tet 021 013 123 203, pyramid 0321 014 124 234 304, prism 0143 1254 2035 021 345, hex 0321 0154 1265 2376 0473 4567.
+/// Returns the SIDS face table of a kind: tet 021 013 123 203, pyramid 0321 014 124 234 304, prism 0143 1254 2035 021 345, hex 0321 0154 1265 2376 0473 4567.
 std::span<const LocalFace> cell_faces(CellKind kind);
 
-/// Layers as columns. Line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. n_steps(k) (envelope). A collapsed line has
-/// its wall node alone. A column stands over base triangle (a, b, c) of lines. Where a line has ended, its last node stands for all that would follow: a cell
-/// is a prism where no line has ended below it, a pyramid where one has, a tetrahedron where two have; where all have, there is none. So columns that share
-/// two lines agree about the faces between them, and the envelope is made of triangles. Lines of a column that are not collapsed differ by one layer at most.
+/// Layers as columns. Growth line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. n_steps(k) (envelope). A collapsed
+/// line consists of its wall node only. A column stands over base triangle (a, b, c) of lines. Above the end of a line, its last node replaces all further
+/// nodes. A cell is a prism if no line has ended below it, a pyramid if one has, a tetrahedron if two have; there is no cell if all have ended. Columns that
+/// share two lines therefore agree about the faces between them, and the envelope consists of triangles. Lines of a column that are not collapsed differ by
+/// at most one layer.
 struct LayerBlock {
-  int n_layers = 0;                                ///< of every line; the largest where lines differ
+  int n_layers = 0;                                ///< layers of every line; the largest number if lines differ
   std::vector<std::uint16_t> line_layers;          ///< per line, at least 1; empty: n_layers everywhere
   std::vector<std::array<std::uint32_t, 3>> base;  ///< lines of each base triangle, normal into the fluid
   std::vector<std::uint32_t> first_node;           ///< wall node of each line
@@ -52,42 +53,43 @@ struct LayerBlock {
   std::size_t n_lines() const { return first_node.size(); }
   std::size_t n_columns() const { return base.size(); }
   bool is_uniform() const { return line_layers.empty(); }
-  /// Layers of a line; of one that is collapsed, what it would have.
+  /// Returns the number of layers of a line; for a collapsed line, the number that it would have.
   int layers_of_line(std::size_t line) const { return line_layers.empty() ? n_layers : line_layers[line]; }
-  /// Cells along a line: none where it is collapsed.
+  /// Returns the number of cells along a line: 0 if the line is collapsed.
   int n_steps(std::size_t line) const { return is_collapsed[line] ? 0 : layers_of_line(line); }
-  /// Last node of a line: on the envelope, or the wall node where it is collapsed.
+  /// Returns the last node of a line: on the envelope, or the wall node if the line is collapsed.
   NodeId top(std::uint32_t line) const { return NodeId(first_node[line] + static_cast<std::uint32_t>(n_steps(line))); }
-  /// Node of layer j (0 = wall) on line k; the last one beyond its end.
+  /// Returns the node of layer j (0 = wall) on line k; above the end of the line, its last node.
   NodeId node(std::uint32_t line, int j) const { return NodeId(first_node[line] + static_cast<std::uint32_t>(std::min(j, n_steps(line)))); }
   int n_collapsed(std::size_t column) const {
     const auto& b = base[column];
     return is_collapsed[b[0]] + is_collapsed[b[1]] + is_collapsed[b[2]];
   }
-  /// Where the lines of a column end, ascending: its cells are prisms in layers below the first, pyramids from there to the second, tetrahedra to the third.
+  /// Returns the layers in which the lines of a column end, ascending. Cells are prisms in layers below the first value, pyramids from there to the second,
+  /// tetrahedra to the third.
   std::array<int, 3> ends_of_column(std::size_t column) const {
     std::array<int, 3> ends = {n_steps(base[column][0]), n_steps(base[column][1]), n_steps(base[column][2])};
     std::sort(ends.begin(), ends.end());
     return ends;
   }
-  /// Layers of cells: those of its longest line.
+  /// Returns the number of layers of cells: that of the column's longest line.
   int layers_of_column(std::size_t column) const {
     const auto& b = base[column];
     return std::max({n_steps(b[0]), n_steps(b[1]), n_steps(b[2])});
   }
-  /// Whether it has cells, and all of them are prisms.
+  /// Returns true if the column has cells and all of them are prisms.
   bool is_prismatic(std::size_t column) const {
     const auto& b = base[column];
     const int n = n_steps(b[0]);
     return n > 0 && n == n_steps(b[1]) && n == n_steps(b[2]);
   }
-  /// Kind of the cell in a layer. \pre layer < layers_of_column(column)
+  /// Returns the kind of the cell in a layer. \pre layer < layers_of_column(column)
   CellKind kind(std::size_t column, int layer) const {
     const auto& b = base[column];
     const int n_ended = (n_steps(b[0]) <= layer) + (n_steps(b[1]) <= layer) + (n_steps(b[2]) <= layer);
     return n_ended == 0 ? CellKind::prism : n_ended == 1 ? CellKind::pyramid : CellKind::tetrahedron;
   }
-  /// Layers [begin, end) of a column in which its cells are of a kind.
+  /// Returns the layers [begin, end) of a column in which its cells have this kind.
   std::array<int, 2> layers_of_kind(std::size_t column, CellKind of) const {
     const std::array<int, 3> ends = ends_of_column(column);
     switch (of) {
@@ -98,11 +100,11 @@ struct LayerBlock {
     }
     return {0, 0};
   }
-  /// Cell `layer` (0 = at the wall) of a column.
+  /// Returns cell `layer` (0 = at the wall) of a column.
   /// \pre layer < layers_of_column(column)
   Cell cell(std::size_t column, int layer) const;
-  /// The side between the lines of corners `corner` and the next in a layer, normal out of the column: four nodes, three where one of the lines has ended, none
-  /// where both have.
+  /// Side of a column in one layer, between the lines of corners `corner` and the next, normal out of the column: four nodes, three if one of the lines has
+  /// ended, none if both have ended.
   struct Side {
     std::array<NodeId, 4> nodes{};
     std::uint8_t size = 0;
@@ -110,25 +112,25 @@ struct LayerBlock {
   Side side(std::size_t column, std::size_t corner, int layer) const;
 };
 
-/// What was asked of the layer: its first height, growth and coverage are measured against it. Unknown for a mesh that was read from a file.
+/// Layer request: reference for the measured first height, growth and coverage. Unknown for a mesh that was read from a file.
 struct LayerRequest {
-  double first_height = 0.0;              ///< m; 0 = nothing is known; the smallest where lines differ
-  double max_growth = 0.0;                ///< largest ratio of heights of consecutive cells; the largest where lines differ
-  std::vector<double> line_first_height;  ///< m, along the vertex's normal, per line; empty: first_height everywhere
-  std::vector<double> line_first_room;  ///< m, least height of the whole line with which its first height is met to 2 %, per line; empty: layers x first height
-  std::vector<double> line_boundary_layer;  ///< m, thickness of the boundary layer that the line has to cover; 0: none is asked for; empty: of no line
+  double first_height = 0.0;                ///< m; 0 = unknown; the smallest if lines differ
+  double max_growth = 0.0;                  ///< largest ratio of heights of consecutive cells; the largest if lines differ
+  std::vector<double> line_first_height;    ///< m, along the vertex normal, per line; empty: first_height everywhere
+  std::vector<double> line_first_room;      ///< m, smallest line height at which its first height is met to 2 %, per line; empty: layers x first height
+  std::vector<double> line_boundary_layer;  ///< m, boundary-layer thickness that the line must cover; 0: not requested; empty: not requested for any line
   std::vector<double> line_max_growth;      ///< per line; empty: max_growth everywhere
-  std::vector<std::uint16_t> line_layers;   ///< per line; empty: as many as it has, so that none was truncated
+  std::vector<std::uint16_t> line_layers;   ///< per line; empty: as many as the line has, so that no line was truncated
   std::vector<double> target_height;        ///< m, of the whole layer, per line
-  std::vector<std::uint8_t> reason;         ///< per line: why it is lower than its target, index of `reasons`
-  std::vector<std::string> reasons;         ///< for people
+  std::vector<std::uint8_t> reason;         ///< per line: why its height is below the target, index into `reasons`
+  std::vector<std::string> reasons;         ///< human-readable
   bool is_known() const { return first_height > 0.0; }
-  /// m, of a line with n layers
+  /// Returns the smallest height in m at which a line with n layers meets its first height (see line_first_room).
   double first_room_of(std::size_t line, int n) const { return line_first_room.empty() ? n * first_height_of(line) : line_first_room[line]; }
   double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
 };
 
-/// The columns by line (for_each_column); a new member does not compile until it is here.
+/// Returns the columns by line (for_each_column). A new member of LayerRequest does not compile until it is added here.
 template <class Request>
 requires std::is_same_v<std::remove_const_t<Request>, LayerRequest>
 auto columns_of(Request& request) {
@@ -154,19 +156,19 @@ struct CellCounts {
   std::int64_t total() const { return tetrahedra + pyramids + prisms + hexahedra; }
 };
 
-/// Two patches of which the second is the first, moved: flow that leaves through one comes in through the other. Node by node and face by face
-/// (geom/mesh/periodic.h).
+/// Two periodic patches; the second is a translated copy of the first. Flow that leaves through one patch enters through the other. They match node by node
+/// and face by face (geom/mesh/periodic.h).
 struct PeriodicSides {
   PatchId first, second;
   Vec3 translation;  ///< m, from the first to the second
 };
 
-/// Plain struct of columns. Cells come in this order: those of `layers`, column by column, layer by layer; then prisms, pyramids,
-/// hexahedra, tetrahedra. A mesh read from a file has its cells in the explicit arrays and no layers.
+/// Volume mesh as a plain struct of columns. Cells are ordered: cells of `layers`, column by column, layer by layer; then prisms, pyramids, hexahedra,
+/// tetrahedra. A mesh read from a file has its cells in the explicit arrays and no layers.
 struct HybridMesh {
   Column<NodeId, Point> points;  ///< metres
   LayerBlock layers;
-  LayerRequest request;  ///< of `layers`
+  LayerRequest request;  ///< request for `layers`
   std::vector<std::array<NodeId, 6>> prisms;
   std::vector<std::array<NodeId, 5>> pyramids;
   std::vector<std::array<NodeId, 8>> hexahedra;
@@ -179,7 +181,7 @@ struct HybridMesh {
 
 CellCounts count_cells(const HybridMesh& mesh);
 
-/// The same mesh with the cells of its columns moved to the explicit arrays (order kept); for tests and converters.
+/// Returns the same mesh with the cells of its columns moved to the explicit arrays (order kept); for tests and converters.
 HybridMesh explicit_cells(HybridMesh mesh);
 
 /// Calls f(const Cell&) for every cell in file order.

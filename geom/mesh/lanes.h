@@ -1,5 +1,5 @@
-// Four layers of a column at a time: packed doubles and vectors of them, and lines with their coordinates apart. Private to the *.cpp files of geom/mesh.
-// x86-64-v3 (AVX2) is what the project is built for; every operation is rounded like its scalar counterpart.
+// SIMD over four layers of a column: packed doubles and vectors, and growth lines with separate coordinate arrays. Private to the *.cpp files of geom/mesh.
+// The project is built for x86-64-v3 (AVX2); every operation is rounded like its scalar counterpart.
 #pragma once
 
 #include <immintrin.h>
@@ -26,7 +26,7 @@ inline Packed most(Packed a, Packed b) { return _mm256_max_pd(a, b); }
 inline Packed root(Packed a) { return _mm256_sqrt_pd(a); }
 inline Packed magnitude(Packed a) { return _mm256_andnot_pd(all(-0.0), a); }
 
-/// asin to 2e-8 (a millionth of a degree) without branches: Abramowitz & Stegun 4.4.46.
+/// Returns asin with an error of 2e-8 (a millionth of a degree) without branches: Abramowitz & Stegun 4.4.46.
 inline Packed arc_sine(Packed x) {
   const Packed one = all(1.0);
   const Packed size = least(one, most(x, -x));
@@ -37,7 +37,8 @@ inline Packed arc_sine(Packed x) {
   return x < all(0.0) ? -angle : angle;
 }
 
-/// acos of values in [-1, 1] to two roundings, without branches: asin(s) = s + s R(s^2) up to 1/2, twice that of the half angle beyond; R is fdlibm's.
+/// Returns acos of values in [-1, 1] with an error of two roundings, without branches: asin(s) = s + s R(s^2) up to 1/2, twice the value of the half angle
+/// beyond; R is from fdlibm.
 inline Packed arc_cosine(Packed x) {
   const Packed half = all(0.5), size = magnitude(x);
   const auto is_small = size < half;
@@ -66,7 +67,7 @@ inline Packed dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b
 inline Packed norm(const Vec3x4& a) { return root(dot(a, a)); }
 inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
-/// Length of the arrays below for a line of so many layers: four lanes may be read from any of its nodes, and from the one above.
+/// Returns the length of the arrays below for a line of this many layers: four lanes may be read from any of its nodes, and from the node above.
 inline std::size_t padded_size(int n_layers) {
   const auto n_nodes = static_cast<std::size_t>(std::max(n_layers, 0)) + 1;
   return (n_nodes + k_width - 1) / k_width * k_width + k_width;
@@ -84,7 +85,7 @@ struct LineVectors {
     store(y, i, load(y, i) + v.y);
     store(z, i, load(z, i) + v.z);
   }
-  /// Points of a standing line; beyond its end the last one is repeated.
+  /// Reads the points of a line that is not collapsed; beyond the end of the line the last point is repeated.
   void read(const HybridMesh& mesh, std::uint32_t line) {
     const int n_layers = mesh.layers.layers_of_line(line);
     const auto n_nodes = static_cast<std::size_t>(n_layers) + 1;

@@ -13,10 +13,10 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Columns and lines per chunk; each holds some 30 cells.
+/// Columns and lines per chunk; each column holds some 30 cells.
 constexpr std::size_t k_field_chunk = 256;
 
-/// Of one line; NaN where it has no such figure.
+/// Figures of one line; NaN if not defined for the line.
 struct LineFigures {
   double height = 0.0, first = k_nan, coverage = k_nan, growth = k_nan, angle = k_nan;
 };
@@ -35,7 +35,7 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
       const auto point = [&](int j) { return mesh.points[lines.node(line, j)]; };
       LineFigures& figures = all[k];
       const int n = lines.n_layers(line);
-      double normal_height = 0.0;  // m, of the layer along the wall's normal
+      double normal_height = 0.0;  // m, layer height along the wall normal
       heights.clear();
       for (int j = 0; j < n; ++j) heights.push_back(distance(point(j), point(j + 1)));
       if (n > 0) {
@@ -65,7 +65,7 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
   return all;
 }
 
-/// A column of three standing lines, and the layers in which it has prisms.
+/// A column without collapsed lines, and the layers in which it has prisms.
 struct Column {
   std::array<std::uint32_t, 3> lines;
   int n_prisms;
@@ -80,12 +80,12 @@ WedgePoints wedge_of(const HybridMesh& mesh, const LayerLines& lines, const Colu
   return p;
 }
 
-/// Skew and scaled Jacobian of the worst prism, and the jump to the tetrahedra.
+/// Skew and scaled Jacobian of the worst prism, and the size jump to the tetrahedra.
 struct ColumnFigures {
   double skew = k_nan, jacobian = k_nan, jump = k_nan;
 };
 
-/// Boundary triangles by their nodes.
+/// Index of boundary triangles by their nodes.
 class TriangleIndex {
  public:
   TriangleIndex(const HybridMesh& mesh, const RunContext& context) : entries_(mesh.boundary_triangles.size()) {
@@ -152,7 +152,7 @@ class ColumnMeasurer {
   ColumnScan scan_;
 };
 
-/// Mean of those that are numbers; NaN of none.
+/// Returns the mean of the values that are not NaN; NaN if there are none.
 double mean_of(const std::array<double, 3>& values) {
   double sum = 0.0;
   int n = 0;
@@ -171,7 +171,7 @@ double largest_of(const std::array<double, 3>& values) {
   return largest;
 }
 
-/// The boundary triangle that each column stands on, if there is one. Of a damaged mesh two columns may stand on the same: the first one has it.
+/// Returns the boundary triangle under each column, if any. In a damaged mesh two columns may stand on the same triangle: it is assigned to the first.
 std::vector<std::optional<std::size_t>> feet_of_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   const TriangleIndex index(mesh, context);
   std::vector<std::optional<std::size_t>> feet(lines.triangles().size());
@@ -220,7 +220,7 @@ std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const L
 std::vector<std::vector<double>> layer_fields(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context) {
   if (mesh.layers.n_columns() == 0 && mesh.prisms.empty()) return std::vector(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_nan));
   const FaceSlots slots(mesh, cells, {});
-  // Columns know their lines; stacks of explicit prisms are found by the faces that prisms share.
+  // Columns store their lines; stacks of explicit prisms are found from the faces that prisms share.
   const FaceMatch match = mesh.layers.n_columns() > 0 ? FaceMatch{}
                                                       : match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(CheckOptions{}.faces_at_a_time), {},
                                                                     false, GateTable{}, context);

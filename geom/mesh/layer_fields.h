@@ -1,4 +1,4 @@
-// What stands on each boundary triangle, measured. Private to the *.cpp files of geom/mesh.
+// Measured figures of the layer on each boundary triangle. Private to the *.cpp files of geom/mesh.
 #pragma once
 
 #include <vector>
@@ -20,8 +20,8 @@ enum LayerField : std::size_t {
   k_n_layer_fields
 };
 
-/// One column of values per LayerField, one value per boundary triangle, as surface_field_table() has them; angles in degrees.
-/// \pre check_indices() has found the indices safe
+/// Returns one column of values per LayerField, one value per boundary triangle, as listed in surface_field_table(); angles in degrees.
+/// \pre check_indices() found all indices valid
 std::vector<std::vector<double>> layer_fields(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context);
 
 }  // namespace sterna::check_parts

@@ -16,7 +16,7 @@ std::array<std::uint32_t, 3> sorted_key(const Nodes& nodes) {
   return key;
 }
 
-/// One prism of a stack: nodes of its lower face (normal upwards) and of its upper one, and the slot beyond.
+/// One prism of a stack: nodes of its lower face (normal upwards) and upper face, and the slot above it.
 struct Step {
   std::array<NodeId, 3> bottom, top;
   std::uint32_t beyond;
@@ -60,7 +60,7 @@ void LayerLines::use_columns(const HybridMesh& mesh, const FaceSlots& slots, con
   patches_.assign(triangles_.size(), PatchId{});
   for (std::size_t i = 0; i < match.outer.size(); ++i)
     if (const auto column = slots.column_under(match.outer[i])) patches_[*column] = slots.patch(match.outer_boundary[i]);
-  // Columns without cells: their wall triangle is the face of a tet.
+  // Columns without cells: their wall triangle is a face of a tet.
   std::map<std::array<std::uint32_t, 3>, std::size_t> bare;
   for (std::size_t c = 0; c < triangles_.size(); ++c)
     if (mesh.layers.layers_of_column(c) == 0)
@@ -91,7 +91,7 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
       for (std::size_t k = 0; k < 3; ++k) std::atomic_ref<std::uint32_t>(above[step.bottom[k].index()]).store(step.top[k].value(), std::memory_order_relaxed);
     });
   });
-  // Stacks around a node must agree on the node above it; where they do not, one of them finds another's node.
+  // Stacks around a node must agree on the node above it. If they do not, one of them finds a different node.
   const std::int64_t n_torn = parallel_reduce(
       context, starts.size(), std::int64_t{0},
       [&](std::size_t begin, std::size_t end) {
@@ -129,7 +129,7 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
   for (const std::uint32_t foot : feet) {
     const std::size_t start = nodes_.size();
     nodes_.push_back(foot);
-    // Stacks between two walls are cut at the second one; no line is longer than all stacks together.
+    // Stacks between two walls are cut at the second wall; no line is longer than all stacks together.
     for (std::uint32_t node = above[foot]; node != k_no_node && line_of[node] == k_no_node && nodes_.size() - start <= mesh.prisms.size(); node = above[node])
       nodes_.push_back(node);
     first_.push_back(nodes_.size());

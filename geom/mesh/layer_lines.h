@@ -1,4 +1,4 @@
-// Lines of layers, whatever form the mesh has: its columns, or stacks of explicit prisms found by walking from the walls cap by cap.
+// Growth lines of layers for any form of mesh: its columns, or stacks of explicit prisms found by walking from the walls cap by cap.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace sterna::check_parts {
 
-/// Lines above the wall triangles of patches that carry layers. A wall vertex without a layer has a line of one node.
+/// Growth lines above the wall triangles of patches that carry layers. A wall vertex without a layer has a line of one node.
 class LayerLines {
  public:
   LayerLines(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const RunContext& context);
 
-  /// Why there are none; empty when there are some.
+  /// Returns why there are no lines; empty if there are lines.
   const std::string& reason() const { return reason_; }
-  /// Whether they are the mesh's own columns, so that HybridMesh::request speaks of them.
+  /// Returns true if the lines are the mesh's own columns, so that HybridMesh::request refers to them.
   bool are_columns() const { return layers_ != nullptr; }
   std::size_t n_lines() const { return n_lines_; }
-  /// Lines of each wall triangle, normal into the fluid.
+  /// Returns the lines of each wall triangle, normal into the fluid.
   std::span<const std::array<std::uint32_t, 3>> triangles() const { return triangles_; }
-  /// Patch of each wall triangle; invalid where the boundary has no such face.
+  /// Returns the patch of each wall triangle; invalid if the boundary has no such face.
   PatchId patch(std::size_t triangle) const { return patches_[triangle]; }
   int n_layers(std::uint32_t line) const {
     if (layers_ != nullptr) return layers_->n_steps(line);
@@ -43,7 +43,7 @@ class LayerLines {
   std::span<const std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::array<std::uint32_t, 3>> own_triangles_;
   std::vector<PatchId> patches_;
-  std::vector<std::uint64_t> first_;  ///< of stacks: nodes of a line
+  std::vector<std::uint64_t> first_;  ///< for stacks: nodes of a line
   std::vector<std::uint32_t> nodes_;
 };
 

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// Walls that face the line within 45 degrees oppose it, as in the envelope's own search for gaps.
+/// Walls that face the line within 45 degrees oppose it, as in the gap search of the envelope.
 constexpr double k_opposing_cosine = 0.7;
 
 std::vector<Box> facing_boxes(const std::vector<FacingTriangle>& boundary) {
@@ -18,8 +18,8 @@ std::vector<Box> facing_boxes(const std::vector<FacingTriangle>& boundary) {
   return boxes;
 }
 
-/// Distance along the unit direction d from p to the triangle with normal `normal` (of any length), or a negative number. Rounding does not matter: what is
-/// measured is a length.
+/// Returns the distance along the unit direction d from p to the triangle with normal `normal` (of any length), or a negative number. Rounding is irrelevant
+/// here, since the result is used only as a length.
 double distance_along(const Point& p, const Vec3& d, const std::array<Point, 3>& t, const Vec3& normal) {
   const double slope = dot(d, normal);
   if (slope == 0.0) return -1.0;
@@ -38,7 +38,7 @@ LayerRoom::LayerRoom(std::vector<FacingTriangle> boundary, const RunContext& con
 }
 
 std::optional<LayerRoom::Hit> LayerRoom::nearest_opposite(const RoomRequest& line) const {
-  // Beyond both heights and what is kept of a gap (at most half of it) there is room for all that may be asked for.
+  // Beyond both heights and the reserved part of a gap (at most half of it) there is room for any requested height.
   const double reach = (line.target + most_asked_ / k_opposing_cosine) / k_kept_share;
   Box box;
   box.add(line.foot);

@@ -1,4 +1,4 @@
-// How much height the geometry itself permits a line of a layer: what opposing walls leave it, and what one direction can reach on all facets of a corner.
+// Height that the geometry itself permits a growth line of a layer: limited by opposing walls, and by the directions that see all facets of a corner.
 #pragma once
 
 #include <array>
@@ -11,45 +11,45 @@
 
 namespace sterna {
 
-/// Share of a height that counts as reached (docs/method/envelope.md, "Heights").
+/// Fraction of the target height that counts as reached (docs/method/envelope.md, "Heights").
 inline constexpr double k_full_height_share = 0.9;
-/// Of the longer local envelope edge stays between two layers, for tets, which reach some 15 degrees there; at most k_kept_share of the gap, the rest is for
-/// the layers. What the envelope keeps to itself (docs/method/envelope.md, "Room for tetrahedra").
+/// Room for tets between two layers, as a fraction of the longer local envelope edge; tets there have angles of some 15 degrees. At most k_kept_share of the
+/// gap is reserved, the rest is for the layers. This is the room that the envelope reserves (docs/method/envelope.md, "Room for tetrahedra").
 inline constexpr double k_kept_edges = 0.3;
 inline constexpr double k_kept_share = 0.5;
 
-/// A triangle of the boundary that may stand opposite to a line.
+/// A boundary triangle that may be opposite to a growth line.
 struct FacingTriangle {
   std::array<Point, 3> corners;         ///< right-hand normal into the fluid
   std::array<std::uint32_t, 3> feet{};  ///< lines on its corners, or k_no_foot
-  double asked = 0.0;                   ///< m, largest height asked for at its corners; 0: it carries no layer, and its sense does not count
+  double asked = 0.0;                   ///< m, largest requested height at its corners; 0: the triangle carries no layer, and its orientation is ignored
   double edge = 0.0;                    ///< m, mean edge of the envelope above it
   static constexpr std::uint32_t k_no_foot = 0xffffffffu;
 };
 
-/// A line of the layer, as far as its room depends on it.
+/// Properties of a growth line that determine its room.
 struct RoomRequest {
   std::uint32_t line = 0;
   Point foot;
-  Vec3 normal;              ///< unit, of the wall at the foot
-  double target = 0.0;      ///< m, height asked for
+  Vec3 normal;              ///< unit, wall normal at the base vertex
+  double target = 0.0;      ///< m, requested height
   double edge = 0.0;        ///< m, mean edge of the envelope at the line
-  double visibility = 1.0;  ///< cosine between the direction that sees the facets at the foot best and the facet that it sees worst
+  double visibility = 1.0;  ///< cosine between the direction with the best view of all facets at the base and the facet with the worst view
 };
 
-/// The boundary around the layers, to be asked line by line from any thread.
+/// The boundary around the layers. Queries are per line and thread-safe.
 class LayerRoom {
  public:
   LayerRoom(std::vector<FacingTriangle> boundary, const RunContext& context);
 
-  /// Height along the wall's normal that the geometry permits, m; at most the target.
-  /// Gap: where the normal meets a wall that faces it within 45 degrees at distance g, and both layers do not fit into g less what the envelope keeps to
-  /// itself, each gets what is left in proportion to what it asks for: equal layers half of it. Corner: a line as long as the target reaches target *
-  /// visibility on the worst facet, whatever its direction; that counts as full there.
+  /// Returns the height along the wall normal that the geometry permits, m; at most the target.
+  /// Gap: the normal meets a wall that faces it within 45 degrees at distance g. If both layers do not fit into g minus the room reserved by the envelope,
+  /// the remaining height is divided in proportion to their targets: equal layers get half each.
+  /// Corner: a line as long as the target reaches target * visibility on the worst facet, whatever its direction; this counts as full height there.
   double permitted(const RoomRequest& line) const { return permitted(line, in_gap(line)); }
-  /// The same, of a line that in_gap() was asked for.
+  /// As above, for a line with a known result of in_gap().
   static double permitted(const RoomRequest& line, double in_gap);
-  /// Height along the wall's normal that an opposing wall leaves the line, m; infinite where none limits it.
+  /// Returns the height along the wall normal that an opposing wall permits the line, m; infinite if no wall limits it.
   double in_gap(const RoomRequest& line) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the checks and the fields of surfaces measure along lines of layers, in one place.
+// Measures along growth lines of layers, shared by the checks and the surface fields.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ class Fans {
   std::vector<std::uint32_t> first_, triangles_;
 };
 
-/// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with
-/// theirs.
+/// Unit normals of the symmetry patches at the base vertices of lines that stand on them. The body continues behind a symmetry plane as its mirror image, so
+/// normals there are averaged with their images.
 class MirrorFeet {
  public:
   explicit MirrorFeet(const HybridMesh& mesh);
-  /// The part of a normal at a node that lies in the planes that the node is on, as a unit.
+  /// Returns the component of a normal at a node that lies in the symmetry planes through the node, normalised.
   Vec3 mirrored(NodeId node, Vec3 normal) const;
-  /// Adds the images of the facets' normals behind the planes that the node is on.
+  /// Adds the images of the facet normals behind the symmetry planes through the node.
   void add_images(NodeId node, std::vector<Vec3>& normals) const;
 
  private:
@@ -39,14 +39,14 @@ class MirrorFeet {
   std::vector<Foot> feet_;  ///< ascending by node and patch
 };
 
-/// Facets around the feet of columns' lines that carry explicit prisms and no column: of wake sheets, and of walls beside lines that were added. A line sees
-/// them, too. None where lines are no columns.
+/// Facets around the base vertices of column lines that carry explicit prisms and no column: facets of wake sheets, and of walls beside lines that were
+/// added. A line must also see these facets. Empty if the lines are not columns.
 class FacetsOfExplicitPrisms {
  public:
   struct Facet {
     std::uint32_t line;
     Vec3 normal;   ///< unit, into the prism
-    double angle;  ///< of the facet's corner at the foot
+    double angle;  ///< corner angle of the facet at the base vertex
   };
   FacetsOfExplicitPrisms(const HybridMesh& mesh, const LayerLines& lines);
   std::span<const Facet> around(std::uint32_t line) const;
@@ -55,17 +55,18 @@ class FacetsOfExplicitPrisms {
   std::vector<Facet> facets_;  ///< ascending by line
 };
 
-/// The larger over the smaller of consecutive heights, at worst (G8); 1 for fewer than two.
+/// Returns the worst ratio of consecutive heights, the larger over the smaller (G8); 1 for fewer than two.
 double worst_growth(std::span<const double> heights);
-/// Angle of the steepest of the first cells against the facets around the foot, less the best possible, radians (G10); `normals` are the facets' units.
+/// Returns the angle of the steepest of the first cells against the facets around the base vertex, minus the best possible angle, radians (G10); `normals`:
+/// unit normals of the facets.
 double stack_angle(const HybridMesh& mesh, const LayerLines& lines, std::uint32_t line, const std::vector<Vec3>& normals);
-/// The larger over the smaller of a ratio's two sides; infinite where it is not positive.
+/// Returns the larger of a ratio and its inverse; infinite if the ratio is not positive.
 double deviation(double ratio);
-/// Last height of a column against that of a regular tet on the envelope's mean edge: deviation of their ratio (G9), at least 1.
+/// Returns the deviation of a column's last height from the height of a regular tet on the mean envelope edge, as a ratio of at least 1 (G9).
 double interface_jump(double last_height, double mean_edge);
-/// Whether the last height is below that of the regular tet.
+/// Returns true if the last height is below that of the regular tet.
 bool is_interface_low(double last_height, double mean_edge);
-/// Whether HybridMesh::request has one entry per line of the columns.
+/// Returns true if HybridMesh::request has one entry per line of the columns.
 bool is_request_usable(const HybridMesh& mesh);
 
 }  // namespace sterna::check_parts

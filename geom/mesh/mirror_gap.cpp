@@ -20,7 +20,7 @@ MirrorGap mirror_gap(const TriMesh& surface, std::size_t axis, double at, double
   Column<VertexId, double> gap(surface.n_vertices(), 0.0);
   parallel_for(context, surface.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
-    if (longest[v] == 0.0) return;  // no triangle has it
+    if (longest[v] == 0.0) return;  // no triangle has this vertex
     Point image = surface.points[v];
     image[axis] = 2.0 * at - image[axis];
     const double d = tree.nearest(image).distance;

@@ -31,7 +31,7 @@ class NodeSubset {
     return rank_[node / 64] + static_cast<std::uint32_t>(std::popcount(below));
   }
   std::size_t size() const { return rank_.back(); }
-  /// The members, ascending.
+  /// Returns the members, ascending.
   std::vector<std::uint32_t> members() const {
     std::vector<std::uint32_t> result;
     result.reserve(size());

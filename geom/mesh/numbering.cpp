@@ -1,4 +1,4 @@
-// Orders of graphs, and what they are worth.
+// Orders of graphs, and measures of their quality.
 #include "geom/mesh/numbering.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace sterna {
 namespace {
 
 constexpr std::uint32_t k_not_yet = std::numeric_limits<std::uint32_t>::max();
-constexpr int k_most_restarts = 8;  ///< of the search for an end; it ends by itself after 2 to 4
+constexpr int k_most_restarts = 8;  ///< limit for the search of a peripheral vertex, which usually ends after 2 to 4 restarts
 
 class LevelOrder {
  public:
@@ -32,7 +32,7 @@ class LevelOrder {
  private:
   std::uint64_t degree(std::uint32_t v) const { return graph_.first[v + 1] - graph_.first[v]; }
 
-  /// Orders what can be reached from `start`, behind what is ordered already. \returns the number of levels
+  /// Orders all vertices reachable from `start`, after the vertices that are already ordered. \returns the number of levels
   std::uint32_t visit(std::uint32_t start) {
     std::vector<std::uint32_t> fresh;
     const std::size_t begin = order_.size();
@@ -62,7 +62,7 @@ class LevelOrder {
     const std::size_t begin = order_.size();
     std::uint32_t n_levels = visit(start);
     for (int i = 0; i < k_most_restarts; ++i) {
-      // The vertex of the last level with the fewest neighbours is nearer to an end.
+      // The vertex of the last level with the fewest neighbours is closer to the periphery.
       const std::uint32_t last = level_[order_.back()];
       std::uint32_t next = order_.back();
       for (std::size_t k = order_.size(); k-- > begin && level_[order_[k]] == last;)

@@ -1,4 +1,4 @@
-// Faces at the boundary of a mesh that no patch lists: of files without boundary, or with a part of it only.
+// Boundary faces of a mesh that no patch lists: for files without a boundary, or with only a part of it.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,21 @@ struct OpenFaces {
   std::vector<BoundaryTriangle> triangles;
   std::vector<BoundaryQuad> quads;
   std::size_t size() const { return triangles.size() + quads.size(); }
-  /// Centre of the first face. \pre size() > 0
+  /// Returns the centre of the first face. \pre size() > 0
   Point first_place(const HybridMesh& mesh) const;
 };
 
-/// Finds the open faces, in the order of their cells. Where the boundary is complete, the time is that of one pass over the faces.
-/// \pre node ids in range \throws Error(overflow) for meshes of some 500 million cells
+/// Finds the open faces, in the order of their cells. If the boundary is complete, this takes one pass over the faces.
+/// \pre node ids in range
+/// \throws Error(overflow) for meshes of some 500 million cells
 OpenFaces find_open_faces(const HybridMesh& mesh, const RunContext& context);
 
-/// Adds the faces as a wall called `name` (with a number behind it if the mesh has a patch of that name). \returns that patch
+/// Adds the faces as a wall patch called `name` (with an appended number if the mesh already has such a patch). \returns the new patch
 PatchId add_boundary(HybridMesh& mesh, const OpenFaces& faces, std::string_view name);
 
-/// Number of points that no cell and no boundary face uses.
+/// Returns the number of points that no cell and no boundary face uses.
 std::uint64_t count_unused_points(const HybridMesh& mesh);
-/// Removes them; the order of the others stays. \pre a mesh without columns (HybridMesh::layers)
+/// Removes the unused points; the order of the others is kept. \pre a mesh without columns (HybridMesh::layers)
 void drop_unused_points(HybridMesh& mesh);
 
 }  // namespace sterna

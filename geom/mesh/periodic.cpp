@@ -1,4 +1,4 @@
-// Partners along the axis in which a side is widest, in a window of the tolerance; faces by their nodes' partners.
+// Finds partners along the axis in which a side is widest, within a window of the tolerance; matches faces by the partners of their nodes.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -11,7 +11,7 @@
 namespace sterna {
 namespace {
 
-/// A face of one side, its nodes ascending; of a triangle the last is 0xffffffff.
+/// A face of one side, its nodes ascending; the last node of a triangle is 0xffffffff.
 struct SideFace {
   std::array<std::uint32_t, 4> nodes;
   std::uint32_t number;
@@ -53,7 +53,7 @@ class Matcher {
     if (error_.places.size() < k_max_places) error_.places.push_back({place, std::move(what)});
   }
   Point middle(const Side& side) const {
-    // Relative to one node, so that distant small sides keep their digits.
+    // Relative to one node, so that small sides far from the origin keep their digits.
     const Point origin = points_[side.nodes.front()];
     Vec3 sum;
     for (const std::uint32_t n : side.nodes) sum += points_[n] - origin;

@@ -1,4 +1,4 @@
-// Periodic sides of a mesh: two patches of which one is the other, moved by a translation.
+// Periodic sides of a mesh: two patches, one a translated copy of the other.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace sterna {
 
-/// Largest distance of a node's image from its partner, as a share of the size of the mesh (its box's longest side, or the body length where it is known).
+/// Largest distance of a node's image from its partner, relative to the size of the mesh (longest side of its box, or the body length if known).
 inline constexpr double k_periodic_share = 1e-10;
 
 struct PeriodicMatch {
@@ -20,13 +20,13 @@ struct PeriodicMatch {
   double worst = 0.0;                               ///< m, largest distance of an image from its partner
 };
 
-/// k_periodic_share of the longest side of the mesh's box, m.
+/// Returns k_periodic_share times the longest side of the mesh's box, m.
 double periodic_tolerance(const HybridMesh& mesh);
 
-/// Matches nodes and faces of two patches; the translation is that of the middles of their nodes. \p tolerance: metres. Serial, O(n log n).
-/// \throws Error(bad_argument) with places for an empty patch, a node or a face without partner, and a patch that is not flat within the tolerance
+/// Matches nodes and faces of two patches. The translation is that between the centres of their nodes. \p tolerance: metres. Serial, O(n log n).
+/// \throws Error(bad_argument) with locations for an empty patch, a node or a face without partner, and a patch that is not flat within the tolerance
 PeriodicMatch match_periodic(const HybridMesh& mesh, PatchId first, PatchId second, double tolerance);
-/// Of a surface: nodes are its vertices.
+/// As above, for a surface: nodes are its vertices.
 PeriodicMatch match_periodic(const TriMesh& surface, PatchId first, PatchId second, double tolerance);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// Quality figures of a HybridMesh, gathered cell by cell so that they can share the one pass of `check`.
+// Quality figures of a HybridMesh, gathered cell by cell so that they share the single pass of `check`.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace sterna {
 
-/// Skew angle, eq. (13) of docs/method/quality.md, "Skew angle", in radians: mean angle between the three growth edges and the normals of base and top. pi/2
-/// for a vanishing edge or normal.
+/// Returns the skew angle, eq. (13) of docs/method/quality.md, "Skew angle", in radians: mean angle between the three growth edges and the normals of base
+/// and top. pi/2 for a vanishing edge or normal.
 double skew_angle(const WedgePoints& p);
 
-/// Running minima and counts; scans of consecutive chunks are merged in order, ties keep the first place.
+/// Running minima and counts. Scans of consecutive chunks are merged in order; ties keep the first location.
 class QualityScan {
  public:
-  /// A prism by its wedge_quality and skew_angle; `points()` gives its corners.
+  /// Adds a prism by its wedge_quality and skew_angle; `points()` returns its corners.
   template <class Points>
   void add_prism(double quality, double skew, const Points& points) {
     if (quality < wedge_.value) wedge_.lower(quality, middle(points()));
     add_skew(skew);
   }
-  /// A pyramid or tet of a column over collapsed lines: no prism of its own, counted as skewed by more than 60 degrees.
+  /// Adds a pyramid or tet of a column over collapsed lines: not a prism, counted as skewed by more than 60 degrees.
   void add_collapsed() { ++n_collapsed_; }
-  /// `range` = tet_dihedral_range(p).
+  /// Adds a tetrahedron. `range` = tet_dihedral_range(p).
   void add_tet(const std::array<Vec3, 4>& p, const std::array<double, 2>& range);
   void merge(const QualityScan& later);
   Quality result() const;

@@ -1,4 +1,4 @@
-// Steps of renumbered(): the graph of lines and free nodes (nodes of a line are one vertex), its order, numbers of nodes, everything sorted by them.
+// Steps of renumbered(): the graph of lines and free nodes (nodes of a line are one vertex), its order, the node numbers, and the sort of all items by them.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -27,10 +27,10 @@ void for_each_explicit_cell(const HybridMesh& mesh, const F& f) {
   block(mesh.tetrahedra);
 }
 
-/// The graph of the vertices that share one of the groups f is called with: add(span of vertices).
+/// Returns the graph of vertices that share a group; for_each_group calls add(span of vertices) for each group.
 template <class ForEachGroup>
 NeighbourGraph graph_of_groups(std::size_t n_vertices, const ForEachGroup& for_each_group, const RunContext& context) {
-  // Groups of each vertex, then its neighbours out of them.
+  // Collects the groups of each vertex, then its neighbours from these groups.
   std::vector<std::uint64_t> first_group = {0};
   std::vector<std::uint32_t> members;
   std::vector<std::uint64_t> end_of(n_vertices + 1, 0);
@@ -72,7 +72,8 @@ NeighbourGraph graph_of_groups(std::size_t n_vertices, const ForEachGroup& for_e
   return graph;
 }
 
-/// Wall-normal lines as nodes from the wall on: of the columns, or where the mesh has none of stacks of prisms on its walls. No node is on two.
+/// Wall-normal growth lines as nodes from the wall up: of the columns, or in a mesh without columns of the stacks of prisms on its walls. No node is on two
+/// lines.
 struct NodeLines {
   std::vector<std::uint32_t> first = {0};
   std::vector<std::uint32_t> nodes;
@@ -108,7 +109,7 @@ struct NodeLines {
   }
 };
 
-/// Lines and the nodes that belong to none, as vertices of one graph: lines first.
+/// Lines and the nodes that belong to no line, as vertices of one graph: lines first.
 struct LineVertices {
   NodeLines lines;
   std::vector<std::uint32_t> of_node;
@@ -141,7 +142,7 @@ NeighbourGraph line_graph(const HybridMesh& mesh, const LineVertices& vertices, 
       context);
 }
 
-/// The items with their nodes renumbered, sorted by `rank` of these (new numbers), the lowest first, then by the numbers themselves.
+/// Renumbers the nodes of the items and sorts the items by `rank` of the new numbers, lowest first, then by the numbers themselves.
 template <class Items, class NodesOf, class Rank>
 void renumber_and_sort(Items& items, const std::vector<std::uint32_t>& new_number, const NodesOf& nodes_of, const Rank& rank) {
   struct Keyed {
@@ -248,7 +249,7 @@ HybridMesh renumbered(const HybridMesh& mesh, Numbering numbering, const RunCont
   for (std::size_t i = 0; i < new_number.size(); ++i) points[NodeId(new_number[i])] = result.points.raw()[i];
   result.points = std::move(points);
   if (result.layers.n_lines() > 0) reorder_layers(result, old_lines, new_number);
-  // Prisms by the lines that they are between, so that those of a stack follow each other.
+  // Prisms are sorted by the lines between which they lie, so that prisms of a stack are consecutive.
   const auto by_line = [&](std::uint32_t node) { return foot[node]; };
   const auto by_node = [](std::uint32_t node) { return node; };
   const auto itself = [](auto& nodes) -> auto& { return nodes; };

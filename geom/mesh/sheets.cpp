@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// A face with its corners by place, ascending; of a triangle the last is k_no_side.
+/// A face with the locations of its corners, ascending; the last entry of a triangle is k_no_side.
 struct Candidate {
   std::array<std::uint32_t, 4> places;
   std::uint32_t face;
@@ -17,7 +17,7 @@ struct Candidate {
 
 class Finder {
  public:
-  /// \p nodes_of: face -> up to four node numbers. \p faces: those to be looked at, ascending.
+  /// Finds the coincident faces. \p nodes_of: face -> up to four node numbers. \p faces: candidate faces, ascending.
   template <class NodesOf>
   SheetSides find(std::span<const Point> points, std::size_t n_faces, const std::vector<std::uint32_t>& faces, const NodesOf& nodes_of) {
     number_places(points, faces, nodes_of);
@@ -60,14 +60,14 @@ class Finder {
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t i) {
       const Point& p = points[nodes_[i]];
-      return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are one place
+      return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are the same location
     };
     std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
     places_.resize(nodes_.size());
     for (std::size_t i = 0; i < order.size(); ++i) places_[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? places_[order[i - 1]] : nodes_[order[i]];
   }
   std::uint32_t place_of(std::uint32_t node) const { return places_[static_cast<std::size_t>(std::ranges::lower_bound(nodes_, node) - nodes_.begin())]; }
-  /// Whether b goes around the same places the other way.
+  /// Returns true if b passes through the same locations in the opposite sense.
   template <class Nodes>
   bool is_turned(const Nodes& a, const Nodes& b) const {
     const std::size_t n = a.size();
@@ -80,8 +80,8 @@ class Finder {
     return false;
   }
 
-  std::vector<std::uint32_t> nodes_;   ///< of the faces, ascending
-  std::vector<std::uint32_t> places_;  ///< of each: the lowest node there
+  std::vector<std::uint32_t> nodes_;   ///< nodes of the faces, ascending
+  std::vector<std::uint32_t> places_;  ///< for each node: the lowest node at the same location
 };
 
 /// Up to four numbers.

@@ -9,7 +9,7 @@
 namespace sterna {
 namespace {
 
-/// A site is tested in less time than a box.
+/// Leaf size: the test of a site costs less than that of a box.
 constexpr std::uint32_t k_leaf_sites = 8;
 
 float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
@@ -58,10 +58,10 @@ void SizeSites::lower(const Point& p, const Search& search, double& best, const 
   if (nodes_.empty()) return;
   struct Entry {
     std::uint32_t node;
-    double bound;  ///< with the tolerance
+    double bound;  ///< includes the tolerance
   };
   const auto entry_of = [&](std::uint32_t node) { return Entry{node, lower_bound(nodes_[node], p, search.reach) * (1.0 + search.tolerance)}; };
-  Entry stack[64];  // median splits: one entry stays behind on each of at most 32 levels
+  Entry stack[64];  // median splits: one entry remains on each of at most 32 levels
   int n = 0;
   stack[n++] = entry_of(0);
   while (n > 0) {

@@ -1,4 +1,4 @@
-// Places with a size, and the smallest size that grows from any of them to a point.
+// Points with a size, and the smallest size that grows from any of them to a given location.
 #pragma once
 
 #include <array>
@@ -12,37 +12,38 @@
 
 namespace sterna {
 
-/// At `point` edges are `size` long.
+/// A point and the target edge length there.
 struct SizeSite {
   Point point;        ///< m
   double size = 0.0;  ///< m, positive
 };
 
-/// Hierarchy over sites for min over sites of (size + slope * distance), a nearest-neighbour search with additive weights. Reading it is thread-safe.
+/// Hierarchy over sites for min over sites of (size + slope * distance), a nearest-neighbour search with additive weights. Queries are thread-safe.
 class SizeSites {
  public:
-  /// Built in parallel, O(n log n).
+  /// Builds the tree in parallel, O(n log n).
   /// \pre finite coordinates, positive sizes, slope > 0
   SizeSites(std::span<const SizeSite> sites, double slope, const RunContext& context);
 
   struct Search {
-    double cap = std::numeric_limits<double>::infinity();  ///< m, the result where no site gives less
-    double reach = 0.0;                                    ///< m; sizes grow from here on only: the least size within `reach` of the point
-    /// Boxes that could lower the value by less than this part of it are not opened: at the centre of a circle all its points are as near.
+    double cap = std::numeric_limits<double>::infinity();  ///< m, the result if no site gives less
+    double reach = 0.0;                                    ///< m; sizes grow only beyond this distance; within it the smallest size counts
+    /// Boxes are not opened if they could lower the value by less than this fraction. Example: at the centre of a circle, all points of the circle are
+    /// equally near.
     double tolerance = 0.0;
   };
-  /// The minimum over all sites, exact to rounding but for the search's tolerance.
+  /// Returns the minimum over all sites, exact to rounding except for the search's tolerance.
   double smallest(const Point& p, const Search& search) const;
-  /// The same without cap, reach and tolerance. \p hint: a site to start from, changed to the one that gave the minimum (any value below size() is correct;
-  /// a neighbour's makes the search short).
-  /// \pre there are sites
+  /// As above, without cap, reach and tolerance. \p hint: a site to start from, set to the site that gave the minimum (any value below size() is correct; a
+  /// hint from a neighbouring point makes the search short).
+  /// \pre size() > 0
   double smallest(const Point& p, std::uint32_t& hint) const;
   std::size_t size() const { return sites_.size(); }
 
  private:
   struct Node {
     std::array<float, 3> min, max;  ///< rounded outwards
-    float smallest;                 ///< of the sizes below, rounded down
+    float smallest;                 ///< smallest size in the subtree, rounded down
     std::uint32_t first;            ///< leaf: first site; inner: left child, the right one follows
     std::uint32_t count;            ///< leaf: number of sites; inner: 0
   };

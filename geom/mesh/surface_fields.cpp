@@ -44,12 +44,12 @@ const std::vector<SurfaceFieldInfo>& table() {
   return fields;
 }
 
-/// Any list of faces of three or four corners.
+/// List of faces with three or four corners, of any origin.
 struct Faces {
   const std::vector<Point>& points;
   std::size_t n_triangles, n_quads;
   std::function<std::array<std::uint32_t, 4>(std::size_t)> nodes;  ///< the fourth is not used for triangles
-  std::function<int(std::size_t)> group;                           ///< only faces of one group are compared
+  std::function<int(std::size_t)> group;                           ///< only faces of the same group are compared
   std::size_t size() const { return n_triangles + n_quads; }
   std::size_t n_corners(std::size_t face) const { return face < n_triangles ? 3 : 4; }
 };
@@ -80,7 +80,7 @@ Shape shape_of(const std::array<Point, 4>& p, std::size_t n) {
   return shape;
 }
 
-/// Largest ratio of areas across an edge; NaN for faces without a neighbour.
+/// Returns the largest area ratio across an edge; NaN for faces without a neighbour.
 std::vector<double> area_ratios(const Faces& faces, const std::vector<double>& areas, const RunContext& context) {
   struct Edge {
     std::uint32_t lower, upper, face;

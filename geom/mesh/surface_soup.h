@@ -1,4 +1,4 @@
-// Triangles as a file gives them: unwelded, unoriented, perhaps with unused vertices; with the patch names the file carries.
+// Triangles as read from a file: unwelded, unoriented, possibly with unused vertices; with the patch names of the file.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 namespace sterna {
 
 struct SurfaceSoup {
-  std::vector<Vec3> points;                             ///< in the file's own unit
+  std::vector<Vec3> points;                             ///< in the unit of the file
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into points
   std::vector<std::uint32_t> patch;                     ///< per triangle, index into patch_names; same size as triangles
-  std::vector<std::string> patch_names;                 ///< never empty when there are triangles; names may be empty strings
+  std::vector<std::string> patch_names;                 ///< not empty if there are triangles; names may be empty strings
   bool single_precision = false;                        ///< the coordinates were stored as 32-bit floats (binary STL, float PLY, ...)
   bool has_names = false;                               ///< the file itself named (or numbered) its patches
-  std::uint64_t n_cells = 0;                            ///< of the volume mesh that the file holds, whose boundary this is; 0: the file holds a surface
+  std::uint64_t n_cells = 0;                            ///< cells of the volume mesh in the file, whose boundary this is; 0: the file holds a surface
   std::string source;                                   ///< file name for messages
 };
 

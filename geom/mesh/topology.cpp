@@ -1,5 +1,5 @@
-// Twins without a global sort: the half-edges that touch a vertex are its outgoing ones and their predecessors, so an edge is decided at
-// its lower vertex from the vertex's own short list, sorted by (neighbour, sense, id).
+// Finds twins without a global sort. The half-edges that touch a vertex are its outgoing half-edges and their predecessors, so an edge is processed at its
+// lower vertex from the vertex's own short list, sorted by (neighbour, sense, id).
 #include "geom/mesh/topology.h"
 
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t k_max_trouble_edges = 10000;
 
-/// A half-edge as seen from one of its vertices.
+/// A half-edge relative to one of its vertices.
 struct Spoke {
   VertexId neighbour;
   bool is_incoming = false;
@@ -26,7 +26,7 @@ struct BadEdge {
   std::uint32_t n_forward = 0, n_backward = 0;
 };
 
-/// Half-edges by starting vertex, in order of their id (counting sort; two streaming passes are faster than any parallel sort here).
+/// Sorts half-edges by starting vertex, in order of their id (counting sort; two streaming passes are faster than any parallel sort here).
 void sort_by_origin(std::size_t n_vertices, const Column<HalfedgeId, VertexId>& from, std::vector<std::uint64_t>& first, std::vector<HalfedgeId>& sorted) {
   first.assign(n_vertices + 1, 0);
   for (const VertexId v : from) ++first[v.index() + 1];

@@ -12,9 +12,9 @@ namespace sterna {
 
 class Topology {
  public:
-  /// Twins by sorting; parallel, O(n log n).
+  /// Finds twins by sorting; parallel, O(n log n).
   /// \pre indices in range, no triangle with a repeated vertex.
-  /// \throws Error(non_manifold_surface) when an edge has more than two triangles or two of the same sense.
+  /// \throws Error(non_manifold_surface) if an edge has more than two triangles or two of the same sense.
   Topology(const TriMesh& mesh, const RunContext& context);
 
   HalfedgeId twin(HalfedgeId h) const { return twin_[h]; }  ///< invalid on the boundary
@@ -24,11 +24,11 @@ class Topology {
   std::size_t n_halfedges() const { return from_.size(); }
   std::size_t n_boundary_halfedges() const { return n_boundary_; }
 
-  /// Half-edges that start at v, in order of their id; one per incident triangle.
+  /// Returns the half-edges that start at v, ordered by id; one per incident triangle.
   std::span<const HalfedgeId> outgoing(VertexId v) const {
     return {outgoing_.data() + first_outgoing_[v.index()], first_outgoing_[v.index() + 1] - first_outgoing_[v.index()]};
   }
-  /// Neighbouring vertices of v by ascending id.
+  /// Returns the neighbouring vertices of v by ascending id.
   std::span<const VertexId> neighbours(VertexId v) const {
     return {neighbours_.data() + first_neighbour_[v.index()], first_neighbour_[v.index() + 1] - first_neighbour_[v.index()]};
   }
@@ -43,7 +43,7 @@ class Topology {
   std::size_t n_boundary_ = 0;
 };
 
-/// Component number of every triangle (connected over edges), numbered by first triangle, and the number of components.
+/// Component number of every triangle (connected over edges), in the order of their first triangles, and the number of components.
 struct Components {
   Column<TriangleId, std::uint32_t> component;
   std::uint32_t count = 0;

@@ -12,7 +12,7 @@
 namespace sterna {
 
 enum class PatchKind { wall, slip, symmetry, inflow, outflow, farfield, interface };
-/// "wall", "slip", ...
+/// Returns "wall", "slip", ...
 std::string_view to_string(PatchKind kind);
 
 struct Patch {
@@ -21,8 +21,8 @@ struct Patch {
   friend bool operator==(const Patch&, const Patch&) = default;
 };
 
-/// Plain struct of columns. Invariants (checked by surfmesh::stitch_surface and geom/mesh/check.h, not by this type): indices in range;
-/// every edge has one or two triangles, two with opposite sense; normals (right-hand rule) point into the fluid, out of the body.
+/// Triangulated surface as a plain struct of columns. Invariants (checked by surfmesh::stitch_surface and geom/mesh/check.h, not by this type): indices in
+/// range; every edge has one or two triangles, two with opposite sense; normals (right-hand rule) point into the fluid, out of the body.
 struct TriMesh {
   Column<VertexId, Point> points;  ///< metres
   Column<TriangleId, TriangleVertices> triangles;
@@ -40,21 +40,21 @@ struct Box {
   void add(const Box& b);
   bool empty() const { return min.x > max.x; }
   Vec3 center() const { return 0.5 * (min + max); }
-  /// Longest side; the "body length" of docs/method/envelope.md, "Notation", for the box of all walls.
+  /// Returns the longest side; for the box of all walls this is the "body length" of docs/method/envelope.md, "Notation".
   double longest_side() const;
 };
 
 Box bounding_box(const TriMesh& mesh);
-/// Body length L = longest side of the axis-parallel box of all walls (docs/method/envelope.md, "Notation").
+/// Returns the body length L = longest side of the axis-parallel box of all walls (docs/method/envelope.md, "Notation").
 double body_length(const TriMesh& wall);
 
-/// Corner points of a triangle.
+/// Returns the corner points of a triangle.
 inline std::array<Point, 3> corners(const TriMesh& mesh, TriangleId t) {
   const TriangleVertices& v = mesh.triangles[t];
   return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
 }
 
-/// Appends `other`; patches of the same name and kind are joined. Vertices are not merged.
+/// Appends `other`; patches of the same name and kind are merged. Vertices are not merged.
 void append(TriMesh& mesh, const TriMesh& other);
 
 }  // namespace sterna

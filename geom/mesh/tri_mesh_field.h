@@ -1,4 +1,4 @@
-// Numbers on a triangulated surface, with the names under which pictures show them.
+// Values on a triangulated surface, with the names for their display in pictures.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace sterna {
 
-/// One number per vertex or per triangle of a TriMesh; NaN where there is none.
+/// One value per vertex or per triangle of a TriMesh; NaN for no value.
 struct TriMeshField {
-  std::string name;   ///< "height_share": of the array in a file
+  std::string name;   ///< "height_share": name of the array in a file
   std::string title;  ///< "predicted height over target"
   std::string unit;   ///< "m", "deg"; empty for a ratio
   bool is_at_vertices = false;

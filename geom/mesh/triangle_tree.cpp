@@ -19,14 +19,14 @@ namespace {
 
 using TreeCorners = std::array<Point, 3>;
 
-/// A node's far field is used beyond this many radii from its centre: the sum is then within 0.05 in the tests (on aircraft surfaces 0.013,
-/// without the second moments 0.12), where 1/2 would be undecided.
+/// A node's far field is used beyond this many radii from its centre. The winding number is then accurate to 0.05 in the tests (0.013 on aircraft surfaces,
+/// 0.12 without the second moments); an error of 1/2 would be undecided.
 constexpr double k_far_radii = 3.0;
-/// Rounding of a distance between a point and a triangle, in units of the largest coordinate: keeps a box from being skipped although one of its
-/// triangles is, as computed, equally near. A few operations on each coordinate.
+/// Rounding of a distance between a point and a triangle, in units of the largest coordinate: a few operations on each coordinate. The margin prevents that a
+/// box is skipped although one of its triangles is, as computed, equally near.
 constexpr double k_distance_rounding = 16 * 0x1p-53;
-/// Rounding of a ray's slab parameters, relative, and of its barycentric coordinates, relative to the absolute values of their terms; generous, as
-/// a hit near an edge must not be lost by both triangles.
+/// Rounding of a ray's slab parameters, relative, and of its barycentric coordinates, relative to the absolute values of their terms. The margin is generous,
+/// because a hit near an edge must not be lost by both triangles.
 constexpr double k_ray_rounding = 64 * 0x1p-53;
 /// As in BoxTree::for_each_overlap.
 constexpr int k_stack = 64;
@@ -40,7 +40,7 @@ double squared_distance_to_box(const Point& p, const Box& box) {
 
 double largest_coordinate(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// Whether the ray p + t d, t >= 0, may hit the box; with all rounding on the safe side.
+/// Returns true if the ray p + t d, t >= 0, may hit the box; all rounding is on the safe side.
 bool may_hit(const Point& p, const Vec3& d, const Box& box) {
   double t_in = 0.0;
   double t_out = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ bool may_hit(const Point& p, const Vec3& d, const Box& box) {
   return t_in <= t_out * (1.0 + k_ray_rounding);
 }
 
-/// t of the hit, by Cramer's rule (Moeller & Trumbore 1997); none for a miss beyond rounding.
+/// Returns t of the hit, by Cramer's rule (Moeller & Trumbore 1997); none for a miss beyond rounding.
 std::optional<double> hit_parameter(const Point& p, const Vec3& d, const TreeCorners& c) {
   const Vec3 u = c[1] - c[0], v = c[2] - c[0], w = p - c[0];
   const Vec3 h = cross(d, v);
@@ -73,7 +73,7 @@ std::optional<double> hit_parameter(const Point& p, const Vec3& d, const TreeCor
   return t;
 }
 
-/// Solid angle of the triangle seen from p, positive when the normal points away from p.
+/// Returns the solid angle of the triangle seen from p, positive if the normal points away from p.
 double solid_angle(const Point& p, const TreeCorners& t) {
   const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
@@ -109,14 +109,14 @@ std::vector<Box> boxes_of(const std::vector<TreeCorners>& triangles, const RunCo
 TriangleTree::TriangleTree(const TriMesh& mesh, const RunContext& context) : corners_(corners_of(mesh, context)), tree_(boxes_of(corners_, context), context) {
   far_field_.resize(tree_.nodes().size());
   if (far_field_.empty()) return;
-  // Children before parents.
+  // Children are computed before their parents.
   const auto begins = tree_.level_begins();
   for (std::size_t level = begins.size() - 1; level-- > 0;) {
     parallel_for(context, begins[level + 1] - begins[level], [&](std::size_t i) { far_field_[begins[level] + i] = far_field_of(begins[level] + i); });
   }
 }
 
-/// Moments of a node's area vectors about its area-weighted centre.
+/// Returns the moments of a node's area vectors about its area-weighted centre.
 TriangleTree::FarField TriangleTree::far_field_of(std::size_t index) const {
   const auto& node = tree_.nodes()[index];
   FarField f;
@@ -174,7 +174,7 @@ NearestHit TriangleTree::nearest(const Point& p, double limit) const {
     if (squared_box_distance > squared_bound) continue;
     const auto& node = nodes[index];
     if (node.count == 0) {
-      // The nearer child first.
+      // Visits the nearer child first.
       Pending near{node.first, squared_distance_to_box(p, nodes[node.first].box)};
       Pending far{node.first + 1, squared_distance_to_box(p, nodes[node.first + 1].box)};
       if (far.squared_distance < near.squared_distance) std::swap(near, far);

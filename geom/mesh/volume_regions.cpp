@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t k_named_regions = 5;
 constexpr std::size_t k_named_patches = 4;
 constexpr int k_volume_digits = 4;
-constexpr double k_region_rounding = 1e-9;  ///< of the volume of a box
+constexpr double k_region_rounding = 1e-9;  ///< relative to the volume of the bounding box
 
 /// Joins the two sides of discs.
 void join_sheets(const HybridMesh& mesh, DisjointSets& sets) {
@@ -24,7 +24,7 @@ void join_sheets(const HybridMesh& mesh, DisjointSets& sets) {
   for (std::uint32_t i = 0; i < sheets.twin.size(); ++i) sets.join(i, sheets.twin[i]);
 }
 
-/// For each node the lowest node of its region.
+/// Returns for each node the lowest node of its region.
 std::vector<std::uint32_t> region_of_nodes(const HybridMesh& mesh) {
   DisjointSets sets(mesh.points.size());
   for_each_cell(mesh, [&](const Cell& cell) {
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> region_of_nodes(const HybridMesh& mesh) {
   return std::move(sets).roots();
 }
 
-/// For each node on the boundary the lowest node of its connected part of the boundary.
+/// Returns for each boundary node the lowest node of its connected part of the boundary.
 std::vector<std::uint32_t> shell_of_nodes(const HybridMesh& mesh) {
   DisjointSets sets(mesh.points.size());
   const auto join = [&](std::span<const NodeId> nodes) {
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> shell_of_nodes(const HybridMesh& mesh) {
   return std::move(sets).roots();
 }
 
-/// What is summed up over one region.
+/// Sums over one region.
 struct RegionSums {
   CompensatedSum volume;
   Point origin;
@@ -61,7 +61,7 @@ std::string patches_text(const std::vector<std::string>& patches) {
   return (patches.size() == 1 ? "patch " : "patches ") + text + (patches.size() > k_named_patches ? " and more" : "");
 }
 
-/// The boundary by the part that its nodes belong to.
+/// Sums the boundary faces by the part that contains their nodes.
 std::vector<VolumeRegion> sum_up(const HybridMesh& mesh, const std::vector<std::uint32_t>& part) {
   std::map<std::uint32_t, RegionSums> sums;
   const auto add_face = [&](std::span<const NodeId> nodes, PatchId patch) {
@@ -86,7 +86,7 @@ std::vector<VolumeRegion> sum_up(const HybridMesh& mesh, const std::vector<std::
   return regions;
 }
 
-/// Of a part of the boundary: whether fluid is inside of it. A disc in the fluid has no volume but for rounding.
+/// Returns true if fluid is inside a part of the boundary. A disc in the fluid has no volume except for rounding.
 bool encloses_fluid(const VolumeRegion& shell) {
   const Vec3 sides = shell.box.max - shell.box.min;
   return shell.volume > k_region_rounding * sides.x * sides.y * sides.z;
@@ -97,7 +97,7 @@ bool encloses_fluid(const VolumeRegion& shell) {
 std::vector<VolumeRegion> volume_regions(const HybridMesh& mesh) {
   const std::vector<VolumeRegion> shells = sum_up(mesh, shell_of_nodes(mesh));
   const std::vector<std::uint32_t> one(mesh.points.size(), 0);
-  // Each region is enclosed by one part of the boundary: the cells are looked at only where there are several.
+  // Each region is enclosed by one part of the boundary, so cells are traversed only if there are several such parts.
   return sum_up(mesh, std::ranges::count_if(shells, encloses_fluid) > 1 ? region_of_nodes(mesh) : one);
 }
 

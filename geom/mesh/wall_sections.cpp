@@ -13,13 +13,13 @@
 namespace sterna {
 namespace {
 
-/// What is looked at, the best first: walls under layers, walls, walls about bodies, boundaries near the body, any.
+/// Returns the rank of a boundary face, best first: walls under layers, walls, walls around bodies, boundaries near the body, any.
 int rank_of(PatchKind kind, bool is_layer_base, bool is_outer) {
   if (kind == PatchKind::wall) return is_outer ? 2 : is_layer_base ? 0 : 1;
   return kind == PatchKind::farfield || kind == PatchKind::inflow || kind == PatchKind::outflow ? 4 : 3;
 }
 
-/// Whether the patches of all boundary faces are known.
+/// Returns true if the patches of all boundary faces are known.
 bool has_patches(const HybridMesh& mesh) {
   const auto is_known = [&](const auto& face) { return face.patch.index() < mesh.patches.size(); };
   return std::ranges::all_of(mesh.boundary_triangles, is_known) && std::ranges::all_of(mesh.boundary_quads, is_known);

@@ -1,4 +1,4 @@
-// The walls of a volume mesh as triangles, their sections by planes and their sharp edges: what looking for places needs.
+// The walls of a volume mesh as triangles, their sections by planes and their sharp edges; used for the selection of cut planes.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace sterna {
 
 struct WallTriangle {
-  std::array<std::uint32_t, 3> nodes;  ///< of the mesh, normal into the fluid
+  std::array<std::uint32_t, 3> nodes;  ///< nodes of the mesh, normal into the fluid
   PatchId patch;
 };
 
@@ -23,7 +23,7 @@ struct SectionPiece {
   Box box;
 };
 
-/// A chain of edges of like sharpness that hang together.
+/// A connected chain of edges of similar sharpness.
 struct EdgeChain {
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< nodes of the mesh
   double length = 0.0;                              ///< m
@@ -37,18 +37,18 @@ class WallSections {
   const std::vector<WallTriangle>& triangles() const { return triangles_; }
   const Box& box() const { return box_; }
   const Point& point(std::uint32_t node) const { return mesh_.points.raw()[node]; }
-  /// Pieces by their lowest triangle; a node in the plane counts as above it.
+  /// Returns the pieces ordered by their lowest triangle; a node in the plane counts as above it.
   std::vector<SectionPiece> section(const Point& origin, const Vec3& normal) const;
-  /// Node of the walls with the largest product with a direction; the lowest number of several.
+  /// Returns the wall node that is farthest in a direction; ties by the lowest number.
   std::uint32_t extreme_node(const Vec3& direction) const;
-  /// Middle of the wall triangle that is nearest to a plane.
+  /// Returns the centre of the wall triangle that is nearest to a plane.
   Point nearest_to(const Point& origin, const Vec3& normal) const;
-  /// The longest chain of edges that turn by more than `least` radians; concave ones (towards the fluid) or convex; only those between two patches, if asked.
-  /// No edges when there is none.
+  /// Returns the longest chain of edges that turn by more than `least` radians: concave (towards the fluid) or convex; if requested, only edges between two
+  /// patches. Empty if there is none.
   EdgeChain longest_chain(double least, bool is_concave, bool between_patches) const;
-  /// Mean edge of the triangles of the node nearest to a point, m.
+  /// Returns the mean edge of the triangles at the node nearest to a point, m.
   double edge_near(const Point& p) const;
-  /// Height of the layer over the wall node nearest to a point, m; 0 where the mesh has no columns.
+  /// Returns the layer height at the wall node nearest to a point, m; 0 if the mesh has no columns.
   double layer_near(const Point& p) const;
 
  private:
@@ -60,7 +60,7 @@ class WallSections {
 
   const HybridMesh& mesh_;
   std::vector<WallTriangle> triangles_;
-  std::vector<Edge> edges_;  ///< three of each triangle, sorted
+  std::vector<Edge> edges_;  ///< three per triangle, sorted
   Box box_;
 };
 
