@@ -1,4 +1,4 @@
-// Which points of its surface belong to a face: inside or outside of its borders, to the precision of the borders' own curves.
+// Test if a surface point belongs to a face: inside or outside of its borders, to the precision of the borders' own curves.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,8 @@ class FaceRegion {
   /// `model` must outlive the region.
   FaceRegion(const Model& model, FaceId face);
 
-  /// Any period of a periodic surface will do. Beside the border its parameter curves decide, not polygons of them.
+  /// Returns true if the point belongs to the face. On a periodic surface any period is accepted. Near the border the parameter curves decide, not their
+  /// polygons.
   bool contains(Uv at) const;
 
  private:
