@@ -17,7 +17,7 @@ struct FaceOutline {
   std::vector<std::vector<OutlineUse>> borders;
   std::vector<std::vector<Uv>> polygons;  ///< one per border, sampled finely enough to separate inside from outside; winding borders are merged into one
                                           ///< polygon, at the first of them
-  std::vector<std::size_t> winding;  ///< borders that run around a period instead of closing
+  std::vector<std::size_t> winding;       ///< borders that run around a period instead of closing
 };
 
 FaceOutline outline_of(const Model& model, FaceId face);
