@@ -34,7 +34,7 @@ constexpr double k_lean_reach = 8.0;
 /// A step is exact to this fraction of its length (growth is reported to a per mille).
 constexpr double k_step_tolerance = 1e-7;
 constexpr int k_max_step_iterations = 30;
-/// Rows are removed within this many edge lengths of a location that cannot be meshed; after so many attempts all rows are removed.
+/// Rows are removed within this many edge lengths of a location that cannot be meshed; after k_max_take_backs attempts all rows are removed.
 constexpr double k_take_back_reach = 3.0;
 constexpr int k_max_take_backs = 12;
 /// Two smallest angles that differ by less than this are considered equal, so that diagonals alternate, rad.
@@ -52,7 +52,7 @@ struct RowColumn {
   double spacing = 0.0;                ///< m, mean length of the two edges along the border
   double at_top = 0.0;                 ///< m, mean edge length in the last row, not more than `spacing`
   Vec3 direction;                      ///< unit, of the next step
-  std::array<double, 2> lean_share{};  ///< of the inclination of the columns on the border at the start, at the end
+  std::array<double, 2> lean_share{};  ///< fraction of the inclination of the border columns at the start, at the end
   double lean = 0.0;                   ///< rad, of the next step: from right angles towards the run's direction
   double height = 0.0;                 ///< m, of the last row
   double climbed = 0.0;                ///< m, sum of heights

@@ -16,7 +16,7 @@ using delaunay::sample;
 constexpr double k_end_reach = 2.0;
 
 struct Grid {
-  std::size_t n_rows = 0, n_columns = 0;  ///< of points
+  std::size_t n_rows = 0, n_columns = 0;  ///< numbers of points
   std::vector<std::uint32_t> id;
   std::uint32_t operator()(std::size_t i, std::size_t j) const { return id[i * n_columns + j]; }
 };

@@ -16,7 +16,7 @@ struct BorderSegment {
   EdgeId edge;                                         ///< edge on which the segment lies; invalid along poles and along the face's own seams
   bool is_forward = true;                              ///< runs in the direction of that edge's parameter
   bool is_first = false;                               ///< first segment of its edge use
-  std::size_t n_rows_at_start = 0, n_rows_at_end = 0;  ///< of the edge use, in the direction of the border
+  std::size_t n_rows_at_start = 0, n_rows_at_end = 0;  ///< rows of the edge use, in the direction of the border
 };
 /// Segments in the order of the loops' points: from each point to the next.
 using BorderSegments = std::vector<std::vector<BorderSegment>>;

@@ -121,8 +121,8 @@ Vec3 normal_at(const Surface& surface, Uv at) {
 /// The face's own triangulation before the faces were joined; its border vertices are ordered by first use in the triangles.
 struct OwnFace {
   MeshedFace face;
-  std::vector<EdgeId> border_edges;   ///< of each border vertex; invalid if not known
-  std::vector<TriangleId> triangles;  ///< of the joined mesh
+  std::vector<EdgeId> border_edges;   ///< per border vertex; invalid if not known
+  std::vector<TriangleId> triangles;  ///< numbers in the joined mesh
 };
 
 OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces& places, const ParameterBox& box, FaceId f,

@@ -42,7 +42,7 @@ struct Walls {
   const std::vector<Point>& points;
   std::vector<Facet> facets;
   std::vector<std::uint32_t> nodes;  ///< ascending
-  std::vector<PatchId> node_patch;   ///< of the first facet with the node
+  std::vector<PatchId> node_patch;   ///< patch of the first facet with the node
   const Column<PatchId, Patch>& patches;
   std::vector<std::string> unknown;
 };

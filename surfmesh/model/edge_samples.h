@@ -11,7 +11,7 @@ namespace sterna::surfmesh {
 struct EdgeSample {
   double t = 0.0;
   Point point;
-  double curvature = 0.0;  ///< of the curve, 1/m
+  double curvature = 0.0;  ///< 1/m, curvature of the curve
 };
 struct EdgeSamples {
   std::vector<EdgeSample> samples;  ///< both ends included; empty for degenerate edges

@@ -219,7 +219,7 @@ class FaceGridBuilder {
   int least_levels_;
   std::unordered_map<std::uint64_t, std::uint32_t> node_of_;
   std::vector<std::uint8_t> is_needed_;
-  std::vector<std::array<std::uint32_t, 2>> lattice_;  ///< of each node
+  std::vector<std::array<std::uint32_t, 2>> lattice_;  ///< per node
   std::vector<std::uint32_t> crossing_;
 };
 

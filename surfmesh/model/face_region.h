@@ -20,8 +20,8 @@ class FaceRegion {
   /// Part of a border between two points of its polygon.
   struct Piece {
     Uv from, to;
-    double t_from, t_to;  ///< of the edge; t_from > t_to where the border runs against it
-    double sag;           ///< of the curve over the chord, in (u, v)
+    double t_from, t_to;  ///< edge parameters; t_from > t_to where the border runs against the edge
+    double sag;           ///< sag of the curve over the chord, in (u, v)
     std::uint32_t border, use;
   };
   bool contains_here(Uv at) const;

@@ -14,8 +14,8 @@ namespace sterna::surfmesh {
 /// A mesh of one part and the placement of the part: p -> placement.point(p), in this one expression. A placement without motion leaves points bitwise
 /// unchanged.
 struct PlacedMesh {
-  const Model* model = nullptr;       ///< of the part, in its own frame
-  const SurfaceMesh* mesh = nullptr;  ///< of that model
+  const Model* model = nullptr;       ///< the part in its own frame
+  const SurfaceMesh* mesh = nullptr;  ///< a mesh of that model
   Transform placement;                ///< rotation and shift
 };
 

@@ -24,12 +24,12 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
 
 struct MeshedFace {
   FaceMesh mesh;
-  std::vector<VertexId> border_ids;  ///< of its first n_border vertices
+  std::vector<VertexId> border_ids;  ///< numbers of its first n_border vertices in the joined mesh
   std::optional<ErrorInfo> failure;  ///< instead of a mesh
   FaceMeshSummary summary;
   double edge_distance = 0.0;  ///< metres: largest distance of a border point to the surface
   Point edge_distance_place{};
-  std::vector<LooseEdge> loose_edges;  ///< of this face
+  std::vector<LooseEdge> loose_edges;  ///< loose edges of this face
   BandMeasures bands;
   std::vector<std::string> notes;  ///< rows or strips that had to be omitted
 };

@@ -33,7 +33,7 @@ constexpr double k_repair_factor = 0.5;
 constexpr int k_rounds_before_holes = 2;
 /// Above this angle volume_mesh does not take a feature angle from the mesh.
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
-constexpr int k_digits = 4;  ///< of numbers in messages
+constexpr int k_digits = 4;  ///< digits of numbers in messages
 
 struct Meshing : SizedModel {
   WingBands bands;

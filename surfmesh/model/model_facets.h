@@ -19,8 +19,8 @@ struct FacetOptions {
 struct ModelFacets {
   std::vector<Point> points;                            ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the side of the face's outward normal
-  std::vector<FaceId> face;                             ///< of each triangle, ascending
-  std::vector<std::uint8_t> edges;                      ///< of each triangle; bit k: corner k to corner k + 1 lies on the border of its face
+  std::vector<FaceId> face;                             ///< per triangle, ascending
+  std::vector<std::uint8_t> edges;                      ///< per triangle; bit k: corner k to corner k + 1 lies on the border of its face
   std::vector<double> curvature;                        ///< at each triangle's middle, 1/m: magnitude of the larger principal curvature; empty unless requested
   std::vector<FaceId> untrimmed;                        ///< faces whose borders cross themselves in (u, v): their triangles are those with the middle inside
 };

@@ -26,7 +26,7 @@ struct FaceSizes {
   bool has_tip_strips = false;
   double least_narrow = 0.0;  ///< m: lower limit of sizes from narrow regions if min_edge is automatic
   CurvatureLimits limits;
-  std::unique_ptr<CurvatureSizes> curvature;  ///< of the surface within the face
+  std::unique_ptr<CurvatureSizes> curvature;  ///< sizes from the curvature of the surface within the face
 };
 
 struct ModelSizes {

@@ -12,7 +12,7 @@ namespace sterna::surfmesh {
 struct EdgeStructure {
   CornerId start, end;
   bool is_degenerate = false;
-  Interval range;  ///< of its parameter
+  Interval range;  ///< range of its parameter
   std::string name;
 };
 
@@ -28,7 +28,7 @@ struct FaceStructure {
   FaceRole role = FaceRole::skin;
   PatchKind kind = PatchKind::wall;
   bool is_reversed = false;
-  ParameterBox box;  ///< of its borders' samples
+  ParameterBox box;  ///< box of its borders' samples
   std::vector<std::vector<UseStructure>> borders;
 };
 

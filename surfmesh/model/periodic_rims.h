@@ -34,7 +34,7 @@ struct RimStop {
 /// An edge of a border, or the part of it between two stops.
 struct RimPiece {
   EdgeId edge;
-  Interval range;            ///< of the edge's parameter
+  Interval range;            ///< range of the edge's parameter
   std::size_t like = 0;      ///< number of the piece whose translated cuts it takes; its own number for the first piece of each kind
   Vec3 translation;          ///< m, from that piece to this one
   bool is_reversed = false;  ///< its parameter runs against that of the other piece

@@ -14,7 +14,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_digits = 3;                 ///< of distances in messages
+constexpr int k_digits = 3;                 ///< digits of distances in messages
 constexpr std::size_t k_sample_chunk = 32;  ///< triangles: a sample takes 5 to 50 us
 /// Smallest number of triangles at which distances are measured; if there are more, every second, third ... is measured.
 constexpr std::size_t k_sampled = 20'000;

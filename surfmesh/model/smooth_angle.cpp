@@ -29,7 +29,7 @@ constexpr double k_follows = 75.0 * std::numbers::pi / 180.0;
 
 struct LocalEdge {
   std::uint32_t low, high;
-  std::uint32_t triangle;  ///< of the face
+  std::uint32_t triangle;  ///< number within the face
   auto operator<=>(const LocalEdge&) const = default;
 };
 
@@ -39,7 +39,7 @@ struct BorderEdge {
   FaceId face;
   std::uint32_t triangle = 0;
   std::array<Vec3, 2> exact;  ///< outward normals of the surface at low and high; zero where the surface has none
-  Vec3 normal;                ///< of the triangle
+  Vec3 normal;                ///< normal of the triangle
   std::array<Point, 2> ends;  ///< low and high
   bool follows = true;        ///< the triangle follows the surface
   Point middle() const { return 0.5 * (ends[0] + ends[1]); }

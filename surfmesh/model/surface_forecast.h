@@ -16,7 +16,7 @@ struct FaceForecast {
   std::string name;
   double n_triangles = 0.0;
   double least_edge = 0.0;  ///< m
-  Point place;              ///< of the smallest edge
+  Point place;              ///< location of the smallest edge
   std::string rule;         ///< "curvature: an edge spans at most 12 degrees"
   std::string advice;       ///< "a larger curvature_angle or min_edge"
 };

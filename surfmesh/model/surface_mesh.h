@@ -124,8 +124,8 @@ struct BandSummary {
   std::int64_t n_edges = 0;   ///< model edges with rows beside them
   std::int64_t n_strips = 0;  ///< bases
   std::int64_t n_triangles = 0;
-  double max_stretch = 0.0;        ///< of cells in rows: length along : length across
-  double max_strip_stretch = 0.0;  ///< of cells on bases
+  double max_stretch = 0.0;        ///< cells in rows: length along : length across
+  double max_strip_stretch = 0.0;  ///< cells on bases
   double max_growth = 0.0;         ///< largest ratio of consecutive row heights
   std::vector<std::string> notes;  ///< requirements that could not be met, and locations where rows had to be omitted
 };
@@ -147,8 +147,8 @@ struct SurfaceMeshReport {
   double share_normals = 1.0;          ///< fraction of the area: triangles within the curvature angle of the surface's normals at their corners
   double max_smooth_angle = 0.0;       ///< rad: largest turn between two triangles where the model has no crease; a feature angle must exceed it
   Point smooth_angle_place{};
-  std::int64_t n_free_edges = 0;         ///< of triangles: along free edges of the model
-  int n_rounds = 1;                      ///< of meshing; above 1 if regions had to be refined to become valid
+  std::int64_t n_free_edges = 0;         ///< free edges of triangles: along free edges of the model
+  int n_rounds = 1;                      ///< rounds of meshing; above 1 if regions had to be refined to become valid
   std::int64_t n_crossings = 0;          ///< pairs of triangles that cross and could not be separated by refinement
   std::vector<CrossingFaces> crossings;  ///< by falling number; of the first 100 000 pairs
   BandSummary bands;
@@ -159,7 +159,7 @@ struct SurfaceMesh {
   TriMesh mesh;  ///< one patch per face name; vertices: corners, then edges, then inner ones; if parts were joined, part by part (join_parts.h)
   Column<VertexId, VertexPlace> places;  ///< vertices on edges: on the first face that uses them
   Column<VertexId, EdgePlace> edge_places;
-  Column<CornerId, VertexId> corner_vertices;  ///< of the model's corners; invalid if no triangle has it
+  Column<CornerId, VertexId> corner_vertices;  ///< per corner of the model; invalid if no triangle has it
   Column<TriangleId, FaceId> triangle_face;
   Column<TriangleId, std::uint8_t> is_band;  ///< laid in rows, possibly stretched
   SurfaceMeshReport report;
@@ -184,7 +184,8 @@ namespace sterna {
 
 namespace surfmesh {
 
-/// The options of rows at leading and trailing edges, of every struct that has them. The texts say what it means when nothing is given.
+/// Returns the schema fields of the row options at leading and trailing edges, for every struct that has them. The arguments are the help strings for values
+/// that are not given.
 template <class O>
 constexpr std::array<Field<O>, 6> edge_row_fields(std::string_view no_first, std::string_view no_stretch, std::string_view no_growth = {}) {
   return {{{.name = "leading_edge_chordwise",

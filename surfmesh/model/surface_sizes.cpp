@@ -32,7 +32,7 @@ struct Stop {
   Point point;
   double asked = 0.0;
   std::uint32_t node = 0;
-  std::array<Vec3, 2> normals{};  ///< of its faces; zero if there are more than two, or none
+  std::array<Vec3, 2> normals{};  ///< normals of its faces; zero if there are more than two, or none
 };
 
 }  // namespace

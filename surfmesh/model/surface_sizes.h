@@ -45,7 +45,7 @@ class SurfaceSizes {
   };
   struct Cell {
     std::array<float, 4> sizes{};             ///< at the corners
-    std::uint32_t first = 0, n_segments = 0;  ///< of edges through the cell
+    std::uint32_t first = 0, n_segments = 0;  ///< range of the segments of edges through the cell
   };
   struct FaceField {
     FaceGrid grid;

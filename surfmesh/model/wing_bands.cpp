@@ -114,7 +114,7 @@ struct Finding {
   const ModelSizes& sizes;
   const ModelTopology& topology;
   WingBands bands;
-  Column<EdgeId, std::vector<Side>> sides;  ///< of edges that represent themselves, for remaining faces
+  Column<EdgeId, std::vector<Side>> sides;  ///< for edges that represent themselves and faces that remain
 
   const FaceSizes& of(const Side& side) const { return sizes.faces[side.place.face]; }
   bool is_strip(const Side& side) const { return bands.strips[side.place.face].has_value(); }

@@ -27,7 +27,7 @@ struct LineLook {
   double turn = 0.0;  ///< rad
   bool is_convex = false;
   Vec3 looks;                   ///< unit: outward direction, halfway between both sides
-  std::array<Vec3, 2> normal;   ///< of the surface beside it
+  std::array<Vec3, 2> normal;   ///< normals of the surface beside it
   std::array<double, 2> width;  ///< m, across each side
 };
 

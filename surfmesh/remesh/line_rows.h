@@ -1,5 +1,5 @@
-// Trailing and leading edges of a triangulation that get rows of stretched triangles, as surface_mesh lays them on CAD (docs/method/surface.md, "Wing edges
-// and bands").
+// Trailing and leading edges of a triangulation that get rows of stretched triangles, as surface_mesh lays them on CAD. Rules: docs/method/surface.md,
+// "Wing edges and bands".
 #pragma once
 
 #include <array>

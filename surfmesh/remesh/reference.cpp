@@ -164,7 +164,7 @@ struct LineFinder {
       if (star[v].size() != 2) r.is_corner[VertexId(v)] = 1;
       else turns[v] = turn(VertexId(v));
     }
-    // Of the vertices in a bend only the one with the largest bend within the scale is a corner.
+    // In a bend only the vertex with the largest turn within the scale is a corner.
     for (std::size_t v = 0; v < star.size(); ++v) {
       if (turns[v] <= angle) continue;
       bool is_most = true;

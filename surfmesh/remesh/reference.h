@@ -41,10 +41,10 @@ struct Reference {
   const TriMesh* mesh = nullptr;
   Topology topology;
   Column<TriangleId, Vec3> triangle_normals;  ///< unit; triangles too thin for a normal take that of their surroundings
-  Column<HalfedgeId, std::int32_t> line;      ///< of the edge; k_no_line
+  Column<HalfedgeId, std::int32_t> line;      ///< line of the edge; k_no_line
   Column<HalfedgeId, std::uint32_t> segment;  ///< in its line
   Column<HalfedgeId, Vec3> normals;           ///< at the half-edge's first vertex, for the smooth piece of its triangle
-  Column<HalfedgeId, Vec3> bulges;            ///< of the edge: from its middle to the surface's, the same for both half-edges
+  Column<HalfedgeId, Vec3> bulges;            ///< bulge of the edge: from its middle to the surface's, the same for both half-edges
   Column<TriangleId, std::uint32_t> region;   ///< smooth piece
   Column<TriangleId, std::uint8_t> is_kept;   ///< unchanged in the result
   Column<VertexId, std::uint8_t> is_corner;   ///< end of lines, or of a kept triangle

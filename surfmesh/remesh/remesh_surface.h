@@ -75,7 +75,7 @@ struct RemeshReport {
   double turned_before = 0.0, turned = 0.0;    ///< fractions of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner
   double length = 0.0;                         ///< m, body length
   std::int64_t n_kept = 0;                     ///< triangles kept unchanged, because new ones would cross
-  int n_rounds = 1;                            ///< of remeshing; above 1 if triangles crossed
+  int n_rounds = 1;                            ///< rounds of remeshing; above 1 if triangles crossed
   RowReport rows;
 };
 

@@ -107,7 +107,7 @@ class Remesher {
 
   /// A location of a line with rows, on one side: its rows, [0] on the line, the last one the border's vertex.
   struct LineColumn {
-    std::uint32_t vertex = k_none;                    ///< of the border
+    std::uint32_t vertex = k_none;                    ///< vertex of the border
     std::uint32_t before = 0, after = 0;              ///< its neighbours along the border; the face is to the left of the path from one to the other
     std::size_t before_column = 0, after_column = 0;  ///< k_no_column: a neighbour without rows
     std::vector<WorkVertex> rows;
@@ -129,7 +129,7 @@ class Remesher {
   };
   /// A triangle of rows.
   struct RowCell {
-    std::uint32_t edge;                                   ///< of row_edges_
+    std::uint32_t edge;                                   ///< index in row_edges_
     std::array<std::array<std::uint32_t, 2>, 3> corners;  ///< for each corner the side (0: a, 1: b) and the row
   };
   static constexpr std::size_t k_no_column = ~std::size_t{0};

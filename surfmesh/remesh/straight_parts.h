@@ -10,7 +10,7 @@
 namespace sterna::surfmesh {
 
 struct StraightParts {
-  Column<HalfedgeId, std::uint8_t> is_straight;  ///< of the edge, the same for both half-edges
+  Column<HalfedgeId, std::uint8_t> is_straight;  ///< per edge, the same for both half-edges
   Column<HalfedgeId, double> most_rise;          ///< rad: largest rise of a curve over the edge, at the half-edge's first vertex
   Column<TriangleId, Vec3> plane;                ///< unit normal of the flat face of the triangle; zero: none
 };

@@ -10,7 +10,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_grid_share = 1e-10;  ///< of L: a hundred times finer than the welding tolerance
+constexpr double k_grid_share = 1e-10;  ///< relative to L: a hundred times finer than the welding tolerance
 
 }  // namespace
 

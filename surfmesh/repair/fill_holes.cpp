@@ -13,13 +13,13 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_flat_rim = 2e-3;        ///< of a hole's diameter: boundaries nearer to a plane than this are flat
-constexpr double k_same_plane = 1e-6;      ///< of L: loops of one plane
-constexpr double k_full_half = 0.35;       ///< of the box's longest side in the plane: smallest extent of the opening of a half model
+constexpr double k_flat_rim = 2e-3;        ///< relative to a hole's diameter: boundaries nearer to a plane than this are flat
+constexpr double k_same_plane = 1e-6;      ///< relative to L: loops of one plane
+constexpr double k_full_half = 0.35;       ///< relative to the box's longest side in the plane: smallest extent of the opening of a half model
 constexpr double k_origin_half = 0.1;      ///< the same if the plane passes through the origin
-constexpr double k_covered_share = 0.1;    ///< of the opening's area: largest area of facets in its plane
-constexpr double k_in_plane_share = 0.6;   ///< of a loop's vertices: the loop is partly the boundary of a half model, and partly another hole
-constexpr double k_sheet_share = 0.8;      ///< of the part's area: with a larger hole the part does not bound a body
+constexpr double k_covered_share = 0.1;    ///< relative to the opening's area: largest area of facets in its plane
+constexpr double k_in_plane_share = 0.6;   ///< fraction of a loop's vertices: the loop is partly the boundary of a half model, and partly another hole
+constexpr double k_sheet_share = 0.8;      ///< relative to the part's area: with a larger hole the part does not bound a body
 constexpr int k_rings = 2;                 ///< rings of triangles that a curved filling continues
 constexpr std::size_t k_smooth_edges = 4;  ///< smaller holes need no new points
 
@@ -27,7 +27,7 @@ using Loop = std::vector<std::uint32_t>;
 
 struct RimShape {
   Vec3 center, normal;    ///< unit, right-handed along the loop
-  double diameter = 0.0;  ///< of the box, m
+  double diameter = 0.0;  ///< m, diameter of the box
   double off = 0.0;       ///< farthest from the plane, m
 };
 
@@ -193,7 +193,7 @@ struct HalfPlane {
   std::size_t axis = 0;
   double at = 0.0, off = 0.0;
   bool is_above = true;
-  double share = 0.0;  ///< of the box, spanned by the opening
+  double share = 0.0;  ///< fraction of the box spanned by the opening
   std::vector<std::size_t> loops;
 };
 

@@ -11,7 +11,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_sampling_share = 2e-3;  ///< of L
+constexpr double k_sampling_share = 2e-3;  ///< relative to L
 constexpr double k_most_samples = 1e5;     ///< approximate total; beyond it the spacing is increased
 constexpr double k_max_steps = 1e4;        ///< in one row
 

@@ -18,13 +18,14 @@ namespace {
 
 constexpr int k_rays = 60;                     ///< number tried for each part
 constexpr double k_from_edge = 1e-6;           ///< barycentric: a ray that passes nearer to an edge is inconclusive
-constexpr double k_beside_share = 1e-7;        ///< of L: distance from a facet at which its sides are tested
-constexpr double k_most_leaking = 0.005;       ///< of the area: facets that are solid by winding number but have the outside on both sides; with more, the
+constexpr double k_beside_share = 1e-7;        ///< relative to L: distance from a facet at which its sides are tested
+constexpr double k_most_leaking = 0.005;       ///< fraction of the area: facets that are solid by winding number but have the outside on both sides; with
+                                               ///< more, the hull leaks
                                                ///< hull leaks
-constexpr double k_least_kept = 0.01;          ///< of the area: with less, there is no body
+constexpr double k_least_kept = 0.01;          ///< fraction of the area: with less, there is no body
 constexpr std::size_t k_within_samples = 300;  ///< number of facets of a component that are tested against another
-constexpr double k_contact_share = 2e-3;       ///< of a component's length: nearer to the other's surface, it touches that component
-constexpr double k_mostly_within = 0.9;        ///< of the samples
+constexpr double k_contact_share = 2e-3;       ///< relative to a component's length: nearer to the other's surface, it touches that component
+constexpr double k_mostly_within = 0.9;        ///< fraction of the samples
 constexpr double k_grazing = 1e-4;             ///< cosine to the normal below which a ray is inconclusive as well
 
 struct AroundEdge {
@@ -207,7 +208,7 @@ bool is_box_within(const Box& inner, const Box& outer, double tolerance) {
 }
 
 struct Within {
-  double share = 0.0;   ///< of the samples
+  double share = 0.0;   ///< fraction of the samples
   bool is_all = false;  ///< contacts count as within
 };
 

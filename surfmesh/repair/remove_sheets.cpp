@@ -7,8 +7,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_open_share = 0.9;   ///< of the box's diagonal: the open boundary of a flap is longer, that of a body with a hole mostly shorter
-constexpr double k_flat_share = 1e-6;  ///< of L: largest distance of the vertices of a flat baffle from its plane
+constexpr double k_open_share = 0.9;   ///< relative to the box's diagonal: the open boundary of a flap is longer, that of a body with a hole mostly shorter
+constexpr double k_flat_share = 1e-6;  ///< relative to L: largest distance of the vertices of a flat baffle from its plane
 
 /// Returns the pieces that are connected over edges with two facets.
 std::vector<std::uint32_t> smooth_pieces(const RepairState& state, const EdgeTable& edges) {

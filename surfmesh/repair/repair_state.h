@@ -92,7 +92,7 @@ bool keep_outer_hull(RepairState& state, const SolidReference& reference, const 
 /// Input for the treatment of parts that touch.
 struct Contacts {
   bool is_fluid_inside = false;
-  std::vector<std::string> names;  ///< of the patches
+  std::vector<std::string> names;  ///< names of the patches
 };
 
 /// Splits vertices and edges in which the solid touches itself, and moves the copies a little apart. Bodies that touch along edges are joined instead: the

@@ -22,7 +22,7 @@ struct RepairOptions {
   double gap = 1e-3;            ///< L; wider seams stay open and are treated as holes
   double hole = 0.3;            ///< L; diameter of the largest curved hole that is filled
   double flat_hole = 2.0;       ///< L; the same for holes with a flat boundary
-  int hole_edges = 1000;        ///< of the largest hole that is filled
+  int hole_edges = 1000;        ///< edges of the largest hole that is filled
   double smallest_part = 1e-3;  ///< L; parts with a smaller box are dropped
   double sliver = 1e-7;         ///< L; shorter edges are collapsed where something was changed
   double largest_move = 0.01;   ///< L; largest allowed movement of retained facets; more is an error
@@ -34,7 +34,7 @@ struct RepairOptions {
 
 /// Kind of a local change.
 enum class RepairKind {
-  dropped,         ///< facets without area, copies, doubled sheets
+  dropped,         ///< facets without area, copies, doubled baffles
   welded,          ///< vertices within rounding
   zipped,          ///< a seam closed
   into_plane,      ///< the boundary of a half model moved into its plane
@@ -77,7 +77,7 @@ struct HalfRim {
 };
 
 struct RepairReport {
-  StitchReport stitch;                ///< of the result, which is verified by stitch_surface
+  StitchReport stitch;                ///< report on the result, which is verified by stitch_surface
   std::vector<RepairChange> changes;  ///< in chronological order; empty: the input was valid, and the result is bitwise identical
   std::optional<HalfRim> half;
   double length = 0.0;       ///< m, L

@@ -6,9 +6,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_max_rings = 5;            ///< of facets around the crossing ones
+constexpr int k_max_rings = 5;            ///< rings of facets around the crossing ones
 constexpr double k_own_hole = 2.0;        ///< L
-constexpr double k_most_replaced = 0.05;  ///< of the facets at one time: more is not a local defect
+constexpr double k_most_replaced = 0.05;  ///< fraction of the facets at one time: more is not a local defect
 
 }  // namespace
 

@@ -14,9 +14,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_apart_share = 1e-5;    ///< of L
-constexpr double k_apart_of_edge = 0.02;  ///< of the shortest edge at the vertex: no facet is inverted
-constexpr double k_join_share = 1e-4;     ///< of L: half the width of the bridge between bodies that touch along a line
+constexpr double k_apart_share = 1e-5;    ///< relative to L
+constexpr double k_apart_of_edge = 0.02;  ///< relative to the shortest edge at the vertex: no facet is inverted
+constexpr double k_join_share = 1e-4;     ///< relative to L: half the width of the bridge between bodies that touch along a line
 constexpr std::size_t k_most_named = 5;   ///< pairs of bodies in warnings
 constexpr std::uint32_t k_no_partner = 0xffffffffu;
 

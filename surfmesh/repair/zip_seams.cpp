@@ -15,15 +15,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_first_share = 1e-9;   ///< of L
-constexpr double k_growth = 4.0;         ///< of the tolerance
+constexpr double k_first_share = 1e-9;   ///< relative to L
+constexpr double k_growth = 4.0;         ///< growth of the tolerance
 constexpr int k_tries = 4;               ///< rounds at one tolerance
-constexpr double k_feature_share = 0.5;  ///< of the shortest boundary edge: pairs farther apart are no seam
+constexpr double k_feature_share = 0.5;  ///< relative to the shortest boundary edge: pairs farther apart are no seam
 constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60 degrees would be damaged
 constexpr std::uint32_t k_nobody = 0xffffffffu;
 
 struct Rims {
-  std::vector<std::uint32_t> halfedges;                ///< of edges with one facet
+  std::vector<std::uint32_t> halfedges;                ///< half-edges of edges with one facet
   std::vector<std::uint32_t> vertices;                 ///< ascending
   std::vector<std::vector<std::uint32_t>> neighbours;  ///< per vertex of the surface, along open boundaries
   std::vector<double> shortest;                        ///< boundary edge at a vertex, m

@@ -22,7 +22,7 @@ std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchRepor
 
 struct ThinParts {
   std::vector<char> is_thin;  ///< per facet
-  std::int64_t count = 0;     ///< of the parts
+  std::int64_t count = 0;     ///< number of thin parts
 };
 
 /// Finds closed parts that are flat or as thin as a line: thinner than 1e-9 of their own length, or of `length` if that is more, which is rounding. Returns

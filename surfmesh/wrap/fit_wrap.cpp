@@ -148,7 +148,7 @@ class WrapFitter {
           tie[v] = LineTie::line;
         },
         512);
-    // Of the vertices near a corner the nearest moves there.
+    // Only the nearest of the vertices near a corner moves there.
     std::map<std::uint32_t, std::uint32_t> best;
     for (std::uint32_t v = 0; v < n; ++v) {
       if (!corner[v].triangle.is_valid()) continue;

@@ -23,7 +23,7 @@ struct WrapInput {
   double area = 0.0;                           ///< m^2
   std::string half_axis;                       ///< the mesh holds both halves
   double half_at = 0.0;
-  bool is_half_above = true;  ///< of the given half
+  bool is_half_above = true;  ///< side of the given half
   double half_moved = 0.0;
 };
 

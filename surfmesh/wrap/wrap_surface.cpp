@@ -23,8 +23,8 @@ namespace {
 /// Triangles of an alpha wrap on a plane, per area over alpha^2: measured.
 constexpr double k_triangles_per_area = 2.6;
 constexpr double k_automatic_triangles = 60'000.0;
-constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< of the body length
-constexpr double k_automatic_gap = 0.02;                                     ///< of the body length
+constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< relative to the body length
+constexpr double k_automatic_gap = 0.02;                                     ///< relative to the body length
 /// A gap beyond this multiple of the edge needs a separate wrap: a ball of the edge's radius passes through wider openings.
 constexpr double k_gap_of_edge = 2.0;
 /// Smallest winding number of the input on closures of its openings: about a half there, less where there are many openings, zero in front of grooves.
@@ -40,7 +40,7 @@ constexpr double k_inside_input = 0.55, k_leaking_share = 0.05, k_widest_gap = 0
 constexpr double k_coarse_offset = 0.05, k_glance_ball = 4.0;
 /// Relative to the area of the input: a wrap with a larger area covers both sides of baffles, and its edge is chosen by its own area.
 constexpr double k_both_sides = 1.25;
-/// us, of one point of the alpha wrap with all that follows; for the estimate in the log.
+/// s, time of one point of the alpha wrap with all later steps; for the estimate in messages.
 constexpr double k_seconds_per_triangle = 1.5e-4;
 /// Relative to the tolerance: offsets of cuts beside the plane of a half model that are tried.
 constexpr std::array k_half_shifts{0.0, 0.2, 0.5, 1.0, 2.0};
