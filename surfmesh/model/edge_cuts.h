@@ -19,10 +19,10 @@ struct EdgeCut {
   friend bool operator==(const EdgeCut&, const EdgeCut&) = default;
 };
 
-/// Cuts each edge into segments of equal length in the metric 1 / size. Closed edges get three segments; of two edges between the same corners, each gets
-/// more than one. Band edges have no segment longer than their stretch allows. Edges that leave a band begin with the heights of its rows. Opposite sides of
-/// strips are matched. Borders of periodic sides are cut alike, by the smaller of their sizes: points of images are the moved points of the original, within
-/// k_rim_tolerance of the curve.
+/// Cuts each edge into segments of equal length in the metric 1 / size. Closed edges get three segments; at most one of several edges between the same
+/// corners has a single segment. Band edges have no segment longer than their stretch allows. Edges that leave a band begin with the heights of its rows.
+/// Opposite sides of strips are matched. Borders of periodic sides are cut alike, by the smallest of their sizes: points of images are the moved points of
+/// the original, within k_rim_tolerance of the curve.
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
                                   const PeriodicRims& rims, const SurfaceSizes& field, const RunContext& context);
 

@@ -87,7 +87,7 @@ class FaceGridBuilder {
 
  private:
   struct Cell {
-    std::uint32_t tree;      ///< its index there
+    std::uint32_t tree;      ///< index in grid_.tree_
     std::uint32_t u, v;      ///< lower corner, in 1 / 2^k_levels of the box
     int levels_u, levels_v;  ///< halvings so far
     std::array<std::uint32_t, 4> corners;

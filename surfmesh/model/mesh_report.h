@@ -16,7 +16,7 @@ void summarise_faces(const Column<FaceId, MeshedFace>& faces, SurfaceMeshReport&
 /// mean radius ratio.
 void measure_triangles(SurfaceMesh& mesh);
 
-/// Adds the crossings to the report and logs a warning.
+/// Adds the crossings to the report. Logs a warning unless options.crossings is "error".
 /// \throws Error(self_intersection) if there are crossings and options.crossings is "error"
 void report_crossings(const Model& model, const SurfaceMeshOptions& options, const MeshCrossings& crossings, SurfaceMesh& mesh, const RunContext& context);
 

@@ -58,8 +58,8 @@ class ModelWall {
   /// point lies on that edge, else on the face's surface. Thread-safe. \p weights barycentric, not negative
   Point nearest(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
 
-  /// Returns the nearest point on the surface of the triangle's face, searched near the triangle, and if it belongs to the face. Thread-safe. \p weights
-  /// barycentric coordinates on the triangle
+  /// Returns the nearest point on the surface of the triangle's face, searched near the triangle, and reports if the point belongs to the face. Thread-safe.
+  /// \p weights barycentric coordinates on the triangle
   ModelFoot foot(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
   /// Returns the nearest point on the model edge segment of the triangle's side opposite to corner `k`, as a location on the triangle's face; nothing for a
   /// side inside the face. Thread-safe.

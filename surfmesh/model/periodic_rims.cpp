@@ -462,7 +462,7 @@ double image_parameter(const PeriodicRims& rims, std::size_t piece, double t, co
 }
 
 std::vector<SizeSite> sizes_of_partners(const PeriodicRims& rims, const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceSizes& field) {
-  constexpr double k_equal = 0.98;  // relative to the own size: larger values require nothing
+  constexpr double k_equal = 0.98;  // relative to the own size: smallest sizes above this require no source
   constexpr double k_most_between = 512.0;
   std::vector<SizeSite> sites;
   for (const std::vector<std::size_t>& kind : rims.kinds) {

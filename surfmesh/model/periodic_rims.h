@@ -67,7 +67,7 @@ double image_parameter(const PeriodicRims& rims, std::size_t piece, double t, co
 
 class SurfaceSizes;
 
-/// Returns the sizes of a border where an image of it has larger sizes: sources for the next SurfaceSizes, which then has equal sizes on all.
+/// Returns sources at locations of borders where an image has a smaller size: with them the next SurfaceSizes is equal on all images.
 std::vector<SizeSite> sizes_of_partners(const PeriodicRims& rims, const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceSizes& field);
 
 }  // namespace sterna::surfmesh

@@ -26,8 +26,8 @@ struct RemeshDemand {
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RemeshDemand& demand, const RunContext& context);
 
-/// \throws Error(geometry_failed), with the location of the largest distance, if distance or turn exceed the demand. Also usable for a result that was made
-/// without demand.
+/// Checks distance and turn of a result, also of one that was made without demand.
+/// \throws Error(geometry_failed), with the location of the largest distance, if distance or turn exceed the demand
 void require_likeness(const RemeshReport& report, const RemeshDemand& demand);
 
 }  // namespace sterna::surfmesh

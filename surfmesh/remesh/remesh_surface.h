@@ -69,7 +69,7 @@ struct RemeshReport {
   double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
   std::array<std::int64_t, 6> least_angles{};  ///< triangles by their smallest angle: below 10 degrees, below 20, ... up to 60
   std::int64_t n_needles = 0;                  ///< sliver triangles: with an angle below k_needle_angle
-  std::vector<ErrorPlace> needles;             ///< the worst of them, at most k_max_places, and the features that force them
+  std::vector<ErrorPlace> needles;             ///< the worst of these, at most k_max_places, and the features that force them
   SurfaceDistance to_input;                    ///< from the new surface to the given one
   SurfaceDistance from_input;                  ///< from the given one to the new
   double turned_before = 0.0, turned = 0.0;    ///< fractions of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner

@@ -53,7 +53,7 @@ Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std:
   covered.assign(reference.mesh->n_vertices(), 0);
   double largest = 0.0;
   for (const RowReach& reach : reaches) largest = std::max(largest, reach.height);
-  // Sizes that grow by 1 with the distance, starting from the difference to the largest height: at most the largest height within the row height.
+  // Sizes start from the difference to the largest height and grow by 1 with the distance. Within the row height they are thus at most the largest height.
   std::vector<SizeSite> sites;
   for (const RowReach& reach : reaches)
     if (reach.height > 0.0) sites.push_back({reach.point, (largest - reach.height) + k_reach_offset * largest});

@@ -23,7 +23,7 @@ StraightParts find_straight_parts(const Reference& reference, const Column<Halfe
 /// Corrects normals at ends of straight edges and at borders of flat faces, which are means with the adjacent bends: makes them normal to the straight part.
 void straighten_normals(Reference& reference, const Column<HalfedgeId, std::uint8_t>& is_sharp, const StraightParts& parts, const RunContext& context);
 
-/// Returns for each segment of the line if it is straight.
+/// Returns a flag per segment of the line: true if the segment is straight.
 std::vector<std::uint8_t> straight_segments(const TriMesh& mesh, const FeatureLine& line);
 
 }  // namespace sterna::surfmesh
