@@ -1,8 +1,8 @@
-// Columns stand on the border's points, at right angles to it within the surface; they grow row by row, all together:
-//   1. start_columns   a column for each point; near a border that is a column itself the others will lean as it does
-//   2. grow_rows       one step by row, at right angles to the row below, until it is as high as its edges are long, or something is too near
-//   3. limit_rows      no neighbours that differ by more than one row, no cell that is turned over (exactly, in the plane)
-//   4. lay             cells and the line that is left for mesh_face; where that cannot be meshed, rows are taken back around the place
+// Columns stand on the border's points, at right angles to it within the surface. All columns grow together, row by row:
+// 1. start_columns   a column for each point; near a border that is a column itself, the others are inclined like that border
+// 2. grow_rows       one step per row, at right angles to the row below, until its height reaches its edge length, or an obstacle is too near
+// 3. limit_rows      no neighbours that differ by more than one row, no inverted cell (exactly, in the plane)
+// 4. lay             cells, and the remaining border for mesh_face; if the rest cannot be meshed, rows are removed around the location
 #include "surfmesh/face/band_rows.h"
 
 #include <algorithm>
@@ -23,37 +23,37 @@ namespace {
 
 using delaunay::sample;
 
-/// No row vertex is nearer to another border than this many lengths of its edges along the border: room for one triangle between.
+/// Smallest distance of a row vertex from another border, in lengths of its edges along the border: room for one triangle between.
 constexpr double k_clearance = 1.0;
-/// Rows of two borders that face each other leave as much to each other.
+/// Rows of two borders that face each other leave this distance to each other.
 constexpr double k_half = 1.0;
-/// Cells may get narrower and wider by this from the border outwards.
+/// Range of the ratio of a cell's width to its width at the border, from the border outwards.
 constexpr double k_narrowest = 0.45, k_widest = 2.2;
-/// Columns lean over this many times what they lean by: neighbours come an eighth nearer to each other at most.
+/// Columns are inclined over a reach of this many times the deflection: neighbours approach each other by at most one eighth.
 constexpr double k_lean_reach = 8.0;
-/// A step is exact to this part of its length (growth is told to a per mille).
+/// A step is exact to this fraction of its length (growth is reported to a per mille).
 constexpr double k_step_tolerance = 1e-7;
 constexpr int k_max_step_iterations = 30;
-/// Rows are taken back within this many edge lengths of a place that cannot be meshed; so often, then all rows go.
+/// Rows are removed within this many edge lengths of a location that cannot be meshed; after k_max_take_backs attempts all rows are removed.
 constexpr double k_take_back_reach = 3.0;
 constexpr int k_max_take_backs = 12;
-/// By which two least angles differ so little that diagonals alternate, rad.
+/// Two smallest angles that differ by less than this are considered equal, so that diagonals alternate, rad.
 constexpr double k_same_angle = 0.01;
 
 struct Place {
   Uv uv;
   Point point;
   Vec3 normal;           ///< du x dv, unit
-  std::uint32_t id = 0;  ///< of the border for given points; set by `lay` for others
+  std::uint32_t id = 0;  ///< a border id for given points; set by `lay` for others
 };
 
 struct RowColumn {
   std::vector<Place> rows;             ///< [0] on the border
   double spacing = 0.0;                ///< m, mean length of the two edges along the border
-  double at_top = 0.0;                 ///< m, the same in the last row, no more than `spacing`
+  double at_top = 0.0;                 ///< m, mean edge length in the last row, not more than `spacing`
   Vec3 direction;                      ///< unit, of the next step
-  std::array<double, 2> lean_share{};  ///< of what the columns on the border at the start, the end, lean
-  double lean = 0.0;                   ///< rad, of the next step: from right angles towards the run's sense
+  std::array<double, 2> lean_share{};  ///< fraction of the inclination of the border columns at the start, at the end
+  double lean = 0.0;                   ///< rad, of the next step: from right angles towards the run's direction
   double height = 0.0;                 ///< m, of the last row
   double climbed = 0.0;                ///< m, sum of heights
   bool is_growing = false;
@@ -65,16 +65,16 @@ struct Run {
   const BandRun* wish = nullptr;
   std::vector<RowColumn> columns;
   double length = 0.0;
-  std::array<double, 2> lean{};  ///< rad: of the columns on the border at the start, the end, in the row that grows
+  std::array<double, 2> lean{};  ///< rad: inclination of the columns on the border at the start, the end, in the growing row
 };
 
-/// All of a face with its rows.
+/// The complete state of a face with its rows.
 struct Laying {
   const Surface& surface;
   const FaceBorder& border;
   Vec2 scale;
   std::vector<std::uint32_t> first_of_loop;
-  std::vector<bool> is_left;  ///< by loop: the face lies to the left of it
+  std::vector<bool> is_left;  ///< by loop: the face lies to the left of the loop
   std::vector<Run> runs;
   BandMeasures measures;
 };
@@ -83,7 +83,7 @@ std::uint32_t border_id(const Laying& laying, std::size_t loop, std::size_t i) {
   return laying.first_of_loop[loop] + static_cast<std::uint32_t>(i % laying.border.loops[loop].size());
 }
 
-/// Sign of the area: outer loops have the face to the left when it is positive, holes when it is negative.
+/// Returns the side of each loop by the sign of its area: outer loops have the face to the left if it is positive, holes if it is negative.
 std::vector<bool> sides_of(const FaceBorder& border) {
   std::vector<double> area;
   std::size_t outer = 0;
@@ -110,7 +110,7 @@ Vec3 along_surface(const Vec3& v, const Vec3& normal) { return v - dot(v, normal
 
 double angle_along(const Vec3& direction, const Vec3& tangent) { return std::asin(std::clamp(dot(direction, tangent), -1.0, 1.0)); }
 
-/// Normal curvature of the surface in a direction, 1/m, not negative.
+/// Returns the normal curvature of the surface in a direction, 1/m, not negative.
 double curvature_along(const Surface& surface, Uv at, const Vec3& direction) {
   const SurfaceDerivatives d = surface.derivatives(at);
   const delaunay::SurfaceFrame frame{d.du, d.dv, {}};
@@ -121,7 +121,7 @@ double curvature_along(const Surface& surface, Uv at, const Vec3& direction) {
   return std::isfinite(result) ? result : 0.0;
 }
 
-/// A point of the surface at `step` metres from `from`, ahead along `direction`. \return false where the surface does not go on like that
+/// Finds a point of the surface at `step` metres from `from`, ahead along `direction`. \return false if the surface does not continue in this way
 bool walk(const Surface& surface, const Place& from, const Vec3& direction, double step, Place& to) {
   to.uv = from.uv;
   delaunay::SurfaceSample at = sample(surface, from.uv);
@@ -164,7 +164,7 @@ void start_columns(const Laying& laying, Run& run) {
     column.is_growing = i > 0 && i + 1 < n && norm2(column.direction) > 0.0;
     run.columns.push_back(std::move(column));
   }
-  // Columns on the border, and how far others lean like them.
+  // Columns on the border, and the distance over which other columns are inclined like them.
   std::array<double, 2> reach{};
   for (const std::size_t end : {0u, 1u}) {
     const std::size_t n_given = end == 0 ? wish.n_before : wish.n_after;
@@ -184,7 +184,7 @@ void start_columns(const Laying& laying, Run& run) {
   }
 }
 
-/// Directions of the steps to row k: across the row below, leaning as the columns on the border do there.
+/// Sets the directions of the steps to row k: across the row below, inclined like the columns on the border there.
 void set_directions(const Laying& laying, Run& run, std::size_t k) {
   std::vector<RowColumn>& columns = run.columns;
   const std::size_t n = columns.size();
@@ -209,14 +209,14 @@ void set_directions(const Laying& laying, Run& run, std::size_t k) {
     column.lean = column.lean_share[0] * run.lean[0] + column.lean_share[1] * run.lean[1];
     const Vec3 tangent = tangent_at(i, wide);
     column.at_top = column.spacing;
-    if (norm2(tangent) == 0.0) continue;  // goes on as it did
+    if (norm2(tangent) == 0.0) continue;  // the direction stays unchanged
     column.at_top = std::min(column.spacing, wide);
     const Vec3 across = side * cross(column.rows.back().normal, tangent);
     column.direction = std::cos(column.lean) * across + std::sin(column.lean) * tangent;
   }
 }
 
-/// Border points by what they are to a run: its own points and the columns on the border beside it are no obstacle.
+/// Border points as obstacles for a run. Its own points and the columns on the border beside it are no obstacles.
 struct Obstacles {
   PointGrid points;                  ///< all border points of the face, with half their edges as reach
   std::vector<std::int32_t> run_of;  ///< by border id: -1 none; points of columns on the border belong to their run
@@ -229,7 +229,7 @@ Obstacles make_obstacles(const Laying& laying) {
     const auto& loop = laying.border.loops[l];
     for (std::size_t i = 0; i < loop.size(); ++i) {
       points.push_back({loop[i].point, border_id(laying, l, i)});
-      // Long edges have points between, so that none is passed through.
+      // Long edges get intermediate points, so that rows cannot pass through them.
       constexpr double k_pieces = 4.0;
       for (double k = 1.0; k < k_pieces; k += 1.0)
         points.push_back({loop[i].point + (k / k_pieces) * (loop[(i + 1) % loop.size()].point - loop[i].point), border_id(laying, l, i)});
@@ -249,13 +249,13 @@ bool is_too_near(const Obstacles& obstacles, std::int32_t run, const Point& p, d
   obstacles.points.for_each_near(p, reach, [&](const GridPoint& other) {
     const std::int32_t owner = obstacles.run_of[other.id];
     if (owner == run) return;
-    // Another run will climb as high; towards a mere border only the clearance counts.
+    // Another run will climb as high as this one; towards a plain border only the clearance counts.
     if (norm2(other.point - p) < (owner >= 0 ? reach * reach : clearance * clearance)) is_near = true;
   });
   return is_near;
 }
 
-/// Adds a row to a column. \return false: it ends here
+/// Adds a row to a column. \return false: the column ends here
 bool grow(const Laying& laying, const Obstacles& obstacles, std::size_t run, RowColumn& column) {
   const RowLaw& law = laying.runs[run].wish->law;
   const Place& top = column.rows.back();
@@ -264,7 +264,7 @@ bool grow(const Laying& laying, const Obstacles& obstacles, std::size_t run, Row
   Place next;
   if (!walk(laying.surface, top, column.direction, height / std::cos(column.lean), next)) return false;
   if (is_too_near(obstacles, static_cast<std::int32_t>(run), next.point, k_clearance * std::max(column.spacing, height), column.climbed + height)) return false;
-  // The mean of the directions before and after a step is that of its chord.
+  // The mean of the directions before and after a step is the direction of its chord.
   const Vec3 chord = normalized(next.point - top.point);
   column.direction = normalized(along_surface(2.0 * dot(column.direction, chord) * chord - column.direction, next.normal));
   column.height = height;
@@ -298,7 +298,7 @@ bool is_upright(const Laying& laying, const Place& a, const Place& b, const Plac
 
 using PlaceTriangle = std::array<const Place*, 3>;
 
-/// Triangles between columns i and i + 1 in row k (1 ..), in the sense of (u, v). A column that ends below gives one triangle.
+/// Visits the triangles between columns i and i + 1 in row k (1 ..), in the sense of (u, v). A column that ends below gives one triangle.
 template <class Visit>
 void for_each_cell(const Laying& laying, const Run& run, std::size_t i, const Visit& visit) {
   const RowColumn &left = run.columns[i], &right = run.columns[i + 1];
@@ -321,7 +321,7 @@ void for_each_cell(const Laying& laying, const Run& run, std::size_t i, const Vi
   if (right.n_rows() > n) emit(n + 1, left.rows[n], right.rows[n], right.rows[n + 1]);
 }
 
-/// Rows of column i from the k-th on go.
+/// Removes the rows of column i from the k-th on.
 void cut(Run& run, std::size_t i, std::size_t k) {
   if (run.columns[i].rows.size() > k) run.columns[i].rows.resize(std::max<std::size_t>(k, 1));
 }
@@ -329,7 +329,7 @@ void cut(Run& run, std::size_t i, std::size_t k) {
 void limit_rows(const Laying& laying, Run& run) {
   std::vector<RowColumn>& columns = run.columns;
   bool is_changed = true;
-  while (is_changed) {  // every turn takes a row away
+  while (is_changed) {  // every iteration removes a row
     is_changed = false;
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) cut(run, i + 1, columns[i].n_rows() + 2);
     for (std::size_t i = columns.size() - 1; i > 0; --i) cut(run, i - 1, columns[i].n_rows() + 2);
@@ -351,7 +351,7 @@ void limit_rows(const Laying& laying, Run& run) {
   }
 }
 
-/// Length along and height across of the cell of row k between two columns.
+/// Returns the length along and the height across of the cell of row k between two columns.
 std::array<double, 2> cell_size(const RowColumn& left, const RowColumn& right, std::size_t k) {
   const Point &a = left.rows[k - 1].point, &b = right.rows[k - 1].point, &c = right.rows[k].point, &d = left.rows[k].point;
   const double along = 0.5 * (distance(a, b) + distance(d, c)),
@@ -376,13 +376,13 @@ void measure_cells(Laying& laying) {
   }
 }
 
-/// The border that rows leave, and what its points are.
+/// The border left by the rows, and the identity of its points.
 struct RestBorder {
   FaceBorder border;
-  std::vector<std::uint32_t> ids;  ///< by its points: of the border, or n_border + number of the row vertex
+  std::vector<std::uint32_t> ids;  ///< per point: border id, or n_border + number of the row vertex
 };
 
-/// Numbers the row vertices, and replaces each run's points by the line of its last rows.
+/// Numbers the row vertices, and replaces each run's points by the outer boundary of its rows.
 RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
   const std::uint32_t n_border = laying.first_of_loop.back();
   for (Run& run : laying.runs)
@@ -405,7 +405,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
   for (std::size_t l = 0; l < laying.border.loops.size(); ++l) {
     std::vector<BorderPoint> loop;
     const auto add = [&](Uv uv, const Point& point, std::uint32_t id) {
-      if (!loop.empty() && rest.ids.back() == id) return;  // two runs end and begin in one point
+      if (!loop.empty() && rest.ids.back() == id) return;  // two runs end and begin at the same point
       loop.push_back({uv, point});
       rest.ids.push_back(id);
     };
@@ -426,7 +426,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
   return rest;
 }
 
-/// Puts the mesh of the rest and the rows together: border points first, in their order.
+/// Joins the mesh of the rest and the rows: border points first, in their order.
 FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<const Place*>& row_places, FaceMesh inner) {
   FaceMesh result;
   result.report = inner.report;
@@ -463,7 +463,7 @@ FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<co
   return result;
 }
 
-/// Halves rows near the places (of all columns when there is none). \return whether there were any
+/// Halves the number of rows near the locations (of all columns with `all`). \return true if there were any
 bool take_back(Laying& laying, const std::vector<ErrorPlace>& places, bool all, std::vector<Point>& dropped) {
   bool is_any = false;
   for (Run& run : laying.runs) {

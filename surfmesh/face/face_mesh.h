@@ -1,4 +1,4 @@
-// A parametric face with sizes that follow its curvature: geom/delaunay/face_mesh.h with what the surface asks for.
+// Meshes a parametric face with sizes that follow its curvature: geom/delaunay/face_mesh.h with the sizes required by the surface.
 #pragma once
 
 #include "geom/delaunay/face_mesh.h"
@@ -13,7 +13,7 @@ using delaunay::FaceMeshReport;
 using delaunay::mesh_face;
 using delaunay::SizeFunction;
 
-/// delaunay::mesh_face with `size` or less, where edges of `size` would span more than `curvature_angle`.
+/// Calls delaunay::mesh_face with `size`, reduced where edges of that length would span more than `curvature_angle`.
 /// \throws as delaunay::mesh_face
 FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const FaceMeshOptions& options, const RunContext& context);
 

@@ -8,14 +8,15 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_no_limit = std::numeric_limits<double>::infinity();
-/// Samples between two breaks at least: a bicubic piece has few bumps.
+/// Smallest number of samples between two breaks: a bicubic piece has few bumps.
 constexpr std::size_t k_samples_per_piece = 4;
-/// Samples of a direction as a whole: at least, so that analytic surfaces of one piece are seen; at most, so that a face of many pieces is still cheap.
+/// Limits for the total number of samples in a direction: the lower one resolves analytic surfaces of one piece, the upper one keeps faces of many pieces
+/// cheap.
 constexpr std::size_t k_min_samples = 33;
 constexpr std::size_t k_max_samples = 257;
 /// Sine squared between du and dv below which there is no normal.
 constexpr double k_min_sine2 = 1e-20;
-/// Rounds of four sweeps that carry sizes over the grid; each reaches as far as it likes along the sweep, so few are needed.
+/// Rounds of four sweeps that carry sizes over the grid; each sweep carries sizes any distance in its direction, so few are needed.
 constexpr int k_growth_rounds = 3;
 
 std::vector<double> sample_line(const std::vector<double>& breaks, const Interval& range) {
@@ -33,7 +34,7 @@ std::vector<double> sample_line(const std::vector<double>& breaks, const Interva
   return line;
 }
 
-/// Index i and share s in [0, 1] with line[i] (1 - s) + line[i + 1] s = t, held within the line.
+/// Returns index i and fraction s in [0, 1] with line[i] (1 - s) + line[i + 1] s = t, clamped to the line.
 std::pair<std::size_t, double> find_on_line(const std::vector<double>& line, double t) {
   const auto above = std::upper_bound(line.begin() + 1, line.end() - 1, t);
   const auto i = static_cast<std::size_t>(above - line.begin()) - 1;
@@ -41,11 +42,12 @@ std::pair<std::size_t, double> find_on_line(const std::vector<double>& line, dou
   return {i, length > 0.0 ? std::clamp((t - line[i]) / length, 0.0, 1.0) : 0.0};
 }
 
-/// Samples on the box's border lie inside of polygons that run along it: moved by so much of the box towards its middle before they are asked.
+/// Samples on the box's border must count as inside of polygons that run along it: they are moved by this fraction of the box towards its middle for the
+/// test.
 constexpr double k_inwards = 1e-6;
 double inwards(double t, const Interval& range) { return t + k_inwards * (0.5 * (range.from + range.to) - t); }
 
-/// Area inside polygons of which the holes run against the first.
+/// Returns the area inside polygons; holes run against the first polygon.
 double area_of(std::span<const std::vector<Uv>> loops) {
   double sum = 0.0;
   for (const std::vector<Uv>& loop : loops)
@@ -56,7 +58,7 @@ double area_of(std::span<const std::vector<Uv>> loops) {
   return std::abs(sum);
 }
 
-/// Where polygons cross the line of this u, ascending v.
+/// Finds the crossings of polygons with the line of this u, ascending in v.
 void find_crossings_of_row(std::span<const std::vector<Uv>> loops, double u, std::vector<double>& crossings) {
   crossings.clear();
   for (const std::vector<Uv>& loop : loops)
@@ -67,7 +69,7 @@ void find_crossings_of_row(std::span<const std::vector<Uv>> loops, double u, std
   std::sort(crossings.begin(), crossings.end());
 }
 
-/// Sizes are met on the average: edges are up to about 1.3 times as long, and the error grows with the square of their length.
+/// Sizes are met on average only: edges are up to about 1.3 times as long, and the error grows with the square of their length.
 constexpr double k_error_share = 0.6;
 
 }  // namespace
@@ -95,8 +97,8 @@ double CurvatureLimits::size_of(double curvature) const {
   const auto chord = [&](double by) { return std::isfinite(by) ? 2.0 * std::sin(0.5 * by) * radius : k_no_limit; };
   const double size = std::max({chord(angle), std::min(min_edge, chord(most_turn)), least_edge});
   if (!std::isfinite(chord_error)) return size;
-  // The arc over an equilateral triangle's middle rises by e where its edges are l: l^2 = 3 (2 R e - e^2). Curvatures above 1/e ask for what spans
-  // a feature that is as high as the error, and never for less: no finer edge brings the surface nearer than that.
+  // The arc over an equilateral triangle's middle rises by e if its edges are l: l^2 = 3 (2 R e - e^2). Curvatures above 1/e lead to the size that spans a
+  // feature as high as the error, and never to less: finer edges would not bring the surface nearer.
   const double e = k_error_share * chord_error, r = std::max(radius, e);
   return std::min(size, std::max(error_edge, std::sqrt(3.0 * (2.0 * r * e - e * e))));
 }
@@ -125,7 +127,7 @@ CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, 
       const SurfaceDerivatives d = surface.derivatives({u_[i], v_[j]});
       points_[k] = d.point;
       const bool is_inside = loops.empty() || (std::upper_bound(crossings.begin(), crossings.end(), inwards(v_[j], box.v)) - crossings.begin()) % 2 == 1;
-      // Some parametrisations have no finite speed on their border (a square root at a nose): such samples say nothing.
+      // Some parametrisations have no finite speed on their border (a square root at a nose): such samples are ignored.
       if (is_finite(d.du)) {
         mean_speed_u_ += norm(d.du);
         ++n_fast_u;
@@ -172,7 +174,7 @@ double CurvatureSizes::operator()(Uv at) const {
   const auto [j, t] = find_on_line(v_, at.v);
   const std::size_t n_v = v_.size();
   const double a = size_[i * n_v + j], b = size_[i * n_v + j + 1], c = size_[(i + 1) * n_v + j], d = size_[(i + 1) * n_v + j + 1];
-  // Where some corner has no limit, the sum would not be a number.
+  // If a corner has no limit (infinity), the weighted sum could be NaN.
   if (std::max({a, b, c, d}) == k_no_limit) return std::min({a, b, c, d});
   return (1.0 - s) * ((1.0 - t) * a + t * b) + s * ((1.0 - t) * c + t * d);
 }

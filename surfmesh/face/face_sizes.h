@@ -1,4 +1,4 @@
-// What edge length the surface's curvature asks for, sampled once for a face on a grid in (u, v) and limited in growth.
+// Edge length required by the surface's curvature, sampled once per face on a grid in (u, v) and limited in growth.
 #pragma once
 
 #include <algorithm>
@@ -11,33 +11,33 @@
 
 namespace sterna::surfmesh {
 
-/// Larger absolute principal curvature, 1/m; zero where the surface has no normal (poles).
+/// Returns the larger absolute principal curvature, 1/m; zero where the surface has no normal (poles).
 double largest_curvature(const SurfaceDerivatives& d);
 
-/// What curvature may ask for.
+/// Limits of the sizes derived from curvature.
 struct CurvatureLimits {
   double angle = 0.2;                                            ///< rad: an edge spans at most this angle
   double chord_error = std::numeric_limits<double>::infinity();  ///< m: triangles are no farther from the surface
-  double min_edge = 0.0;                                         ///< m: the angle asks for no less,
-  double most_turn = std::numeric_limits<double>::infinity();    ///< rad: unless such an edge would span more than this,
-  double least_edge = 0.0;                                       ///< m: and then for no less than this
-  double error_edge = 0.0;                                       ///< m: the chord error asks for no less
-  double growth = 0.3;                                           ///< change of the length by distance; infinite: each sample asks for itself
-  /// Of two faces beside an edge: the lesser of each but the growth.
+  double min_edge = 0.0;                                         ///< m: lower limit of sizes from the angle,
+  double most_turn = std::numeric_limits<double>::infinity();    ///< rad: unless such an edge would span more than this angle,
+  double least_edge = 0.0;                                       ///< m: in which case this is the lower limit
+  double error_edge = 0.0;                                       ///< m: lower limit of sizes from the chord error
+  double growth = 0.3;                                           ///< change of length per distance; infinite: no limit between samples
+  /// Combines the limits of the two faces beside an edge: the smaller of each member except growth.
   void take_less(const CurvatureLimits& other);
-  /// Metres, for a radius of curvature; infinite for none.
+  /// Returns the size in metres for a curvature; infinite for zero curvature.
   double size_of(double curvature) const;
 };
 
 class CurvatureSizes {
  public:
-  /// Samples the curvature in `box`, at least k_samples_per_piece times between breaks. With `loops` (closed polygons in (u, v)) only samples inside them
-  /// (by parity) ask for something: what is trimmed away does not count. Sizes are infinite until they are limited.
+  /// Samples the curvature in `box`, at least k_samples_per_piece times between breaks. With `loops` (closed polygons in (u, v)) only samples inside them (by
+  /// parity) count: trimmed regions are ignored. Sizes are infinite until limit() is called.
   CurvatureSizes(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops = {});
-  /// Turns curvatures into sizes.
-  /// \pre the first call
+  /// Converts curvatures into sizes.
+  /// \pre not called before
   void limit(const CurvatureLimits& limits);
-  /// Metres; infinite on a plane. Bilinear between samples.
+  /// Returns the size in metres, bilinear between samples; infinite on a plane.
   double operator()(Uv at) const;
   /// Calls visit(point, size) for every sample inside.
   template <class Visit>
@@ -54,9 +54,9 @@ class CurvatureSizes {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (cell_[i] > 0.0) visit(size_[i], cell_[i] * area_ / sum);
   }
-  /// Area inside, m^2: exact on planes, elsewhere from the samples, a few per cent off where the border is not the box.
+  /// Returns the area inside in m^2: exact on planes, elsewhere from the samples, a few per cent off where the border is not the box.
   double area() const { return area_; }
-  /// Mean lengths of du and dv over the samples, metres by parameter.
+  /// Mean lengths of du and dv over the samples, metres per parameter unit.
   double mean_speed_u() const { return mean_speed_u_; }
   double mean_speed_v() const { return mean_speed_v_; }
 

@@ -12,11 +12,11 @@ namespace {
 
 using delaunay::sample;
 
-/// The shape of a short side reaches so many times its length along the strip.
+/// The shape of a short side influences the strip over this many times its length.
 constexpr double k_end_reach = 2.0;
 
 struct Grid {
-  std::size_t n_rows = 0, n_columns = 0;  ///< of points
+  std::size_t n_rows = 0, n_columns = 0;  ///< numbers of points
   std::vector<std::uint32_t> id;
   std::uint32_t operator()(std::size_t i, std::size_t j) const { return id[i * n_columns + j]; }
 };
@@ -43,7 +43,7 @@ std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& b
     mesh.uv.push_back(p.uv);
   }
   const auto between = [](Uv a, Uv b, double t) { return (1.0 - t) * a + t * b; };
-  // How far the short sides are from straight in (u, v), carried inwards over a few of their lengths.
+  // Deviation of the short sides from straight lines in (u, v), carried inwards over a few of their lengths.
   const double width_start = distance(loop[first_side(0)].point, loop[second_side(0)].point),
                width_end = distance(loop[first_side(n_along)].point, loop[second_side(n_along)].point);
   std::vector<double> along{0.0};
@@ -92,7 +92,7 @@ std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& b
     if (orient2d(in_plane(t[0]), in_plane(t[1]), in_plane(t[2])) <= 0) return std::nullopt;
   }
   for (const Uv uv : mesh.uv) mesh.normals.push_back(sample(surface, uv).frame.normal);
-  mesh.report.min_angle = std::numbers::pi;  // of no isotropic triangle
+  mesh.report.min_angle = std::numbers::pi;  // there are no isotropic triangles
   mesh.n_band = mesh.triangles.size();
   result.bands.n_triangles = static_cast<std::int64_t>(mesh.n_band);
   return result;

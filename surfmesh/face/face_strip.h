@@ -1,4 +1,4 @@
-// A narrow face as a structured strip: the base of a blunt trailing edge.
+// Structured mesh of a narrow face: the base of a blunt trailing edge.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,9 @@
 
 namespace sterna::surfmesh {
 
-/// Where in the border's only loop the sides of a strip begin: two long ones of `n_along` segments each and, between the end of the first and the start of the
-/// second, one of `n_across` segments, or the corner that both share; the same between the end of the second and the start of the first.
+/// Start positions of the sides of a strip in the border's only loop. The strip has two long sides of `n_along` segments each. Between the end of the first
+/// and the start of the second lies a side of `n_across` segments, or the corner that both share; the same holds between the end of the second and the start
+/// of the first.
 struct StripSides {
   std::size_t first_long = 0;  ///< position of the first point of the first long side
   std::size_t n_along = 0;
@@ -17,8 +18,8 @@ struct StripSides {
   bool is_start_pointed = false;  ///< ... and at its start
 };
 
-/// n_along x n_across cells, each of two triangles (a fan in front of a pointed end). Inner vertices lie on the surface, at equal shares between the long
-/// sides. \return nothing where cells would be turned over in (u, v)
+/// Creates n_along x n_across cells of two triangles each (a fan of triangles in front of a pointed end). Inner vertices lie on the surface, at equal
+/// fractions between the long sides. \return nothing if cells would be inverted in (u, v)
 std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& border, const StripSides& sides);
 
 }  // namespace sterna::surfmesh

@@ -1,4 +1,4 @@
-// Points found by distance: sorted by the cells of a uniform grid.
+// Points sorted into the cells of a uniform grid, for queries by distance.
 #pragma once
 
 #include <algorithm>
@@ -19,18 +19,18 @@ struct GridPoint {
 class PointGrid {
  public:
   PointGrid() = default;
-  /// Cells hold a few points each.
+  /// Sorts the points into cells of a few points each.
   explicit PointGrid(std::vector<GridPoint> points) {
     Box box;
     for (const GridPoint& p : points) box.add(p.point);
     if (box.empty()) return;
-    constexpr double k_cells_by_side = 64.0;  // border points lie along lines: that many cells a side have few each
+    constexpr double k_cells_by_side = 64.0;  // border points lie along lines: with this many cells per side, each holds few points
     low_ = box.min;
     side_ = std::max(box.longest_side() / k_cells_by_side, 1e-300);
     for (const GridPoint& p : points) entries_.push_back({cell_of(p.point), p});
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.cell != b.cell ? a.cell < b.cell : a.point.id < b.point.id; });
   }
-  /// Calls visit(point) for all within `reach` metres, and for some farther ones.
+  /// Calls visit(point) for all points within `reach` metres, and for some farther ones.
   template <class Visit>
   void for_each_near(const Point& p, double reach, const Visit& visit) const {
     const Vec3 r{reach, reach, reach};

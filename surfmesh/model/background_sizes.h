@@ -1,4 +1,4 @@
-// The wanted length of edges all over a model: the least of what sites ask for, growing with the distance from them.
+// Target edge length all over a model: the minimum over the targets at given points, each growing with the distance from its point.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace sterna::surfmesh {
 
-/// size(p) = min over sites of size_i + growth |p - x_i|, through space: a lower bound of what SurfaceSizes carries along the surface.
-/// Sites nearer to each other than half of their size are thinned to the least of them.
+/// size(p) = min over sites of size_i + growth |p - x_i|, with distances through space: a lower bound of what SurfaceSizes carries along the surface.
+/// Sites closer to each other than half of their size are thinned to the smallest of them.
 class BackgroundSizes {
  public:
-  /// `growth`: change of length by distance, > 0. Only sites below `largest` matter.
+  /// `growth`: change of length per distance, > 0. Only sites below `largest` matter.
   BackgroundSizes(const std::vector<SizeSite>& sites, double growth, double largest, const RunContext& context);
-  /// Metres; `cap` where no site asks for less; the least within `reach` of p. From many threads.
+  /// Returns the size in metres: the smallest one within `reach` of p, or `cap` where no site requires less. Thread-safe.
   double operator()(const Point& p, double cap, double reach = 0.0) const { return sites_.smallest(p, {.cap = cap, .reach = reach}); }
 
  private:

@@ -1,4 +1,4 @@
-// Where bands stand on a face's border.
+// Locations of bands on the border of a face.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace sterna::surfmesh {
 
-/// From one point of a border to the next.
+/// Segment from one point of a border to the next.
 struct BorderSegment {
-  EdgeId edge;                                         ///< that stands for it; invalid along poles and seams of the face's own
-  bool is_forward = true;                              ///< along that edge's parameter
-  bool is_first = false;                               ///< of its use
-  std::size_t n_rows_at_start = 0, n_rows_at_end = 0;  ///< of its use, seen along the border
+  EdgeId edge;                                         ///< edge on which the segment lies; invalid along poles and along the face's own seams
+  bool is_forward = true;                              ///< runs in the direction of that edge's parameter
+  bool is_first = false;                               ///< first segment of its edge use
+  std::size_t n_rows_at_start = 0, n_rows_at_end = 0;  ///< rows of the edge use, in the direction of the border
 };
-/// As the loops' points: from each to the next.
+/// Segments in the order of the loops' points: from each point to the next.
 using BorderSegments = std::vector<std::vector<BorderSegment>>;
 BorderSegments segments_of(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                            const LabelledBorder& labelled);
 
-/// Runs of the face's border beside edges of bands; columns on the border where bands go on beyond the face.
+/// Returns the runs of the face's border beside band edges, with columns on the border where bands continue beyond the face.
 std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const BorderSegments& segments, const WingBands& bands, const CurvatureLimits& limits);
 
-/// The base of a trailing edge as a strip. \return nothing where its border is not that of a strip, or cells would be turned over
+/// Meshes the base of a trailing edge as a strip. \return nothing if the border is not that of a strip, or if cells would be inverted
 std::optional<BandedFace> mesh_base(const Surface& surface, const LabelledBorder& labelled, const BorderSegments& segments, const BaseStrip& strip);
 
 }  // namespace sterna::surfmesh

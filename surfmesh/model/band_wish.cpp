@@ -8,7 +8,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// What a first cell alone asks for.
+/// Stretch used if only a first cell is given.
 constexpr double k_default_stretch = 10.0;
 
 double least_said(double a, double b) { return is_automatic(a) ? b : is_automatic(b) ? a : std::min(a, b); }
@@ -40,8 +40,8 @@ BandWishes band_wishes(const std::string& name, BandWishes wishes, double refine
     overrule(wishes.leading.growth, rule.leading_edge_growth);
     overrule(wishes.trailing.growth, rule.trailing_edge_growth);
   }
-  // The next mesh of a family: lengths by the factor, so many more cells, and of the growth the root that belongs to it (docs/method/quality.md, "Mesh
-  // families").
+  // The next mesh of a family: lengths are divided by the factor, so there are more cells by that factor, and growth becomes the corresponding root
+  // (docs/method/quality.md, "Mesh families").
   for (BandWish* wish : {&wishes.leading, &wishes.trailing}) {
     wish->chordwise /= refinement;
     wish->growth = std::pow(wish->growth, 1.0 / refinement);

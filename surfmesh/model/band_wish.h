@@ -1,4 +1,4 @@
-// What options and rules ask for along leading and trailing edges.
+// Requirements of options and rules along leading and trailing edges.
 #pragma once
 
 #include <span>
@@ -8,32 +8,33 @@
 
 namespace sterna::surfmesh {
 
-/// What a face asks for along its leading or trailing edges; not a number: not said.
+/// Requirements of a face along its leading or trailing edges. NaN: not given.
 struct BandWish {
   double chordwise = k_automatic;  ///< m, first cell
-  double stretch = k_automatic;    ///< longest cell along : first cell across
+  double stretch = k_automatic;    ///< longest cell size along the edge : first cell size across it
   double growth = 1.2;
-  std::string rule;  ///< names that asked; empty: the options for all
+  std::string rule;  ///< names of the rules that set the values; empty: the options for all faces
   bool is_any() const { return !is_automatic(chordwise) || !is_automatic(stretch); }
 
-  /// m, where one is asked for: what a stretch alone asks for comes from the longest edge.
+  /// Returns the first cell height in metres. If only a stretch is given, the height follows from the longest edge.
   double first_height(double max_edge) const;
-  /// m, of cells along: no longer than max_edge.
+  /// Returns the longest cell size along the edge in metres: not longer than max_edge.
   double longest(double max_edge) const;
 };
 
-/// Of faces on both sides of an edge: the lesser, or what one of them asks for.
+/// Combines the requirements of the faces on both sides of an edge: the smaller value, or the only one given.
 BandWish both(const BandWish& a, const BandWish& b);
 
 struct BandWishes {
   BandWish leading, trailing;
 };
 
-/// Of faces (patches) with this name: rules overrule the options for all, member by member; lengths and growth are those of the family's member.
+/// Returns the requirements of faces (patches) with this name. Rules override the options for all, member by member. Lengths and growth are those of the
+/// current member of the refinement family.
 template <class Options>
 BandWishes band_wishes(const std::string& name, const Options& options, std::span<const PatchSurfaceOptions> patches);
 
-/// The same of two wishes. \param refinement of the family's member
+/// Applies the rules for this name to given requirements. \param refinement of the current member of the refinement family
 BandWishes band_wishes(const std::string& name, BandWishes wishes, double refinement, std::span<const PatchSurfaceOptions> patches);
 
 template <class Options>

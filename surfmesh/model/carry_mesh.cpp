@@ -1,5 +1,5 @@
-// Each face gets its triangles back with (u, v) at their corners: on seams and at poles a vertex has several, of which the triangle takes those that lie
-// nearest to each other.
+// Each face gets its triangles back with (u, v) at their corners. On seams and at poles a vertex has several (u, v); the triangle takes those nearest to each
+// other.
 #include "surfmesh/model/carry_mesh.h"
 
 #include <algorithm>
@@ -21,15 +21,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_carried_sine2 = 1e-16;  ///< below: du and dv are parallel as far as doubles tell, and the surface has no normal
-constexpr double k_least_angle = 20.0 * k_degree, k_largest_angle = 130.0 * k_degree;  ///< of FaceMeshReport::n_outside_20_130
+constexpr double k_carried_sine2 = 1e-16;  ///< below: du and dv are parallel within double precision, and the surface has no normal
+constexpr double k_least_angle = 20.0 * k_degree, k_largest_angle = 130.0 * k_degree;  ///< range of FaceMeshReport::n_outside_20_130
 
-// ---- Where vertices are in a face ------------------------------------------------------------------------------------------------------------
+// ---- Locations of vertices in a face ---------------------------------------------------------------------------------------------------------
 
-/// A place of a vertex in one face.
+/// A location of a vertex in one face.
 struct Candidate {
   Uv at;
-  EdgeId edge;  ///< on which it lies; invalid inside
+  EdgeId edge;  ///< edge on which it lies; invalid inside
 };
 
 /// The vertices on the borders of a model's faces, by face.
@@ -40,8 +40,8 @@ class BorderPlaces {
       if (const VertexId v = mesh.corner_vertices[c]; v.is_valid()) of_corner_[v].push_back(c);
   }
 
-  /// All places of the vertex in the face, in the order of its borders; `places` have the inner ones. Never empty for a vertex of one of its triangles, unless
-  /// the edge of the face there was absorbed.
+  /// Returns all locations of the vertex in the face, in the order of its borders; `places` contains the inner ones. Never empty for a vertex of one of its
+  /// triangles, unless the edge of the face there was absorbed.
   std::vector<Candidate> in_face(VertexId v, FaceId f) const {
     const EdgePlace& on_edge = mesh_.edge_places[v];
     if (!on_edge.edge.is_valid() && of_corner_[v].empty()) return {{mesh_.places[v].at, {}}};
@@ -58,7 +58,7 @@ class BorderPlaces {
     return found;
   }
 
-  /// Whether an edge without length of the face is there: du or dv is nothing but rounding.
+  /// Returns true if the face has an edge without length there: du or dv consists of rounding errors only.
   bool is_pole(VertexId v, FaceId f) const {
     for (const Border& border : model_.faces[f].borders)
       for (const EdgeUse& use : border)
@@ -74,7 +74,7 @@ class BorderPlaces {
   Column<VertexId, std::vector<CornerId>> of_corner_;
 };
 
-/// Distances in (u, v) as shares of the face's extent, across periods.
+/// Distances in (u, v) as fractions of the face's extent, across periods.
 class Nearness {
  public:
   Nearness(const Surface& surface, const ParameterBox& box) {
@@ -95,7 +95,7 @@ class Nearness {
   Axis u_, v_;
 };
 
-/// The places that lie nearest to each other, the first of several; candidates[k] not empty.
+/// Returns the locations nearest to each other, the first ones if several are equally near; candidates[k] not empty.
 std::array<std::size_t, 3> nearest_together(const std::array<std::vector<Candidate>, 3>& candidates, const Nearness& nearness) {
   std::array<std::size_t, 3> best{};
   double least = std::numeric_limits<double>::infinity();
@@ -118,11 +118,11 @@ Vec3 normal_at(const Surface& surface, Uv at) {
   return length2 > k_carried_sine2 * norm2(d.du) * norm2(d.dv) ? normal / std::sqrt(length2) : Vec3{};
 }
 
-/// The face's own triangulation, as it was before faces were joined; its border's vertices in the order in which triangles name them.
+/// The face's own triangulation before the faces were joined; its border vertices are ordered by first use in the triangles.
 struct OwnFace {
   MeshedFace face;
-  std::vector<EdgeId> border_edges;   ///< of each border vertex; invalid where it is not known
-  std::vector<TriangleId> triangles;  ///< of the joined mesh
+  std::vector<EdgeId> border_edges;   ///< per border vertex; invalid if not known
+  std::vector<TriangleId> triangles;  ///< numbers in the joined mesh
 };
 
 OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces& places, const ParameterBox& box, FaceId f,
@@ -136,7 +136,7 @@ OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces
     Candidate at;
   };
   std::vector<Local> border, inner;
-  std::map<std::pair<VertexId, std::size_t>, std::uint32_t> number;  // of a vertex' place; inner ones after the border's, below
+  std::map<std::pair<VertexId, std::size_t>, std::uint32_t> number;  // by vertex and candidate; numbers of inner vertices follow those of the border, below
   std::vector<std::array<std::pair<bool, std::uint32_t>, 3>> corners;
   for (const TriangleId t : own.triangles) {
     const TriangleVertices& v = mesh.mesh.triangles[t];
@@ -178,7 +178,7 @@ OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces
   return own;
 }
 
-// ---- Is it good ------------------------------------------------------------------------------------------------------------------------------
+// ---- Checks ----------------------------------------------------------------------------------------------------------------------------------
 
 struct Shape {
   double least = 0.0, largest = 0.0;  ///< rad
@@ -188,10 +188,10 @@ Shape shape_of(const std::array<Point, 3>& p) {
   return {*std::min_element(angles.begin(), angles.end()), *std::max_element(angles.begin(), angles.end())};
 }
 
-/// Triangles with the same fault, and the worst of them.
+/// Triangles with the same fault, and the worst value.
 struct Fault {
   std::int64_t n = 0;
-  double worst = 0.0;  ///< the larger the worse
+  double worst = 0.0;  ///< larger is worse
   double value = 0.0, limit = 0.0;
   Point place{};
   void add(double badness, double of_value, double of_limit, const Point& at) {
@@ -246,7 +246,7 @@ Faults faults_of(const OwnFace& own, const SurfaceMesh& before, const SurfaceMes
 
 std::string counted(std::int64_t n, std::string_view what) { return std::to_string(n) + " " + std::string(what) + (n == 1 ? "" : "s"); }
 
-/// Empty where there is none.
+/// Returns an empty string if there is no fault.
 std::string text_of(const Faults& faults, Point& place) {
   const auto number = [](double value) { return number_text(value, 3); };
   if (const Fault& f = faults.folded; f.n > 0) {
@@ -285,7 +285,7 @@ void measure_angles(const OwnFace& own, const SurfaceMesh& now, FaceMesh& face) 
   }
 }
 
-/// Where an absorbed part is now: moved like the nearest vertex.
+/// Returns the new location of an absorbed part: moved like the nearest vertex.
 Point moved_place(const Point& place, const SurfaceMesh& before, const Column<VertexId, Point>& points) {
   double nearest = std::numeric_limits<double>::infinity();
   VertexId of_nearest;
@@ -303,7 +303,7 @@ Column<VertexId, Point> carried_points(const StructuredMesh& from, const Model& 
   const SurfaceMesh& mesh = from.mesh;
   Column<VertexId, Point> points(mesh.mesh.n_vertices());
   Column<VertexId, CornerId> corner(mesh.mesh.n_vertices());
-  for (const CornerId c : mesh.corner_vertices.ids())  // of several that absorbed edges made one, the first stands for all
+  for (const CornerId c : mesh.corner_vertices.ids())  // if absorbed edges merged several corners, the first represents all
     if (const VertexId v = mesh.corner_vertices[c]; v.is_valid() && !corner[v].is_valid()) corner[v] = c;
   parallel_for(context, points.size(), [&](std::size_t i) {
     const VertexId v(static_cast<std::uint64_t>(i));

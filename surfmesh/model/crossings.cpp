@@ -13,19 +13,19 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Triangles that the picture of an error has at most.
+/// Largest number of triangles in the drawing of an error.
 constexpr std::size_t k_drawn_triangles = 50'000;
-/// Of a triangle's longest edge: facets that span 12 to 30 degrees are a fiftieth to a fifteenth of it beside their surface.
+/// Relative to a triangle's longest edge: facets that span 12 to 30 degrees deviate from their surface by a fiftieth to a fifteenth of it.
 constexpr double k_shallow = 0.1;
-/// Of the longest edge: parts nearer than that touch, which finer triangles do not change.
+/// Relative to the longest edge: parts nearer than this touch, which refinement does not change.
 constexpr double k_touching = 1e-9;
 
-/// Rad: triangles that look so far away from their surface's normals are on a surface that turns over between their corners.
+/// Rad: triangles that deviate this much from their surface's normals are on a surface that turns over between their corners.
 constexpr double k_folded = 0.5 * std::numbers::pi;
 
 using Triangle = std::array<Point, 3>;
 
-/// Faces that belong together: a solid, or faces without one that share edges.
+/// Groups of faces: a solid, or faces without a solid that share edges.
 struct Parts {
   Column<FaceId, std::uint32_t> of_face;
   std::vector<bool> is_closed;
@@ -65,7 +65,7 @@ Parts parts_of(const Model& model) {
 
 double longest_edge(const Triangle& p) { return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}); }
 
-/// How far a reaches through the plane of b: the lesser of its reaches to both sides.
+/// Returns the distance by which a reaches through the plane of b: the smaller of its reaches to both sides.
 double depth_through(const Triangle& a, const Triangle& b) {
   const Vec3 area = cross(b[1] - b[0], b[2] - b[0]);
   if (norm2(area) == 0.0) return 0.0;
@@ -84,7 +84,7 @@ bool is_shallow(const Triangle& a, const Triangle& b) {
   return depth > k_touching * length && depth < k_shallow * length;
 }
 
-/// Place on a surface near `target`, from a guess: Newton's method in the tangent plane, untrimmed.
+/// Returns a location on a surface near `target`, from an initial guess: Newton's method in the tangent plane, untrimmed.
 Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
   constexpr int k_steps = 6;
   constexpr double k_least_sine2 = 1e-16;
@@ -103,10 +103,10 @@ Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
   return d.point;
 }
 
-/// How far the surfaces of two triangles are apart near them; zero where they meet. By turns each is asked for its nearest point to the other's.
+/// Returns the gap between the surfaces of two triangles near them; zero if they meet. Computed by alternating projection.
 double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, double depth) {
   constexpr int k_turns = 40;
-  constexpr double k_apart = 0.01;  // of the depth of the crossing: where alternate projections still are after k_turns
+  constexpr double k_apart = 0.01;  // relative to the depth of the crossing: limit of the gap, because alternating projections are not converged after k_turns
   const auto guess = [&](TriangleId t) -> std::optional<Uv> {
     for (const VertexId v : mesh.mesh.triangles[t])
       if (mesh.places[v].face == mesh.triangle_face[t]) return mesh.places[v].at;
@@ -126,8 +126,8 @@ double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, Tr
   return gap;
 }
 
-/// What edges of two crossing triangles are to be multiplied by; 1: finer ones would cross as well. Facets lie beside their surface by the square of their
-/// length.
+/// Returns the factor for the edges of two crossing triangles; 1: smaller triangles would cross as well. The distance of facets from their surface falls with
+/// the square of their length.
 double refining_factor(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, bool is_one_part) {
   constexpr double k_most = 0.5, k_least = 0.05;
   constexpr double k_safety = 0.7;
@@ -139,7 +139,7 @@ double refining_factor(const Model& model, const SurfaceMesh& mesh, TriangleId a
   return is_one_part ? k_most : 1.0;
 }
 
-/// A point where both are, as near as doubles tell: where edges of one meet the other.
+/// Returns a point on both triangles within double precision, where edges of one meet the other.
 Point crossing_place(const Triangle& a, const Triangle& b) {
   Vec3 sum;
   double n = 0.0;
@@ -205,7 +205,7 @@ MeshCrossings find_mesh_crossings(const Model& model, const SurfaceMesh& mesh, c
     result.refinable.push_back({a, factor});
     result.refinable.push_back({b, factor});
   }
-  // Of each triangle the least factor.
+  // Keep the smallest factor of each triangle.
   std::sort(result.refinable.begin(), result.refinable.end(),
             [](const RefinableTriangle& a, const RefinableTriangle& b) { return std::pair(a.triangle, a.factor) < std::pair(b.triangle, b.factor); });
   result.refinable.erase(std::unique(result.refinable.begin(), result.refinable.end(),

@@ -1,4 +1,4 @@
-// Triangles of a surface mesh that cross: which of them finer triangles may part, and what to say of those that stay.
+// Crossing triangles of a surface mesh: which of them refinement may separate, and how those that remain are reported.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace sterna::surfmesh {
 
-/// A triangle that finer ones in its place may bring off another one.
+/// A triangle that refinement may separate from another one.
 struct RefinableTriangle {
   TriangleId triangle;
-  double factor = 0.5;  ///< for the length of edges there
+  double factor = 0.5;  ///< factor for the edge length there
 };
 
 struct MeshCrossings {
@@ -22,16 +22,16 @@ struct MeshCrossings {
   std::vector<RefinableTriangle> refinable;  ///< ascending: within one part, and between parts whose surfaces are apart
 };
 
-/// Beyond so many pairs a part of the model lies in another one, and more of them say nothing new.
+/// With more pairs than this, a part of the model lies inside another one, and further pairs add no information.
 inline constexpr std::size_t k_most_pairs = 100'000;
 
-/// Exact (geom/math/intersect.h). Triangles of two parts that touch count.
+/// Finds crossings with exact predicates (geom/math/intersect.h). Triangles of two parts that touch count as well.
 MeshCrossings find_mesh_crossings(const Model& model, const SurfaceMesh& mesh, const RunContext& context);
 
-/// Pairs of faces by falling number of crossings.
+/// Returns the pairs of faces by falling number of crossings.
 std::vector<CrossingFaces> crossing_faces(const Model& model, const SurfaceMesh& mesh, const MeshCrossings& crossings);
 
-/// What is wrong, with the faces, places, triangles, and what to try: a union where closed parts stand in each other, mending where a part crosses itself.
+/// Returns an error with the faces, locations and triangles, and a remedy: a union if closed parts intersect each other, a repair if a part crosses itself.
 /// \pre crossings.total > 0
 ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const MeshCrossings& crossings, const std::vector<CrossingFaces>& faces);
 

@@ -17,14 +17,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A triangle of the wall may be farther than the nearest one by this share of its longest edge and its face still be the nearest: facets of 24 degrees sag by
-/// a twentieth of an edge on either side.
+/// A triangle of the wall may be farther than the nearest one by this fraction of its longest edge and its face still be the nearest: facets of 24 degrees
+/// sag by a twentieth of an edge on either side.
 constexpr double k_reach = 0.1;
-/// Faces up to so many times as far as the nearest one count for the normal: a facet over a crease sags towards both.
+/// Faces up to this many times as far as the nearest one count for the normal: a facet over a crease sags towards both.
 constexpr double k_near_edges = 2.0;
-/// Of the body length: so near, all faces count, however near the nearest is. Edges of models meet their faces within about that.
+/// Relative to the body length: within this distance all faces count, however near the nearest is. Edges of models meet their faces within about this
+/// distance.
 constexpr double k_same_place = 1e-9;
-/// Of the body length: a node at the place of the wall's vertex is on the model, and no other place is looked for.
+/// Relative to the body length: a node within this distance of the wall's vertex is on the model, and no other location is searched.
 constexpr double k_same = 1e-14;
 /// Queries per chunk: each takes 5 to 50 us.
 constexpr std::size_t k_chunk = 64;
@@ -33,15 +34,15 @@ struct Facet {
   std::array<std::uint32_t, 4> nodes{};
   std::uint8_t size = 3;
   PatchId patch;
-  std::uint64_t number = 0;  ///< of the boundary: triangles, then quads
+  std::uint64_t number = 0;  ///< in the boundary: triangles, then quads
 };
 
-/// What is measured: facets with normals out of the body, and the nodes they have.
+/// The measured entities: facets with normals out of the body, and their nodes.
 struct Walls {
   const std::vector<Point>& points;
   std::vector<Facet> facets;
   std::vector<std::uint32_t> nodes;  ///< ascending
-  std::vector<PatchId> node_patch;   ///< of the first facet that has the node
+  std::vector<PatchId> node_patch;   ///< patch of the first facet with the node
   const Column<PatchId, Patch>& patches;
   std::vector<std::string> unknown;
 };
@@ -59,7 +60,7 @@ std::array<double, 3> weights_of(const Point& q, const std::array<Point, 3>& t) 
 struct NearFace {
   FaceId face;
   TriangleId nearest;
-  Point point;  ///< on it
+  Point point;  ///< on the triangle
   double distance2 = 0.0;
   std::vector<TriangleId> triangles;
 };
@@ -69,7 +70,7 @@ class Probe {
   Probe(const TriMesh& wall, const ModelWall& model, double length, const RunContext& context)
       : wall_(wall), model_(model), length_(length), tree_(wall, context) {}
 
-  /// Distance of a node from the model, m.
+  /// Returns the distance of a node from the model, m.
   double distance_of(const Point& p) const {
     const NearestHit hit = tree_.nearest(p);
     for (const VertexId v : wall_.triangles[hit.triangle])
@@ -79,11 +80,11 @@ class Probe {
     return nearest(p, hit).distance;
   }
 
-  /// The nearest place of the model.
+  /// Returns the nearest location on the model.
   ModelFoot nearest(const Point& p) const { return nearest(p, tree_.nearest(p)); }
   TriangleId nearest_triangle(const Point& p) const { return tree_.nearest(p).triangle; }
 
-  /// Nearest places of all faces around the point, each within its face's border.
+  /// Returns the nearest locations of all faces around the point, each within its face's border.
   std::vector<ModelFoot> feet(const Point& p, const NearestHit& hit) const {
     std::vector<NearFace> faces = faces_near(p, hit.distance + std::max(k_reach * longest_edge(hit.triangle), k_same_place * length_));
     std::vector<ModelFoot> feet;
@@ -134,7 +135,7 @@ class Probe {
     return best;
   }
 
-  /// By ascending face.
+  /// Sorted by ascending face.
   std::vector<NearFace> faces_near(const Point& p, double reach) const {
     std::vector<NearFace> faces;
     const Vec3 r{reach, reach, reach};
@@ -168,7 +169,7 @@ class Probe {
       for (std::size_t k = 0; k < 3; ++k)
         if (const std::optional<ModelFoot> on_edge = model_.edge_foot(p, t, k); on_edge && on_edge->distance < best.distance) best = *on_edge;
     if (best.face.is_valid()) return best;
-    // Its border is an edge too short for the mesh: the triangle stands for it.
+    // The face's border is an edge too short for the mesh: the distance to the triangle is used instead.
     ModelFoot stand_in = foot;
     stand_in.distance = std::max(foot.distance, std::sqrt(near.distance2));
     return stand_in;
@@ -180,7 +181,7 @@ class Probe {
   TriangleTree tree_;
 };
 
-/// The patches of `patches` that the wall has by name; those of kind wall that it has not are noted.
+/// Flags those of `patches` that the wall has by name; those of kind wall that are missing there are recorded.
 Column<PatchId, std::uint8_t> known_patches(const TriMesh& wall, Walls& walls) {
   std::set<std::string> names;
   for (const Patch& patch : wall.patches) names.insert(patch.name);
@@ -274,7 +275,7 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
 Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context) {
   Walls walls{.points = mesh.points.raw(), .facets = {}, .nodes = {}, .node_patch = {}, .patches = mesh.patches, .unknown = {}};
   const Column<PatchId, std::uint8_t> is_known = known_patches(wall, walls);
-  // Boundary faces look out of the fluid, into the body: they are turned round.
+  // Boundary faces point out of the fluid, into the body: their orientation is reversed.
   for (std::size_t i = 0; i < mesh.boundary_triangles.size(); ++i)
     if (const auto& [n, patch] = mesh.boundary_triangles[i]; is_known[patch])
       walls.facets.push_back({{n[0].value(), n[2].value(), n[1].value(), 0}, 3, patch, i});

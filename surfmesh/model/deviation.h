@@ -1,4 +1,4 @@
-// How far the walls of a mesh are from the model they were made of: gates G17 (nodes off the model) and G18 (facets turned against it) of
+// Deviation of the walls of a mesh from the model they were made of: gates G17 (nodes off the model) and G18 (facets turned against it) of
 // docs/method/quality.md, "Gates".
 #pragma once
 
@@ -16,31 +16,31 @@ namespace sterna::surfmesh {
 
 struct Deviation {
   GateResult distance;                     ///< Measure::cad_distance: nodes, distance to the model over `length`
-  GateResult normal;                       ///< Measure::cad_normal: facets, angle to the model's outward normal at the place nearest to the facet's centroid
+  GateResult normal;                       ///< Measure::cad_normal: facets, angle to the model's outward normal at the point nearest to the facet's centroid
   double length = 0.0;                     ///< m: body length of the wall
   std::int64_t n_nodes = 0, n_facets = 0;  ///< measured
-  std::int64_t n_beside = 0;               ///< facets whose normal of the model was taken beside a pole or tip, where there is none
-  std::int64_t n_without = 0;              ///< facets that were not compared: the model has no normal there at all
-  std::vector<std::string> unknown;        ///< wall patches of the mesh that the wall has not: not measured
+  std::int64_t n_beside = 0;               ///< facets compared with a normal beside a pole or tip, because the model has no normal at the pole or tip
+  std::int64_t n_without = 0;              ///< facets not compared, because the model has no normal there
+  std::vector<std::string> unknown;        ///< wall patches of the mesh that `wall` does not have: not measured
 };
 
-/// Measures the boundary faces of the mesh on patches that `wall` has by name. The triangles of `wall` are looked up only to find faces and seeds: the distance
-/// is that to the exact faces within their borders and to the exact edges. Where several faces are about as near as the nearest (creases, edges, thin tips) a
-/// facet is compared with the one that agrees best. Parallel, the same for any number of threads.
-/// \pre `model` is of `wall`, and `wall` has a triangle
+/// Measures the boundary faces of the mesh on patches that `wall` has by name. The triangles of `wall` serve only to find faces and start values: distances
+/// are measured to the exact faces within their borders and to the exact edges. Where several faces are about as near as the nearest one (creases, edges,
+/// thin tips), a facet is compared with the face that agrees best. Parallel; the result does not depend on the number of threads.
+/// \pre `model` is the model of `wall`, and `wall` has at least one triangle
 Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);
-/// The same of a surface, all of its patches that `wall` has; it may be `wall` itself.
+/// Measures all patches of a surface that `wall` has. The surface may be `wall` itself.
 Deviation measure_deviation(const TriMesh& surface, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);
 
-/// Distances of single points from the model behind a wall: to the exact faces within their borders and to the exact edges. From many threads.
+/// Returns distances of single points from the model behind a wall: to the exact faces within their borders and to the exact edges. Thread-safe.
 class ModelDistance {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   /// \pre as measure_deviation
   ModelDistance(const TriMesh& wall, const ModelWall& model, const RunContext& context);
   ~ModelDistance();
   double operator()(const Point& p) const;            ///< m
-  TriangleId nearest_triangle(const Point& p) const;  ///< of the wall
+  TriangleId nearest_triangle(const Point& p) const;  ///< a triangle of the wall
  private:
   struct Lookup;
   std::unique_ptr<const Lookup> lookup_;

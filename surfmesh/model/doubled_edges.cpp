@@ -11,14 +11,14 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Rad: between a new triangle and the surface at the new vertex. At a pointed tip each covers a quarter of the turn, so 45 degrees and the tip's slope are the
-/// rule.
+/// Rad: limit of the angle between a new triangle and the surface at the new vertex. At a pointed tip each triangle covers a quarter of the turn, so 45
+/// degrees plus the tip's slope are typical.
 constexpr double k_largest_fold = 75.0 * std::numbers::pi / 180.0;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b).value(), std::max(a, b).value()}; }
 
-/// An edge inside a face: its own vertices, the triangles on both sides.
+/// An edge inside a face: its end vertices and the triangles on both sides.
 struct InnerEdge {
   FaceId face;
   VertexId a, b;
@@ -37,7 +37,7 @@ TriangleVertices with(TriangleVertices triangle, VertexId old, VertexId now) {
 bool has(const TriangleVertices& triangle, VertexId v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); }
 
 bool split(const Surface& surface, const InnerEdge& edge, FaceMesh& mesh) {
-  // The split of another edge of these triangles may have been first.
+  // Another edge of these triangles may have been split before.
   for (const std::size_t t : edge.triangles)
     if (!has(mesh.triangles[t], edge.a) || !has(mesh.triangles[t], edge.b)) return false;
   const Uv at = 0.5 * (mesh.uv[edge.a.index()] + mesh.uv[edge.b.index()]);
@@ -87,7 +87,7 @@ void measure_angles(FaceMesh& mesh) {
 std::size_t split_doubled_edges(const Model& model, const SurfaceMesh& joined, std::span<const TriangleId> wrong, Column<FaceId, MeshedFace>& faces) {
   std::set<FaceId> concerned;
   for (const TriangleId t : wrong) concerned.insert(joined.triangle_face[t]);
-  // Inner edges between border vertices, by what these are in the model.
+  // Inner edges between border vertices, keyed by the model entities of these vertices.
   std::map<Edge, std::vector<InnerEdge>> found;
   for (const FaceId f : concerned) {
     const MeshedFace& face = faces[f];

@@ -1,5 +1,5 @@
-// Edges between the same two border vertices inside of two faces: at the tip of a body of two halves both cut the last triangle off alike, and no refinement
-// changes that.
+// Edges that join the same two border vertices within two faces. At the tip of a body of two halves both faces cut off the last triangle alike, and
+// refinement does not change that.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace sterna::surfmesh {
 
-/// Splits each of them, in all faces but the first, at the middle of its (u, v); only where that does not fold. \return how many were split
+/// Splits each such edge at the middle of its (u, v) in all faces but the first, unless triangles would fold. \return number of splits
 std::size_t split_doubled_edges(const Model& model, const SurfaceMesh& joined, std::span<const TriangleId> wrong, Column<FaceId, MeshedFace>& faces);
 
 }  // namespace sterna::surfmesh

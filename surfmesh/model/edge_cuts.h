@@ -1,4 +1,4 @@
-// Every edge of a model cut once, by the size field along it: the points that all its faces share.
+// Cuts of model edges by the size field along them, made once per edge: the points that all faces of an edge share.
 #pragma once
 
 #include <array>
@@ -13,15 +13,16 @@
 namespace sterna::surfmesh {
 
 struct EdgeCut {
-  std::vector<double> t;                ///< ascending, inside the edge's range: its ends are corners
-  std::vector<Point> points;            ///< curve->point(t); of an edge that is the same as another, that one's
-  std::array<std::size_t, 2> n_rows{};  ///< so many of the points next to the start, to the end, are rows of a band there
+  std::vector<double> t;                ///< ascending, strictly inside the edge's range: the ends of the range are corners
+  std::vector<Point> points;            ///< curve->point(t); an edge equal to another one has the points of that edge
+  std::array<std::size_t, 2> n_rows{};  ///< number of points next to the start and to the end that belong to the rows of a band there
   friend bool operator==(const EdgeCut&, const EdgeCut&) = default;
 };
 
-/// Lengths equal in the metric 1 / size; closed edges get three segments, two edges between the same corners more than one between them.
-/// Edges of bands have no segment longer than their stretch allows; edges that leave a band begin with the heights of its rows; sides of strips are matched.
-/// Borders of periodic sides are cut alike, by the least of their sizes: points of images are those of the first, moved, within k_rim_tolerance of the curve.
+/// Cuts each edge into segments of equal length in the metric 1 / size. Closed edges get three segments; at most one of several edges between the same
+/// corners has a single segment. Band edges have no segment longer than their stretch allows. Edges that leave a band begin with the heights of its rows.
+/// Opposite sides of strips are matched. Borders of periodic sides are cut alike, by the smallest of their sizes: points of images are the moved points of
+/// the original, within k_rim_tolerance of the curve.
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
                                   const PeriodicRims& rims, const SurfaceSizes& field, const RunContext& context);
 

@@ -8,7 +8,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Intervals of a piece between breaks, and of an edge at least and at most.
+/// Sampling intervals of a piece between breaks, and lower and upper limit for an edge.
 constexpr std::size_t k_per_piece = 8, k_least = 24, k_most = 800;
 
 EdgeSamples sample_edge(const ModelEdge& edge) {

@@ -1,4 +1,4 @@
-// Edges of a model seen as polylines: where their lengths, curvatures and distances are measured, and the basis of cutting them.
+// Model edges sampled as polylines, used to measure lengths, curvatures and distances, and to cut the edges.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,15 @@ namespace sterna::surfmesh {
 struct EdgeSample {
   double t = 0.0;
   Point point;
-  double curvature = 0.0;  ///< of the curve, 1/m
+  double curvature = 0.0;  ///< 1/m, curvature of the curve
 };
 struct EdgeSamples {
   std::vector<EdgeSample> samples;  ///< both ends included; empty for degenerate edges
   double length = 0.0;              ///< metres, of the polyline
-  double turning = 0.0;             ///< rad, between its segments
+  double turning = 0.0;             ///< rad, sum of angles between its segments
 };
 
-/// Sets length and turning to those of the polyline.
+/// Sets length and turning from the polyline.
 void measure_polyline(EdgeSamples& samples);
 
 Column<EdgeId, EdgeSamples> sample_edges(const Model& model, const RunContext& context);

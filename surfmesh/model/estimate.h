@@ -1,4 +1,4 @@
-// How many triangles sizes ask for, before any is made: absurd sizes end at once.
+// Estimate of the number of triangles before meshing, to reject unreasonable sizes early.
 #pragma once
 
 #include "surfmesh/model/model_sizes.h"
@@ -6,13 +6,13 @@
 
 namespace sterna::surfmesh {
 
-/// From the areas of faces and what options and curvature ask for there; narrow places and growth make it more.
+/// Returns an estimate from the areas of faces and the sizes that options and curvature require there. Narrow regions and limited growth add to the number.
 double estimated_triangles(const ModelSizes& sizes, FaceId face);
 
-/// \throws Error(overflow) naming the faces that need most, when that is above max_triangles
+/// \throws Error(overflow) naming the faces that need most, if the estimate is above max_triangles
 void check_estimate(const Model& model, const ModelSizes& sizes, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options);
 
-/// The same for columns of bands alone.
+/// Checks the estimate for the columns of bands alone.
 /// \throws Error(overflow) naming the edge's face
 void check_band_estimate(const Model& model, const WingBands& bands, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options);
 

@@ -7,25 +7,25 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Cells are at most this many times the wanted edge length long: bilinear values are then within about 5 % of sizes that grow by 0.2.
+/// Cells are at most this many times as long as the target edge: bilinear values are then within about 5 % of sizes that grow by 0.2.
 constexpr double k_cell_sizes = 2.0;
-/// Of the largest size: sources that ask for so much are none.
+/// Relative to the largest size: sources above this are ignored.
 constexpr double k_level = 0.999;
-/// Places in a direction are multiples of 1 / 2^24 of the box.
+/// Node coordinates in a direction are multiples of 1 / 2^24 of the box.
 constexpr int k_levels = 24;
-/// Halvings of each direction that every curved face gets, so that no cell is taken for small because its ends meet.
+/// Minimum number of halvings in each direction for a curved face, so that a cell whose ends meet is not taken as small.
 constexpr int k_least_levels = 3;
-/// Segments of the border by bin of the test for inside.
+/// Segments of the border per bin of the inside test.
 constexpr std::size_t k_per_bin = 4, k_most_bins = 2048;
 
-/// Of the way to the box's middle: nodes on its border are asked so far inside.
+/// Fraction of the distance to the box's middle: nodes on the border of the box are tested this far inside.
 constexpr double k_grid_inwards = 1e-6;
 
 struct Segment {
   Uv a, b;
 };
 
-/// Parity of crossings, with segments sorted into bins of u.
+/// Inside test by parity of crossings, with segments sorted into bins of u.
 class Inside {
  public:
   explicit Inside(std::span<const std::vector<Uv>> loops) {
@@ -87,13 +87,13 @@ class FaceGridBuilder {
 
  private:
   struct Cell {
-    std::uint32_t tree;      ///< its place there
+    std::uint32_t tree;      ///< index in grid_.tree_
     std::uint32_t u, v;      ///< lower corner, in 1 / 2^k_levels of the box
     int levels_u, levels_v;  ///< halvings so far
     std::array<std::uint32_t, 4> corners;
   };
 
-  /// Nodes on the box's border lie inside of polygons that run along it.
+  /// Nodes on the box's border must count as inside of polygons that run along it.
   Uv inwards(Uv at) const {
     const ParameterBox& box = grid_.box_;
     const auto moved = [](const Interval& range, double t) { return t + k_grid_inwards * (0.5 * (range.from + range.to) - t); };
@@ -114,7 +114,7 @@ class FaceGridBuilder {
     return it->second;
   }
 
-  /// The cell with the square of the lattice whose lower corner is (u, v).
+  /// Returns the cell that contains the square of the lattice with lower corner (u, v).
   std::uint32_t cell_of(std::uint32_t u, std::uint32_t v) const {
     std::uint32_t entry = grid_.tree_.front();
     std::uint32_t bit_u = 1u << (k_levels - 1), bit_v = bit_u;
@@ -144,7 +144,7 @@ class FaceGridBuilder {
     grid_.hanging_.erase(std::unique(grid_.hanging_.begin(), grid_.hanging_.end()), grid_.hanging_.end());
   }
 
-  /// Whether a segment meets the cell (or passes near a corner of it).
+  /// Returns true if a segment meets the cell (or passes near a corner of it).
   bool meets(const Segment& s, Uv low, Uv high) const {
     if (std::max(s.a.u, s.b.u) < low.u || std::min(s.a.u, s.b.u) > high.u || std::max(s.a.v, s.b.v) < low.v || std::min(s.a.v, s.b.v) > high.v) return false;
     const Uv along = s.b - s.a;
@@ -153,7 +153,7 @@ class FaceGridBuilder {
     return !((a > 0.0 && b > 0.0 && c > 0.0 && d > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0 && d < 0.0));
   }
 
-  /// Segments that may cross the cell: crossing_[first, first + count). Without any the cell is all inside or all outside.
+  /// Segments that may cross the cell are crossing_[first, first + count). Without any segment the cell is entirely inside or outside.
   void divide(const Cell& cell, std::size_t first, std::size_t count, bool is_known_inside) {
     const auto& nodes = grid_.nodes_;
     const std::array<Point, 4> p{nodes[cell.corners[0]].point, nodes[cell.corners[1]].point, nodes[cell.corners[2]].point, nodes[cell.corners[3]].point};
@@ -219,7 +219,7 @@ class FaceGridBuilder {
   int least_levels_;
   std::unordered_map<std::uint64_t, std::uint32_t> node_of_;
   std::vector<std::uint8_t> is_needed_;
-  std::vector<std::array<std::uint32_t, 2>> lattice_;  ///< of each node
+  std::vector<std::array<std::uint32_t, 2>> lattice_;  ///< per node
   std::vector<std::uint32_t> crossing_;
 };
 

@@ -1,4 +1,4 @@
-// A face's (u, v) divided into cells about as large as the edges wanted there: what sizes are kept on.
+// Division of a face's (u, v) into cells about as large as the target edges there: the grid on which sizes are stored.
 #pragma once
 
 #include <array>
@@ -14,33 +14,34 @@ namespace sterna::surfmesh {
 struct FaceGridNode {
   Uv uv;
   Point point;
-  double bound = 0.0;      ///< m: no edge here is wanted shorter
-  bool is_inside = false;  ///< of the face's border
+  double bound = 0.0;      ///< m: lower limit of the target edge length here
+  bool is_inside = false;  ///< inside the face's border
 };
 /// Corners in the order (u0, v0), (u1, v0), (u0, v1), (u1, v1).
 struct FaceGridCell {
   std::array<std::uint32_t, 4> nodes{};
   bool is_used = false;   ///< inside, or crossed by the border
-  bool is_level = false;  ///< nobody in it or near it wants less than the largest size
+  bool is_level = false;  ///< target size equals the largest size in the cell and near it
 };
 
-/// Halved again and again, the longer side in space first. A value.
+/// Grid made by repeated bisection of the box: the longer side in space is halved first. A value type.
 class FaceGrid {
  public:
-  /// What is known of sizes before they are carried over the surface.
+  /// Bounds of the sizes that are known before sizes are carried over the surface.
   struct Bounds {
-    std::function<double(const Point&)> at;                     ///< m: no edge at a point is wanted shorter
-    std::function<bool(const Point&, double)> is_level_within;  ///< no edge within a distance of a point is wanted shorter than `largest`
+    std::function<double(const Point&)> at;                     ///< m: lower limit of the target edge length at a point
+    std::function<bool(const Point&, double)> is_level_within;  ///< true if no edge within a distance of a point has a target below `largest`
     double largest = 0.0;                                       ///< m
   };
   FaceGrid() = default;
-  /// Cells inside or crossed by `loops` (closed polygons, parity) are at most k_cell_sizes times the bound at their corners long, where sizes are not level.
+  /// Cells inside or crossed by `loops` (closed polygons, parity) are at most k_cell_sizes times the bound at their corners long, unless sizes are level
+  /// there.
   FaceGrid(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops, const Bounds& bounds);
 
   bool empty() const { return tree_.empty(); }
   const std::vector<FaceGridNode>& nodes() const { return nodes_; }
   const std::vector<FaceGridCell>& cells() const { return leaves_; }
-  /// Nodes on the sides of a cell that are corners of smaller cells beside it; by cell.
+  /// Node on the side of a cell that is a corner of a smaller neighbour; sorted by cell.
   struct Hanging {
     std::uint32_t cell = 0, node = 0;
     friend auto operator<=>(const Hanging&, const Hanging&) = default;
@@ -50,9 +51,9 @@ class FaceGrid {
     std::uint32_t cell = 0;
     double s = 0.0, t = 0.0;  ///< in [0, 1] within the cell
   };
-  /// Places beyond the box are moved into it by whole periods, or held to it.
+  /// Finds the cell of a parameter location. Locations outside the box are moved into it by whole periods, or clamped to it.
   Place find(Uv at) const;
-  /// Frees what look-ups do not need.
+  /// Frees the data that look-ups do not need.
   void forget_nodes();
 
  private:

@@ -6,12 +6,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Points of a use in its polygon: parameter curves that are lines need two.
+/// Points of a use in its polygon; straight parameter curves need two.
 constexpr int k_polygon_points = 24;
 
 const EdgeUse& use_at(const Model& model, const EdgeUsePlace& place) { return model.faces[place.face].borders[place.border][place.place]; }
 
-/// Whole periods nearest to `jump`.
+/// Returns the nearest multiple of the period to `jump`.
 double whole_periods(double jump, double period) { return std::round(jump / period) * period; }
 
 bool is_inside(const std::vector<Uv>& polygon, Uv at) {
@@ -23,8 +23,8 @@ bool is_inside(const std::vector<Uv>& polygon, Uv at) {
   return inside;
 }
 
-/// Loops that run around the period become one polygon, there and back; a single one ends at the border of the domain on its left. The others of them are
-/// empty.
+/// Merges loops that run around the period into one polygon, there and back; a single loop is closed at the border of the domain on its left. The polygons of
+/// the merged loops become empty.
 void close_around(const Surface& surface, const std::vector<Uv>& ends, FaceOutline& outline) {
   const std::size_t first = outline.winding.front();
   std::vector<Uv>& polygon = outline.polygons[first];
@@ -48,7 +48,7 @@ void close_around(const Surface& surface, const std::vector<Uv>& ends, FaceOutli
   }
 }
 
-/// Holes are brought into the period of the outer border.
+/// Moves holes into the period of the outer border.
 void move_holes_inside(FaceOutline& outline, double period_u, double period_v) {
   const std::size_t outer = outline.winding.empty() ? 0 : outline.winding.front();
   for (std::size_t b = 0; b < outline.polygons.size(); ++b) {

@@ -8,11 +8,11 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Pieces of a use: as many as the outline's polygon has, which decides away from the border.
+/// Pieces of a use: the same number as in the outline's polygon, which decides away from the border.
 constexpr int k_pieces = 24;
-/// Within so many sags of a chord the curve itself decides: its sag is estimated from the middle alone.
+/// Within this many sags of a chord the curve itself decides: the sag is estimated from the middle alone.
 constexpr double k_near = 3.0;
-/// Newton from the chord's share: the curve is nearly straight there.
+/// Newton steps from the chord's fraction: the curve is nearly straight there.
 constexpr int k_steps = 6;
 
 double cross_of(Uv a, Uv b) { return a.u * b.v - a.v * b.u; }

@@ -1,4 +1,4 @@
-// Which points of its surface belong to a face: inside or outside of its borders, to the precision of the borders' own curves.
+// Test if a surface point belongs to a face: inside or outside of its borders, to the precision of the borders' own curves.
 #pragma once
 
 #include <vector>
@@ -12,15 +12,16 @@ class FaceRegion {
   /// `model` must outlive the region.
   FaceRegion(const Model& model, FaceId face);
 
-  /// Any period of a periodic surface will do. Beside the border its parameter curves decide, not polygons of them.
+  /// Returns true if the point belongs to the face. On a periodic surface any period is accepted. Near the border the parameter curves decide, not their
+  /// polygons.
   bool contains(Uv at) const;
 
  private:
   /// Part of a border between two points of its polygon.
   struct Piece {
     Uv from, to;
-    double t_from, t_to;  ///< of the edge; t_from > t_to where the border runs against it
-    double sag;           ///< of the curve over the chord, in (u, v)
+    double t_from, t_to;  ///< edge parameters; t_from > t_to where the border runs against the edge
+    double sag;           ///< sag of the curve over the chord, in (u, v)
     std::uint32_t border, use;
   };
   bool contains_here(Uv at) const;

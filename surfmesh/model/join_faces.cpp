@@ -9,7 +9,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A patch for each name and kind, in the order of the faces.
+/// Creates one patch per name and kind, in the order of the faces.
 Column<FaceId, PatchId> make_patches(const Model& model, TriMesh& mesh) {
   std::map<std::pair<std::string, PatchKind>, PatchId> known;
   Column<FaceId, PatchId> patch_of(model.faces.size());
@@ -25,7 +25,7 @@ Column<FaceId, PatchId> make_patches(const Model& model, TriMesh& mesh) {
 struct EdgeEntry {
   std::uint32_t low, high;
   std::uint32_t triangle;
-  std::uint32_t corner;  ///< the edge runs from it
+  std::uint32_t corner;  ///< the edge starts at this corner
   auto operator<=>(const EdgeEntry&) const = default;
 };
 
@@ -69,7 +69,7 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
       result.is_band.push_back(t + face.mesh.n_band >= face.mesh.triangles.size() ? 1 : 0);
     }
   }
-  // Corners that only absorbed edges had, and poles' other numbers, belong to no triangle: they go.
+  // Corners that only absorbed edges had, and further numbers of poles, belong to no triangle: they are removed.
   Column<VertexId, VertexId> number(mesh.points.size());
   for (const TriangleVertices& v : mesh.triangles)
     for (const VertexId w : v) number[w] = w;

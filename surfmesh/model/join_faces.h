@@ -1,4 +1,4 @@
-// Meshes of faces put together into one triangulation, and what is wrong with it.
+// Joins the meshes of faces into one triangulation and checks the result.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,13 @@
 
 namespace sterna::surfmesh {
 
-/// Faces without a mesh are left out. Vertices: corners, edges, then the inner ones of each face; triangles face by face, turned outwards.
+/// Joins the faces; faces without a mesh are skipped. Vertex order: corners, edges, then the inner ones of each face. Triangles face by face, oriented
+/// outwards.
 SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                        const Column<FaceId, MeshedFace>& faces);
 
-/// Triangles whose edges have more than two triangles, or two that run the same way, or one where the model is not open (nor was, before strips along its rims
-/// were absorbed). A face that has no mesh leaves its neighbours open.
+/// Triangles with faulty edges: edges with more than two triangles, with two triangles that run the same way, or with one triangle where the model is not
+/// open (and was not open before strips along its open boundary were absorbed). Neighbours of a face without a mesh are open.
 struct JoinFaults {
   std::vector<TriangleId> triangles;  ///< ascending
   std::int64_t n_free_edges = 0;

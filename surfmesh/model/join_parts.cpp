@@ -10,7 +10,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// How far the numbers of a part are shifted.
+/// Offsets of the numbers of a part.
 struct Offsets {
   std::size_t vertices = 0, faces = 0, edges = 0;
 };
@@ -55,7 +55,7 @@ void append_bands(const BandSummary& part, BandSummary& all) {
   all.notes.insert(all.notes.end(), part.notes.begin(), part.notes.end());
 }
 
-/// Places of `part` are where it is now.
+/// Appends a report; locations in `part` are already at their final positions.
 void append_report(SurfaceMeshReport part, const Offsets& at, bool is_first, SurfaceMeshReport& all) {
   const auto excess = [](const SurfaceMeshReport& report, FaceId face, std::size_t shift) {
     return face.is_valid() ? report.faces[face.index() - shift].max_normal_angle - report.faces[face.index() - shift].curvature_angle : 0.0;

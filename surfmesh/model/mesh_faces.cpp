@@ -12,8 +12,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next
-/// use, at their end.
+/// Each use contributes its start and its cuts; its end is the start of the next use. Absorbed edges contribute nothing. Poles contribute their corner at
+/// their start and, through the next use, at their end.
 LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                          const FaceOutline& outline) {
   LabelledBorder result;
@@ -24,7 +24,7 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
       const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
       const ModelEdge& edge = model.edges[use.edge];
       const Interval range = edge.range;
-      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;  // of absorbed edges, too: the last one may close a ring
+      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;  // of absorbed edges as well: the last one may close a ring
       if (topology.is_point[use.edge] != 0 && !edge.is_degenerate()) continue;
       const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
       loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
@@ -46,10 +46,10 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
   return result;
 }
 
-/// What the model says that an edge's vertices may be off its faces.
+/// Returns the model's tolerance for the distance between an edge's vertices and its faces.
 double tolerance_of(const Model& model, FaceId f, EdgeId e) {
   const ModelEdge& edge = model.edges[e];
-  // Files write tolerances of zero; what doubles of that size can hold is no fault.
+  // Some files have tolerances of zero; deviations within double precision at that size are no fault.
   constexpr double k_rounding = 1e-12;
   double extent = 0.0;
   for (const Point& p : {model.corners[edge.start].point, model.corners[edge.end].point,
@@ -58,8 +58,8 @@ double tolerance_of(const Model& model, FaceId f, EdgeId e) {
   return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * extent});
 }
 
-/// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that
-/// width would be meshed. Of points that follow each other there only the first stays. Poles and seams are far apart in (u, v).
+/// Merges border points where a border passes a corner twice (a hole that touches the border), so that both have the same (u, v). In files they differ by
+/// rounding, and a gap of that width would be meshed. Of consecutive points there only the first stays. Poles and seams are far apart in (u, v).
 LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder& given) {
   constexpr double k_near = 1e-5;  // of the border's extent in (u, v)
   const Surface& surface = *model.faces[f].surface;
@@ -101,7 +101,7 @@ LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder
   return result;
 }
 
-/// The face's border, ready to be meshed.
+/// Returns the face's border, ready for meshing.
 LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                                const ModelSizes& sizes, const SurfaceSizes& field) {
   LabelledBorder labelled = merge_touching(model, f, border_of(model, f, topology, cuts, numbers, sizes.outlines[f]));
@@ -128,7 +128,7 @@ void measure_face(MeshedFace& face) {
   summary.max_angle = mesh.report.max_angle;
   summary.worst_place = mesh.report.worst_place;
   summary.n_outside_20_130 = mesh.report.n_outside_20_130;
-  // By cosines; only the largest angle is asked for.
+  // Compares cosines; only the largest angle is needed.
   const double allowed = std::cos(summary.curvature_angle);
   double least = 1.0;
   for (const TriangleVertices& v : mesh.triangles) {

@@ -1,4 +1,4 @@
-// Faces of a model meshed on their shared edges, in parallel; what cannot be meshed comes back as trouble with a place.
+// Meshing of a model's faces on their shared edges, in parallel. Faces that cannot be meshed are returned with an error and its location.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace sterna::surfmesh {
 
-/// Numbers of the vertices on corners and edges: corners that are left, in their order, then the cuts of each edge.
+/// Numbers of the vertices on corners and edges: the remaining corners in their order, then the cuts of each edge.
 struct BorderVertices {
   Column<CornerId, VertexId> of_corner;  ///< invalid where no edge ends
   Column<EdgeId, std::uint32_t> first_of_edge;
@@ -24,28 +24,28 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
 
 struct MeshedFace {
   FaceMesh mesh;
-  std::vector<VertexId> border_ids;  ///< of its first n_border vertices
+  std::vector<VertexId> border_ids;  ///< numbers of its first n_border vertices in the joined mesh
   std::optional<ErrorInfo> failure;  ///< instead of a mesh
   FaceMeshSummary summary;
   double edge_distance = 0.0;  ///< metres: largest distance of a border point to the surface
   Point edge_distance_place{};
-  std::vector<LooseEdge> loose_edges;  ///< of this face
+  std::vector<LooseEdge> loose_edges;  ///< loose edges of this face
   BandMeasures bands;
-  std::vector<std::string> notes;  ///< rows or strips that had to be left out
+  std::vector<std::string> notes;  ///< rows or strips that had to be omitted
 };
 
-/// Vertices of a face's border, in the order in which it is given to mesh_face.
+/// Returns the vertices of a face's border in the order in which they are passed to mesh_face.
 std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts,
                                  const BorderVertices& numbers, const FaceOutline& outline);
 
-/// Meshes face f. Failures that finer edges may cure come back; others are thrown with the face's name.
+/// Meshes face f. Failures that finer edges may cure are returned; others are thrown with the face's name.
 MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                          const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field, int max_triangles, const RunContext& context);
 
-/// Angles (of the mesh's report), normals and areas of a face's triangles into its summary.
+/// Adds angles (those in the mesh's report), normals and areas of a face's triangles to its summary.
 void measure_face(MeshedFace& face);
-/// Distances of the border's points from the surface, and those beyond the model's tolerances edge by edge. \p edges of the border's points; invalid where it
-/// is not known
+/// Measures the distances of the border's points from the surface, and per edge those beyond the model's tolerances. \p edges edge of each border point;
+/// invalid if not known
 void measure_border(const Model& model, const std::vector<EdgeId>& edges, MeshedFace& face);
 
 }  // namespace sterna::surfmesh

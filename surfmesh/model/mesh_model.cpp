@@ -1,5 +1,5 @@
-// The driver. Faces that cannot be meshed, edges with more than two triangles and triangles that cross are all signs of edges too long for what is there: sizes
-// are halved around such places and the faces concerned are meshed again, a few times.
+// The driver. Faces that cannot be meshed, edges with more than two triangles and crossing triangles indicate edges that are too long for the geometry there.
+// Sizes are halved around such locations and the affected faces are re-meshed, a few times.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,14 +26,14 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr const char* k_attempted = "meshing the model's surface";
-/// Rounds of meshing: each halves sizes at what is wrong, so a place is at 1/32 after the last.
+/// Rounds of meshing: each halves sizes at faults, so sizes are at 1/32 after the last round.
 constexpr int k_max_rounds = 6;
 constexpr double k_repair_factor = 0.5;
-/// A face that still fails in this round stays a hole, where that is allowed: shorter edges around it seldom help, and they stay.
+/// A face that still fails in this round stays a hole if that is allowed: shorter edges around it seldom help, and they remain.
 constexpr int k_rounds_before_holes = 2;
-/// Above it volume_mesh takes no feature angle from the mesh.
+/// Above this angle volume_mesh does not take a feature angle from the mesh.
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
-constexpr int k_digits = 4;  ///< of numbers in messages
+constexpr int k_digits = 4;  ///< digits of numbers in messages
 
 struct Meshing : SizedModel {
   WingBands bands;
@@ -45,10 +45,10 @@ struct Meshing : SizedModel {
   std::set<FaceId> to_mesh;
 };
 
-// Shares of the time, of the widebody of 1.5 M triangles.
+// Fractions of the time, measured on the widebody of 1.5 M triangles.
 constexpr double k_prepared = 0.15, k_first_round = 0.75, k_first_judged = 0.9;
 
-/// Tells how many of the triangles that faces are expected to have are made.
+/// Reports the progress as a fraction of the expected triangles of the faces.
 class FaceProgress {
  public:
   FaceProgress(const Meshing& meshing, std::span<const FaceId> work, const RunContext& context) : context_(context) {
@@ -68,7 +68,7 @@ class FaceProgress {
   std::mutex mutex_;
 };
 
-/// Cuts edges anew and meshes the faces whose edges changed, and those that are to be meshed again.
+/// Cuts edges again and meshes the faces whose edges changed, and those marked for re-meshing.
 SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunContext& context) {
   const Model& model = meshing.model;
   Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, meshing.rims, field, context);
@@ -91,7 +91,7 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
         progress.done(i);
       },
       1);
-  // The others have their border's vertices under new numbers.
+  // The remaining faces get new numbers for their border vertices.
   for (const FaceId f : model.faces.ids())
     if (!std::binary_search(work.begin(), work.end(), f))
       meshing.faces[f].border_ids = border_ids(model, f, meshing.topology, meshing.cuts, numbers, meshing.sizes.outlines[f]);
@@ -99,7 +99,7 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   return join_faces(model, meshing.topology, meshing.cuts, numbers, meshing.faces);
 }
 
-/// The same on borders that are each other's image: what one asks for, the others ask for, too.
+/// Returns the sizes of a round, equal on periodic borders: a requirement on one border also applies to its images.
 SurfaceSizes sizes_of_round(const Meshing& meshing, const RunContext& context) {
   SurfaceSizes field(meshing.model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
   if (meshing.rims.empty()) return field;
@@ -134,14 +134,14 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
   throw Error(std::move(info));
 }
 
-/// Half the sizes where faces failed. \return whether any did
+/// Halves the sizes where faces failed. \return true if any did
 bool refine_failures(Meshing& meshing, const SurfaceSizes& field) {
   bool is_any = false;
   for (const FaceId f : meshing.model.faces.ids()) {
     const MeshedFace& face = meshing.faces[f];
     if (!face.failure) continue;
     is_any = true;
-    if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges make it worse
+    if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges would make it worse
     const double cap = meshing.sizes.faces[f].max_edge;
     const auto size_at = [&](const Point& p) { return std::min(cap, field.least_near(p)); };
     for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, size_at(place.position));
@@ -190,7 +190,7 @@ BandSummary summarise_bands(const Meshing& meshing) {
   return summary;
 }
 
-/// Faces without a mesh, each in one sentence.
+/// Returns one sentence for each face without a mesh.
 std::vector<std::string> holes_of(const Meshing& meshing) {
   std::vector<std::string> notes;
   for (const FaceId f : meshing.model.faces.ids()) {
@@ -249,7 +249,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);
   for (int round = 1;; ++round) {
     const SurfaceSizes field = sizes_of_round(meshing, context);
-    // Later rounds mesh few faces, and fewer each time.
+    // Later rounds mesh few faces, and fewer in each round.
     const double begin = round == 1 ? k_prepared : 1.0 - (1.0 - k_first_judged) * std::pow(0.5, round - 2);
     mesh = mesh_round(meshing, field, context.part("faces", begin, round == 1 ? k_first_round : 0.5 * (begin + 1.0)));
     mesh.report.n_rounds = round;
@@ -327,7 +327,7 @@ std::string to_text(const SurfaceMeshReport& report) {
     text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " +
             number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
   }
-  constexpr double k_flat = 1e-6;  // rad: as good as nothing
+  constexpr double k_flat = 1e-6;  // rad: negligible
   if (report.max_smooth_angle > k_flat)
     text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees an edge, at " + format_point(report.smooth_angle_place);
   if (!report.absorbed.empty())

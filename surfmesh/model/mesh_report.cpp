@@ -9,7 +9,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< of SurfaceMeshReport::least_angles
+constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< bin width of SurfaceMeshReport::least_angles
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What a surface mesh's report says of its triangles and of those that cross: the same for a mesh that was made at once and for one that was joined of parts.
+// Report of a surface mesh on its triangles and crossings, shared by meshes made at once and meshes joined from parts.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -8,19 +8,19 @@
 
 namespace sterna::surfmesh {
 
-/// Sets what follows from the faces: their summaries, the worst of their angles and normals, distances of edges.
-/// \pre none are in the report yet
+/// Sets the values derived from the faces: their summaries, the worst of their angles and normals, distances of edges.
+/// \pre the report has no face summaries yet
 void summarise_faces(const Column<FaceId, MeshedFace>& faces, SurfaceMeshReport& report);
 
-/// Sets what follows from the triangles alone: classes of least angles, their 1 % quantile, share within [20, 130] degrees (of `report.faces`), mean radius
-/// ratio.
+/// Sets the values derived from the triangles alone: histogram of smallest angles, its 1 % quantile, fraction within [20, 130] degrees (of `report.faces`),
+/// mean radius ratio.
 void measure_triangles(SurfaceMesh& mesh);
 
-/// Notes the crossings in the report.
-/// \throws Error(self_intersection) where there are any and options.crossings is "error"; else a warning
+/// Adds the crossings to the report. Logs a warning unless options.crossings is "error".
+/// \throws Error(self_intersection) if there are crossings and options.crossings is "error"
 void report_crossings(const Model& model, const SurfaceMeshOptions& options, const MeshCrossings& crossings, SurfaceMesh& mesh, const RunContext& context);
 
-/// Loose edges by falling distance / tolerance.
+/// Sorts loose edges by falling distance / tolerance.
 void sort_loose_edges(std::vector<LooseEdge>& edges);
 
 }  // namespace sterna::surfmesh

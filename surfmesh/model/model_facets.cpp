@@ -12,27 +12,27 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// An edge is halved so often at most: 512 pieces.
+/// Largest number of halvings of an edge: 512 pieces.
 constexpr int k_most_halvings = 9;
-/// Pieces that every edge is looked at in: a wave may pass through the middle of its chord.
+/// Number of pieces in which every edge is tested: a wave may pass through the middle of its chord.
 constexpr int k_first_pieces = 4;
-/// Rows of a face's grid in one direction at most, and lines along which its curvature is looked at.
+/// Largest number of rows of a face's grid in one direction, and of lines along which its curvature is sampled.
 constexpr std::size_t k_most_rows = 256;
 constexpr int k_curvature_lines = 5;
 /// Pieces of the degenerate edge at a pole.
 constexpr int k_pole_pieces = 16;
-/// Small things are drawn to a share of their own size, not of the model's.
+/// Small entities are drawn to a fraction of their own size, not of the model's.
 constexpr double k_own_tolerance = 4e-3;
-constexpr double k_least_share = 1e-2;  ///< of the model's tolerance: below that nothing is seen
+constexpr double k_least_share = 1e-2;  ///< relative to the model's tolerance: smaller deviations are not visible
 
-/// Distance of a point from the chord's line.
+/// Returns the distance of a point from the chord's line.
 double off_chord(const Point& a, const Point& between, const Point& b) {
   const Vec3 chord = b - a;
   const double length = norm(chord);
   return length > 0.0 ? norm(cross(between - a, chord)) / length : distance(between, a);
 }
 
-/// Where an edge is cut, both ends included.
+/// Cut points of an edge, both ends included.
 struct EdgePoints {
   std::vector<double> t;
   std::vector<Point> points;
@@ -76,7 +76,7 @@ EdgePoints cut_edge(const ModelEdge& edge, double tolerance) {
   return result;
 }
 
-/// One face's triangles, of its own points.
+/// Triangles of one face, with its own points.
 struct FaceFacets {
   std::vector<Point> points;
   std::vector<Uv> uv;
@@ -91,7 +91,7 @@ struct FacetLoop {
   std::vector<Point> points;
 };
 
-/// The outline's own polygons where a border runs around a period, else the edges' points.
+/// Returns the outline's own polygons if a border runs around a period, else the edges' points.
 std::vector<FacetLoop> loops_of(const Model& model, FaceId f, const FaceOutline& outline, const Column<EdgeId, EdgePoints>& edges) {
   const Surface& surface = *model.faces[f].surface;
   std::vector<FacetLoop> loops;
@@ -118,7 +118,7 @@ std::vector<FacetLoop> loops_of(const Model& model, FaceId f, const FaceOutline&
         continue;
       }
       const EdgePoints& cut = edges[use.edge];
-      for (std::size_t k = 0; k + 1 < cut.t.size(); ++k) {  // its end is the start of the next
+      for (std::size_t k = 0; k + 1 < cut.t.size(); ++k) {  // the end is the start of the next edge
         const std::size_t i = use.is_reversed ? cut.t.size() - 1 - k : k;
         loop.uv.push_back(parameters_at(model, entry, cut.t[i]));
         loop.points.push_back(cut.points[i]);
@@ -140,7 +140,7 @@ ParameterBox box_around(const std::vector<FacetLoop>& loops) {
   return box;
 }
 
-/// Pieces of equal parameter along u (or v), a power of two, so that a line of the surface is within the tolerance of its chords.
+/// Returns the number of pieces of equal parameter along u (or v), a power of two, so that a line of the surface is within the tolerance of its chords.
 std::size_t rows_along(const Surface& surface, const ParameterBox& box, bool is_u, double tolerance) {
   const auto place = [&](double along, double across) {
     const Uv at{is_u ? along : across, is_u ? across : along};
@@ -164,7 +164,7 @@ std::size_t rows_along(const Surface& surface, const ParameterBox& box, bool is_
   return n;
 }
 
-/// The larger principal curvature's magnitude, 1/m; nothing where the surface has no normal.
+/// Returns the magnitude of the larger principal curvature, 1/m; nothing if the surface has no normal.
 double curvature_at(const Surface& surface, Uv at) {
   const SurfaceDerivatives d = surface.derivatives(at);
   const double e = dot(d.du, d.du), f = dot(d.du, d.dv), g = dot(d.dv, d.dv), area2 = e * g - f * f;
@@ -186,7 +186,7 @@ bool is_in_loops(const std::vector<FacetLoop>& loops, Uv at) {
   return inside;
 }
 
-/// The triangulation of the borders and the grid in the plane whose cells are squares.
+/// Triangulates the borders and the grid in a plane in which the grid cells are squares.
 void triangulate(const std::vector<FacetLoop>& loops, const ParameterBox& box, std::size_t n_u, std::size_t n_v, FaceFacets& facets,
                  const RunContext& context) {
   std::vector<delaunay::Segment> segments;
@@ -201,7 +201,7 @@ void triangulate(const std::vector<FacetLoop>& loops, const ParameterBox& box, s
     for (std::size_t j = 1; j < n_v; ++j)
       facets.uv.push_back({box.u.from + box.u.length() * static_cast<double>(i) / static_cast<double>(n_u),
                            box.v.from + box.v.length() * static_cast<double>(j) / static_cast<double>(n_v)});
-  // Long cells are no worse than square ones here: the plane is stretched so that they are.
+  // Long cells are as acceptable as square ones here: the plane is scaled so that cells are squares.
   const auto scale = [](std::size_t n, double length) { return length > 0.0 ? static_cast<double>(n) / length : 1.0; };
   const Vec2 by{scale(n_u, box.u.length()), scale(n_v, box.v.length())};
   std::vector<Vec2> plane;
@@ -256,7 +256,7 @@ FaceFacets facets_of_face(const Model& model, FaceId f, const Column<EdgeId, Edg
     std::uint8_t bits = facets.edges[t];
     if (options.with_curvature) facets.curvature.push_back(curvature_at(*face.surface, (1.0 / 3.0) * (facets.uv[c[0]] + facets.uv[c[1]] + facets.uv[c[2]])));
     if (face.is_reversed) {
-      std::swap(c[1], c[2]);  // edges 0-1, 1-2, 2-0 are now those of 2, 1, 0
+      std::swap(c[1], c[2]);  // edges 0-1, 1-2, 2-0 now join the vertices 2, 1, 0
       bits = static_cast<std::uint8_t>(((bits & 1) << 2) | (bits & 2) | ((bits & 4) >> 2));
     }
     facets.triangles[n] = c;
@@ -282,7 +282,7 @@ ModelFacets facets_of(const Model& model, const FacetOptions& options, const Run
         const ModelEdge& edge = model.edges[EdgeId(i)];
         EdgePoints& cut = edges[EdgeId(i)] = cut_edge(edge, tolerance);
         if (cut.points.empty()) return;
-        // Edges that meet have the same point there, to the bit.
+        // Edges that meet have bitwise the same point there.
         cut.points.front() = model.corners[edge.start].point;
         cut.points.back() = model.corners[edge.end].point;
       },

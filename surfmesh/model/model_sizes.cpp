@@ -19,20 +19,21 @@ namespace {
 constexpr double k_of_circumference = 0.08;
 constexpr double k_of_chord = 0.15;
 constexpr double k_of_longest_side = 0.02;
-/// Of the root of a face's area.
+/// Relative to the square root of a face's area.
 constexpr double k_of_face = 0.25;
 constexpr double k_min_of_max = 0.02;
-/// Of the model's longest side: automatic longest and shortest edges are no shorter, or tip faces of nearly zero size would ask for edges of nothing.
+/// Relative to the model's longest side: lower limits of automatic longest and shortest edges. Else tip faces of nearly zero size would require edges of zero
+/// length.
 constexpr double k_least_max_edge = 1e-4, k_least_min_edge = 1e-5;
-/// Of the longest edge of a face: narrow places ask for no shorter edges while min_edge is automatic. A rim a millionth as wide as it is long would ask for
-/// millions.
+/// Relative to the longest edge of a face: lower limit of sizes from narrow regions while min_edge is automatic. A strip a millionth as wide as it is long
+/// would require millions.
 constexpr double k_least_narrow = 1e-4;
-/// Rad: beyond about 45 degrees between triangles layers take a smooth place for an edge; edges miss their size by a third.
+/// Rad: beyond about 45 degrees between triangles the layers treat a smooth region as a ridge; edges exceed their size by a third.
 constexpr double k_most_turn = 30.0 * std::numbers::pi / 180.0;
-/// Of the automatic min_edge: it gives way so far and no farther, since pointed tips and thin round trailing edges would ask for most of all triangles.
+/// Relative to the automatic min_edge: lower limit of its reduction, since pointed tips and thin round trailing edges would require most of all triangles.
 constexpr double k_least_of_min = 0.5;
-/// The same on wings: their min_edge is that of the mean chord, and noses of thin tapered wings are rounder than half of that at the tip. Longer edges turn by
-/// 80 degrees along a leading edge, which is a line and no spot.
+/// The same on wings. Their min_edge is derived from the mean chord, and the nose radius of thin tapered wings at the tip is below half of that. Longer edges
+/// would turn by 80 degrees along a leading edge, which is a line and no spot.
 constexpr double k_least_of_min_on_wings = 0.25;
 
 double longest_side(const Box& box) { return box.empty() ? 0.0 : box.longest_side(); }
@@ -54,7 +55,7 @@ double default_max_edge(const Component& component, const ComponentMeasures& m) 
     case ComponentKind::sting: return k_of_circumference * m.area / longest;
     case ComponentKind::wing:
     case ComponentKind::pylon: {
-      // Half of the wetted area is the planform's; the span is the longer side across the flow.
+      // The planform has half of the wetted area; the span is the longer side across the flow.
       const double span = std::max(size.y, size.z);
       return k_of_chord * std::min(0.5 * m.area / std::max(span, 1e-12), longest);
     }
@@ -62,7 +63,7 @@ double default_max_edge(const Component& component, const ComponentMeasures& m) 
   }
 }
 
-/// Faces of no component share the defaults of the whole model.
+/// Computes default sizes; faces without a component share the defaults of the whole model.
 Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& sizes, const Column<EdgeId, EdgeSamples>& edges, double& of_model) {
   Column<ComponentId, ComponentMeasures> measures(model.components.size());
   ComponentMeasures all;
@@ -87,7 +88,7 @@ Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& 
   return result;
 }
 
-/// Meshes of a family are similar: where sizes grow from a fine place, they grow slower in the finer mesh.
+/// Returns the change of size per distance. Meshes of a family are similar: where sizes grow from a fine region, they grow slower in the finer mesh.
 double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
 
 void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, FaceSizes& sizes) {
@@ -106,8 +107,9 @@ bool is_min_edge_given(const std::string& name, const SurfaceMeshOptions& option
   });
 }
 
-/// Where nobody gave a min_edge, the automatic one would end a chord error that is far too small, and the mesh would be another than asked for without a word.
-/// \throws Error(overflow) when what is asked for is more than max_triangles \post sizes of curvature are made for this question only
+/// Checks chord errors if no min_edge is given: the automatic min_edge would limit a chord error that is far too small, and the mesh would silently differ
+/// from the request.
+/// \throws Error(overflow) if the request needs more than max_triangles \post curvature sizes are computed for this check only
 void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, ModelSizes& sizes) {
   double n = 0.0, least = std::numeric_limits<double>::infinity();
   for (const FaceId f : model.faces.ids()) {
@@ -129,7 +131,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
                   std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
   double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
-  // The last rule that matches and says something counts.
+  // The last matching rule with a value counts.
   for (const PatchSurfaceOptions& rule : patches) {
     if (!matches_glob(name, rule.names)) continue;
     if (!is_automatic(rule.max_edge)) max_edge = rule.max_edge;
@@ -146,7 +148,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
   sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
   sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? std::max(k_min_of_max * sizes.max_edge, automatic_least) : min_edge);
   sizes.least_narrow = is_automatic(min_edge) ? std::min(sizes.max_edge, automatic_least) / options.refinement : 0.0;
-  // A min_edge that nobody gave ends neither a chord error, nor may the mesh turn sharply for it where the model is smooth.
+  // An automatic min_edge must not limit a chord error, and must not cause sharp turns of the mesh where the model is smooth.
   if (is_automatic(min_edge)) {
     sizes.limits.most_turn = std::max(angle, k_most_turn);
     sizes.limits.least_edge = std::max(least_of_min * sizes.limits.min_edge, std::min(sizes.max_edge, automatic_least));
@@ -156,15 +158,15 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
   sizes.limits.angle = angle;
   if (!is_automatic(error)) sizes.limits.chord_error = error;
   sizes.max_edge /= options.refinement;
-  // The automatic floor under what turns sharply stays in coarse members: round tips that the member of 1 has smooth, they have, too.
+  // The automatic lower limit for sharp turns is not enlarged in coarse members: round tips that are smooth in member 1 stay smooth.
   sizes.limits.least_edge /= is_automatic(min_edge) ? std::max(options.refinement, 1.0) : options.refinement;
   for (double* edge : {&sizes.limits.min_edge, &sizes.limits.error_edge}) *edge /= options.refinement;
   sizes.limits.angle /= options.refinement;
-  // The error of a chord falls with the square of its length.
+  // The error of a chord is proportional to the square of its length.
   sizes.limits.chord_error /= options.refinement * options.refinement;
-  sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes carries them on
+  sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes propagates them
   resolve_bands(name, options, patches, sizes);
-  // A band answers for its edge; the factor would but shorten its cells along the edge.
+  // A band determines the sizes at its edge; the factor would only shorten its cells along the edge.
   if (sizes.leading.is_any()) sizes.leading_factor = 1.0;
   if (sizes.trailing.is_any()) sizes.trailing_factor = 1.0;
   return sizes;
@@ -198,19 +200,19 @@ double distance_between(const Box& a, const Box& b) {
   return norm(gap);
 }
 
-/// A sample of an edge where a face beside it is narrow.
+/// A sample of an edge at which an adjacent face is narrow.
 struct NarrowPlace {
   EdgeId edge;
   std::size_t sample = 0;
   double size = 0.0;
 };
 
-/// Where two edges of a face run near to each other, edges are to be no longer than the face is wide there. Beside a corner that two edges share that is
-/// so only when they are nearer than k_narrow_corner of the distance from the corner: wider corners are filled by triangles as they are.
+/// Adds narrow regions: where two edges of a face run near to each other, edges must not be longer than the width of the face there. Near a corner shared by
+/// both edges this applies only if they are nearer than k_narrow_corner of the distance from the corner: triangles fill wider corners without refinement.
 void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow,
                        std::vector<NarrowPlace>& places) {
   constexpr double k_narrow_corner = 0.35;
-  constexpr double k_at_corner = 1e-6;  // of the edge's length: the corner itself has no distance to the other edge
+  constexpr double k_at_corner = 1e-6;  // relative to the edge's length: the corner itself has no distance to the other edge
   constexpr double k_least_of_min_edge = 0.2;
   const double reach = sizes.max_edge / narrow;
   std::vector<EdgeId> used;
@@ -247,7 +249,8 @@ void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSa
     }
 }
 
-/// What an edge asks for at its samples: its own curvature, that of its faces beside it, its length where that is short, and the lesser size of its faces.
+/// Returns the sizes required at an edge's samples: by its own curvature, the curvature of adjacent faces, its length where that is short, and the smaller
+/// size of its faces.
 std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes,
                                 double intersection_factor) {
   double least = sizes.largest;
@@ -273,7 +276,8 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
   return result;
 }
 
-/// Sources at the samples and, where these are farther apart than the sizes, between them: else lengths would grow from sample to sample and shrink again.
+/// Adds sources at the samples and, where these are farther apart than the sizes, between them: else lengths would grow from sample to sample and shrink
+/// again.
 void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizeSite>& sources) {
   constexpr double k_most_between = 4096.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -317,7 +321,7 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     const ModelFace& face = model.faces[f];
     std::unique_ptr<CurvatureSizes> curvature = std::move(sizes.faces[f].curvature);
     double by_default = face.component.is_valid() ? automatic[face.component] : of_model;
-    // Of a component that says nothing of itself only faces tell what is large and what is small: a farfield and a wing may be one part.
+    // In a component of unknown kind only the faces indicate which regions are large and which are small: a farfield and a wing may be one part.
     const bool is_unknown = !face.component.is_valid() || model.components[face.component].kind == ComponentKind::unknown;
     const double length = of_model / k_of_longest_side;
     if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0)

@@ -1,4 +1,4 @@
-// Wanted lengths of edges over a model: what options, rules for patches and component defaults say for each face, and what curvature and narrow places ask for.
+// Target edge lengths over a model: requirements of options, patch rules and component defaults for each face, and of curvature and narrow regions.
 #pragma once
 
 #include <functional>
@@ -22,31 +22,31 @@ struct FaceSizes {
   double max_edge = 0.0;
   BandWish leading, trailing;
   double trailing_cells = k_automatic;                 ///< across a blunt trailing edge
-  double leading_factor = 1.0, trailing_factor = 1.0;  ///< of max_edge at a wing's leading and trailing edges
+  double leading_factor = 1.0, trailing_factor = 1.0;  ///< relative to max_edge, at a wing's leading and trailing edges
   bool has_tip_strips = false;
-  double least_narrow = 0.0;  ///< m: narrow places ask for no shorter edges, where min_edge is automatic
+  double least_narrow = 0.0;  ///< m: lower limit of sizes from narrow regions if min_edge is automatic
   CurvatureLimits limits;
-  std::unique_ptr<CurvatureSizes> curvature;  ///< of the surface within the face
+  std::unique_ptr<CurvatureSizes> curvature;  ///< sizes from the curvature of the surface within the face
 };
 
 struct ModelSizes {
   Column<FaceId, FaceOutline> outlines;
   Column<FaceId, FaceSizes> faces;
   Column<EdgeId, std::vector<double>>
-      edge_sizes;                  ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
-  std::vector<SizeSite> sources;   ///< the same in space, and the curvature of faces: where sizes may be small
-  std::vector<SizeSite> in_space;  ///< sources of the user that count on all faces
-  PlaceSizes places;               ///< what is asked for by place: never more than max_edge
-  std::function<bool(FaceId, const Point&)> is_covered;  ///< curvature asks for nothing there, because a band answers for it; empty: nowhere
-  double growth = 0.2;                                   ///< change of length by distance
-  double largest = 0.0;                                  ///< max_edge of all faces
+      edge_sizes;                  ///< m, at the samples of each edge: required by its curvature, the curvature of adjacent faces, narrow faces and its length
+  std::vector<SizeSite> sources;   ///< the same in space, and the curvature of faces: locations where sizes may be small
+  std::vector<SizeSite> in_space;  ///< user sources that apply to all faces
+  PlaceSizes places;               ///< sizes required by location: never more than max_edge
+  std::function<bool(FaceId, const Point&)> is_covered;  ///< true where curvature is ignored because the rows of a band determine the size; empty: nowhere
+  double growth = 0.2;                                   ///< change of length per distance
+  double largest = 0.0;                                  ///< largest max_edge of all faces
 };
 
 /// \throws Error(bad_argument) for a rule that no face's name matches
 ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options,
                           std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
-/// Fills `edge_sizes` and `sources`; what is absorbed, or within a band, asks for nothing.
+/// Fills `edge_sizes` and `sources`. Absorbed faces and edges, and those within a band, require no size.
 struct ModelTopology;
 struct WingBands;
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,

@@ -1,4 +1,4 @@
-// What a model is made of, without its shape: by it two models are seen to be the same thing, one of them deformed.
+// Structure of a model without its shape, used to recognise that one model is a deformation of another.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace sterna::surfmesh {
 struct EdgeStructure {
   CornerId start, end;
   bool is_degenerate = false;
-  Interval range;  ///< of its parameter
+  Interval range;  ///< range of its parameter
   std::string name;
 };
 
@@ -28,7 +28,7 @@ struct FaceStructure {
   FaceRole role = FaceRole::skin;
   PatchKind kind = PatchKind::wall;
   bool is_reversed = false;
-  ParameterBox box;  ///< of its borders' samples
+  ParameterBox box;  ///< box of its borders' samples
   std::vector<std::vector<UseStructure>> borders;
 };
 
@@ -38,7 +38,7 @@ struct SolidStructure {
   bool is_closed = false;
 };
 
-/// Everything but points in space. Corners are counted, as they have nothing else.
+/// All data except points in space. Corners are only counted, as they have no other data.
 struct ModelStructure {
   std::vector<Component> components;
   std::uint64_t n_corners = 0;
@@ -49,15 +49,15 @@ struct ModelStructure {
 
 ModelStructure structure_of(const Model& model);
 
-/// Of a face's extent in (u, v): samples of borders that are farther apart are of faces trimmed in another way. Below, vertices on the border go where it is
-/// now, and whether the triangles beside it bear that is looked at (carry_mesh.h).
+/// Fraction of a face's extent in (u, v). If samples of borders are farther apart, the faces are trimmed differently. If they are closer, vertices on the
+/// border move to the new border, and carry_mesh.h checks that the adjacent triangles remain valid.
 inline constexpr double k_same_border = 0.05;
 
-/// Empty where both models have the same components, edges, faces and solids, by number, names, kinds and borders, and their borders run alike in (u, v)
-/// (k_same_border); else the first thing that differs: "face \"wing\" has 2 borders, not 1".
+/// Returns an empty string if both models have the same components, edges, faces and solids (numbers, names, kinds and borders), and their borders agree in
+/// (u, v) (k_same_border); else the first difference: "face \"wing\" has 2 borders, not 1".
 std::string difference_of(const ModelStructure& reference, const ModelStructure& now);
 
-/// A parameter of `from` where it is in `to`: linear, and exactly itself where both are equal.
+/// Maps a parameter of `from` to `to`: linear, and exactly the same value if both ranges are equal.
 double carried(double t, const Interval& from, const Interval& to);
 Uv carried(Uv at, const ParameterBox& from, const ParameterBox& to);
 

@@ -7,7 +7,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// What is smaller than this part of the shortest wanted edge is absorbed: in a mesh of such edges nobody sees it.
+/// Entities smaller than this fraction of the shortest target edge are absorbed: a mesh of such edges cannot resolve them.
 constexpr double k_shortest = 0.05;
 
 CornerId find(Column<CornerId, CornerId>& stands_for, CornerId c) {
@@ -32,7 +32,7 @@ double limit_of(const ModelEdge& edge, const std::vector<EdgeUsePlace>& uses, co
 
 bool is_rim(const std::vector<EdgeUsePlace>& uses) { return uses.size() == 1; }
 
-/// Of corners, whether an edge of one face only ends there: in a half model they lie in the plane of symmetry, and have to stay.
+/// Flags the corners at the end of an edge with only one face: in a half model they lie in the plane of symmetry, and must not move.
 Column<CornerId, std::uint8_t> corners_on_rims(const Model& model, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses) {
   Column<CornerId, std::uint8_t> on_rim(model.corners.size(), 0);
   for (const EdgeId e : model.edges.ids())
@@ -63,7 +63,7 @@ void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& e
   for (const CornerId c : model.corners.ids()) topology.corner[c] = find(topology.corner, c);
 }
 
-/// Largest distance from the samples of one edge to the polyline of the other, once it is above `limit` no longer exactly.
+/// Returns the largest distance from the samples of one edge to the polyline of the other; above `limit` the value is not exact.
 double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
   double largest = 0.0;
   for (const EdgeSample& s : a.samples) {
@@ -76,7 +76,8 @@ double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
   return largest;
 }
 
-/// Faces that are a line or a point: every edge is walked there and back, and there is nothing between (a seam's face has that too, but has an area).
+/// Absorbs faces that are a line or a point: every edge is traversed in both directions, and there is no area between (a seam's face has both directions too,
+/// but has an area).
 void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
                   ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {
@@ -101,7 +102,7 @@ void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, 
   }
 }
 
-/// Faces whose border is two edges that are the same line within the limit.
+/// Absorbs faces whose border consists of two edges that coincide within the limit.
 void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
                    ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {

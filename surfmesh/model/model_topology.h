@@ -1,4 +1,4 @@
-// What is left of a model's corners, edges and faces when parts too small for the mesh are absorbed.
+// Corners, edges and faces of a model that remain after parts too small for the mesh are absorbed.
 #pragma once
 
 #include <vector>
@@ -7,21 +7,21 @@
 
 namespace sterna::surfmesh {
 
-/// An edge that runs along another one, in its sense or against it.
+/// An edge that runs along another one, in the same sense or against it.
 struct SameEdge {
   EdgeId edge;
   bool is_reversed = false;
 };
 
 struct ModelTopology {
-  Column<CornerId, CornerId> corner;      ///< the corner that stands for it
+  Column<CornerId, CornerId> corner;      ///< the corner that represents it
   Column<EdgeId, std::uint8_t> is_point;  ///< degenerate, or absorbed
   Column<EdgeId, SameEdge> same_as;       ///< itself, or the edge on the other side of an absorbed strip
   Column<FaceId, std::uint8_t> is_absorbed;
 };
 
-/// Edges shorter than their tolerance or than a twentieth of the shortest edge wanted become points; then faces of two edges that are nowhere farther apart
-/// than that (the base of a trailing edge that is all but sharp) become a line. Appends to `absorbed`.
+/// Absorbs small parts. Edges shorter than their tolerance, or than a twentieth of the shortest target edge, become points. Then faces of two edges that are
+/// nowhere farther apart than that (the base of an almost sharp trailing edge) become a line. Appends to `absorbed`.
 ModelTopology absorb_small_parts(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, std::vector<AbsorbedPart>& absorbed);
 
 }  // namespace sterna::surfmesh

@@ -1,4 +1,4 @@
-// The model behind a surface mesh: where points on its triangles belong. What splits the wall later puts new vertices there.
+// The model behind a surface mesh: returns the exact model location of points on its triangles. Later splits of the wall put new vertices there.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace sterna::surfmesh {
 
-/// Where the vertices and triangles of a surface mesh lie on its model: of SurfaceMesh.
+/// Model locations of the vertices and triangles of a surface mesh, copied from SurfaceMesh.
 struct WallPlaces {
   Column<VertexId, VertexPlace> places;
   Column<VertexId, EdgePlace> edge_places;
@@ -27,50 +27,50 @@ struct WallPlaces {
   Column<TriangleId, FaceId> triangle_face;
 };
 
-/// The nearest place of a face around a point.
+/// The nearest location of a face near a given point.
 struct ModelFoot {
   FaceId face;
   Uv at;
   Point point;
   double distance = std::numeric_limits<double>::infinity();  ///< m
-  bool is_inside = true;                                      ///< of the face's border, or on it; false: on the surface, but beyond the border
+  bool is_inside = true;                                      ///< inside the face's border or on it; false: on the surface, but beyond the border
 };
 
 /// The outward normal of a face.
 struct ModelNormal {
   Vec3 normal;             ///< unit
-  bool is_beside = false;  ///< the surface has none there (pole, tip): that of a place close by
+  bool is_beside = false;  ///< the surface has no normal there (pole, tip): taken from a location close by
 };
 
 class ModelWall {
  public:
-  /// Keeps copies of what it needs.
-  /// \pre `mesh` is of this model
+  /// Keeps copies of all data it needs.
+  /// \pre `mesh` is a mesh of this model
   ModelWall(Model model, const SurfaceMesh& mesh);
-  /// The same of a model that is made when it is first needed, which is seldom: in the thread that then asks, while others wait.
+  /// Defers the making of the model until it is first needed, which is seldom. The thread that needs it first makes it while others wait.
   ModelWall(std::function<Model()> model, WallPlaces places, Column<TriangleId, TriangleVertices> triangles);
 
-  /// The same wall elsewhere.
+  /// Returns the same wall at another location.
   /// \pre `motion` is a rotation and a shift
   ModelWall(const ModelWall& other, const Transform& motion);
 
-  /// The nearest point of the model around a point on a triangle: on the edge of the model that the triangle's edge lies on where the weight of the corner
-  /// opposite to it is exactly zero, else on the face's surface. Thread-safe. \p weights barycentric, not negative
+  /// Returns the model point nearest to a point on a triangle. If the weight of a corner is exactly zero and the opposite side lies on a model edge, the
+  /// point lies on that edge, else on the face's surface. Thread-safe. \p weights barycentric, not negative
   Point nearest(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
 
-  /// The point of the surface of the triangle's face that is nearest around the triangle, and whether it belongs to the face. Thread-safe. \p weights
-  /// barycentric, where on the triangle
+  /// Returns the nearest point on the surface of the triangle's face, searched near the triangle, and reports if the point belongs to the face. Thread-safe.
+  /// \p weights barycentric coordinates on the triangle
   ModelFoot foot(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
-  /// The nearest point on the part of the model's edge that the triangle's side opposite to corner `k` lies on, as a place of the triangle's face; nothing for
-  /// a side inside the face. Thread-safe.
+  /// Returns the nearest point on the model edge segment of the triangle's side opposite to corner `k`, as a location on the triangle's face; nothing for a
+  /// side inside the face. Thread-safe.
   std::optional<ModelFoot> edge_foot(const Point& p, TriangleId triangle, std::size_t k) const;
-  /// Whether a vertex is inside the triangle's face, not on its border.
+  /// Returns true if a vertex is inside the triangle's face, not on its border.
   bool is_inner(TriangleId triangle, VertexId v) const;
-  /// Where the vertex is on the model: on its edge where it has one, else on its face; nothing where nothing is known of it. Thread-safe.
+  /// Returns the location of the vertex on the model: on its edge if it has one, else on its face; nothing if unknown. Thread-safe.
   std::optional<Point> place_of(VertexId v) const;
-  /// Nothing where the surface has no normal, not even close by. Thread-safe.
+  /// Returns nothing if the surface has no normal there and close by. Thread-safe.
   std::optional<ModelNormal> normal(FaceId face, Uv at) const;
-  /// For messages.
+  /// Returns the face's name for messages.
   /// \pre foot.face is valid
   const std::string& name_of(FaceId face) const;
 
@@ -78,18 +78,18 @@ class ModelWall {
   const Column<TriangleId, TriangleVertices>& triangles() const { return triangles_; }
 
  private:
-  /// Two vertices that follow each other on an edge of the model.
+  /// Two consecutive vertices on an edge of the model.
   struct Segment {
     VertexId low, high;
     EdgeId edge;
     double t_low = 0.0, t_high = 0.0;
   };
-  /// Made when a face is first asked for: most never are.
+  /// Created when a face is first queried: most faces never are.
   struct LazyProjector {
     std::once_flag once;
     std::unique_ptr<const SurfaceProjector> made;
   };
-  /// What only a few walls are asked for.
+  /// Needed for only a few walls.
   struct LazyRegion {
     std::once_flag once;
     std::unique_ptr<const FaceRegion> made;
@@ -107,7 +107,7 @@ class ModelWall {
   static const Segment* segment_of(const Knowledge& known, VertexId a, VertexId b);
   static const SurfaceProjector& projector_of(Knowledge& known, FaceId f);
   static const FaceRegion& region_of(Knowledge& known, FaceId f);
-  /// Places in the face's (u, v) that the vertex may have: several on a seam; none for a corner that says nothing of this face.
+  /// Returns the possible (u, v) of the vertex in the face: several on a seam; none for a corner without data for this face.
   std::vector<Uv> places_in(const Knowledge& known, FaceId f, VertexId v) const;
 
   std::function<Model()> model_;

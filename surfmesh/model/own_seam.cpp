@@ -10,11 +10,11 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Of the greater of du and dv: a surface this slow along its period has a pole there.
+/// Relative to the greater of du and dv: a surface with a smaller speed along its period has a pole there.
 constexpr double k_pole_speed = 1e-6;
-/// Places where sizes are asked along a seam.
+/// Number of locations along a seam at which sizes are evaluated.
 constexpr std::size_t k_seam_samples = 128;
-/// Starts of a seam that are tried.
+/// Largest number of seam starts that are tried.
 constexpr std::size_t k_most_starts = 64;
 
 [[noreturn]] void fail(const Surface& surface, const std::string& problem, const Point& place) {
@@ -29,7 +29,7 @@ struct Loop {
   std::vector<BorderPoint> points;
   std::vector<VertexId> ids;
   std::vector<EdgeId> edges;
-  Uv around;  ///< whole periods from the start to the end; zero where it closes
+  Uv around;  ///< whole periods from the start to the end; zero if the loop closes
 };
 
 bool do_cross(Uv a, Uv b, Uv c, Uv d) {
@@ -37,7 +37,7 @@ bool do_cross(Uv a, Uv b, Uv c, Uv d) {
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
 }
 
-/// Whether a straight seam meets a loop, in any period, elsewhere than in its own ends.
+/// Returns true if a straight seam touches no loop, in any period, other than at its own ends.
 bool is_clear(Uv from, Uv to, const std::vector<Loop>& loops, Uv period) {
   for (const Loop& loop : loops)
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
@@ -52,7 +52,7 @@ bool is_clear(Uv from, Uv to, const std::vector<Loop>& loops, Uv period) {
   return true;
 }
 
-/// The loop begun at its i-th point, that point again at its end: n + 1 points, around or back a period.
+/// Returns the loop starting at its i-th point, with that point repeated at the end: n + 1 points, around or back a period.
 Loop unrolled(const Loop& loop, std::size_t start, Uv shift) {
   Loop result;
   const std::size_t n = loop.points.size();
@@ -67,7 +67,7 @@ Loop unrolled(const Loop& loop, std::size_t start, Uv shift) {
   return result;
 }
 
-/// Places between the ends of a seam, equal lengths in sizes.
+/// Returns locations between the ends of a seam, at equal lengths measured in sizes.
 std::vector<Uv> cut_seam(const Surface& surface, const std::function<double(Uv, const Point&)>& size, Uv from, Uv to) {
   std::vector<double> metric{0.0};
   Point before = surface.point(from);
@@ -99,12 +99,12 @@ bool is_inside(const std::vector<BorderPoint>& polygon, Uv at) {
 }
 
 struct Seam {
-  std::size_t start = 0;        ///< of the first loop
-  std::size_t other_start = 0;  ///< of the second, if there is one
+  std::size_t start = 0;        ///< on the first loop
+  std::size_t other_start = 0;  ///< on the second, if there is one
   Uv from, to;
 };
 
-/// The place on the other loop with the parameter along the period nearest to that of `from`.
+/// Returns the location on the other loop whose parameter along the period is nearest to that of `from`.
 std::optional<Seam> find_seam(const std::vector<Loop>& loops, const Loop& first, const Loop* second, double pole, Uv period) {
   const bool is_along_u = period.u != 0.0;
   const double length = is_along_u ? period.u : period.v;

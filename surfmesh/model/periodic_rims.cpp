@@ -1,5 +1,5 @@
 // Steps: rim_of each side; find_translation; align_absorbed_corners; add_stops until all borders have those of their images; cut_into_pieces; link each piece
-// with its image; gather those that are linked into kinds.
+// with its image; collect linked pieces into kinds.
 #include "surfmesh/model/periodic_rims.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class RimFinder {
     rims_.of_edge.resize(model_.edges.size());
     for (const SidePair& names : pairs) pairs_.push_back(sides_of(names));
     for (const Sides& pair : pairs_) align_absorbed_corners(pair);
-    // A stop on one border may be a corner's image of an image: of two pairs in two directions after two rounds.
+    // A stop on one border may be the image of an image of a corner: with two pairs in two directions this takes two rounds.
     for (bool is_any = true; is_any;) {
       is_any = false;
       for (const Sides& pair : pairs_)
@@ -105,7 +105,7 @@ class RimFinder {
     return sides;
   }
 
-  /// Edges between a face of that name and another face, or none.
+  /// Returns the edges between a face of that name and another face, or none.
   Side rim_of(const std::string& name) {
     std::map<EdgeId, int> n_uses;
     for (const FaceId f : model_.faces.ids()) {
@@ -126,7 +126,7 @@ class RimFinder {
     return side;
   }
 
-  /// Free edges in the plane that volume_mesh calls so and closes by a patch; none for other names.
+  /// Returns the free edges in the plane with this name in volume_mesh, which closes the plane by a patch; none for other names.
   Side free_rim_of(const std::string& name) const {
     Side side{name, {}};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -148,7 +148,7 @@ class RimFinder {
   }
 
   RimFoot foot_on(const Side& side, const Point& p) const {
-    // Edges by the distance to their polylines; those within reach by the curves.
+    // Edges are selected by the distance to their polylines; those within reach are measured by their curves.
     RimFoot best;
     std::vector<std::pair<double, EdgeId>> near;
     for (const EdgeId e : side.edges) {
@@ -158,7 +158,7 @@ class RimFinder {
         nearest = std::min(nearest, distance_to_segment(p, s[k].point, s[k + 1].point));
         longest = std::max(longest, distance(s[k].point, s[k + 1].point));
       }
-      near.emplace_back(std::max(0.0, nearest - longest), e);  // the curve is nowhere farther from its chord than that is long
+      near.emplace_back(std::max(0.0, nearest - longest), e);  // the curve is nowhere farther from its chord than this length
     }
     std::ranges::sort(near);
     for (const auto& [bound, e] : near) {
@@ -182,7 +182,8 @@ class RimFinder {
     return v;
   }
 
-  /// That of the boxes; where it is not good enough, because circles were sampled at other places, corrected by the distances across the borders.
+  /// Computes the translation from the boxes. If it is not accurate enough, because circles were sampled at other locations, it is corrected by the distances
+  /// across the borders.
   void find_translation(Sides& sides) {
     const Box here = box_of(sides.side[0]), there = box_of(sides.side[1]);
     sides.translation = without_rounding(0.5 * (there.min - here.min) + 0.5 * (there.max - here.max));
@@ -204,7 +205,7 @@ class RimFinder {
     return largest;
   }
 
-  /// Least squares of the distances across the second border, when the first one moves with it: sum of (I - t t^T) is the matrix.
+  /// Returns the least-squares solution for the distances across the second border when the first one is moved: the matrix is the sum of (I - t t^T).
   Vec3 correction(const Sides& sides) const {
     std::array<Vec3, 3> matrix{};
     Vec3 right;
@@ -259,7 +260,7 @@ class RimFinder {
     return corners;
   }
 
-  /// Of corners that short edges made one, those on the second side are to be the image of that on the first.
+  /// Aligns corners merged by short edges: those on the second side must be the images of those on the first.
   void align_absorbed_corners(const Sides& sides) {
     const std::set<CornerId> here = corners_of(sides.side[0]), there = corners_of(sides.side[1]);
     for (const CornerId c : here) {
@@ -432,9 +433,9 @@ double nearest_parameter(const ModelEdge& edge, const EdgeSamples& samples, cons
     low = std::max(range.from, from - (to - from));
     high = std::min(range.to, to + (to - from));
   }
-  // Newton on (c - p) . c', kept between neighbours of the nearest chord.
+  // Newton on (c - p) . c', limited to the neighbours of the nearest chord.
   constexpr int k_steps = 30;
-  constexpr double k_still = 1e-15;  // of the range
+  constexpr double k_still = 1e-15;  // relative to the range
   for (int i = 0; i < k_steps; ++i) {
     const CurveDerivatives d = edge.curve->derivatives(t);
     const Vec3 off = d.point - p;
@@ -461,7 +462,7 @@ double image_parameter(const PeriodicRims& rims, std::size_t piece, double t, co
 }
 
 std::vector<SizeSite> sizes_of_partners(const PeriodicRims& rims, const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceSizes& field) {
-  constexpr double k_equal = 0.98;  // of the own size: what is as good as that asks for nothing
+  constexpr double k_equal = 0.98;  // relative to the own size: smallest sizes above this require no source
   constexpr double k_most_between = 512.0;
   std::vector<SizeSite> sites;
   for (const std::vector<std::size_t>& kind : rims.kinds) {

@@ -1,4 +1,4 @@
-// What places of a model ask for apart from curvature and edges: leading and trailing edges of wings, their tips, gaps, and the user's sources.
+// Sizes required at locations of a model apart from curvature and edges: at leading and trailing edges of wings, tips, gaps, and user sources.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct ModelSizes;
 struct SpaceSizes;
 
 /// Factors of the largest edge over a wing (docs/method/surface.md, "Factors on wings"): at its leading and trailing edges, blending to one over a quarter of
-/// the way around the section; in strips beside its tips.
+/// the perimeter of the section, and in strips beside its tips.
 class WingFactors {
  public:
   struct Line {
@@ -28,8 +28,8 @@ class WingFactors {
   double operator()(const Point& p, double leading_factor, double trailing_factor, bool has_strips) const;
 };
 
-/// Wings and pylons of a model, by component; nothing for the others. Leading edges are edges between an upper and a lower face that are smooth or, of two
-/// sharp ones, the one with the smaller x; trailing edges are the other and the borders of bases.
+/// Finds the wings and pylons of a model, by component; empty for other components. Leading edges are smooth edges between an upper and a lower face or, of
+/// two sharp ones, the one with the smaller x. Trailing edges are the other one and the borders of bases.
 Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model, const Column<EdgeId, EdgeSamples>& edges);
 
 class PlaceSizes {
@@ -37,15 +37,15 @@ class PlaceSizes {
   PlaceSizes() = default;
   /// \pre sizes.faces resolved
   PlaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, const SpaceSizes& asked, double refinement);
-  /// Adds sources that count on this face only.
-  /// \pre none of it before
+  /// Adds sources that apply to this face only.
+  /// \pre the face has no sources yet
   void set_sources(FaceId f, const std::vector<SizeSite>& sources, const RunContext& context);
 
-  /// Metres: at most the face's largest edge.
+  /// Returns the size in metres: at most the face's largest edge.
   double operator()(FaceId f, const Point& p) const;
-  /// Nobody on the face within `reach` asks for less than its largest edge.
+  /// Returns true if no size on the face within `reach` is below its largest edge.
   bool is_level_within(FaceId f, const Point& p, double reach) const;
-  /// A function of the user may be called by the thread that began alone.
+  /// Returns true if a user function is set, which only the starting thread may call.
   bool is_serial() const { return static_cast<bool>(function_); }
 
  private:
@@ -60,7 +60,7 @@ class PlaceSizes {
   std::function<double(const Point&, double)> regions_;
   std::function<double(const Point&)> function_;
   double refinement_ = 1.0;
-  double growth_ = 0.0;  ///< of sizes by distance, before refinement
+  double growth_ = 0.0;  ///< change of sizes per distance, before refinement
 };
 
 }  // namespace sterna::surfmesh

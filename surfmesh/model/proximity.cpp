@@ -11,9 +11,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Faces look at each other when their normals are opposite within 30 degrees: the sides of a wider groove are not a gap.
+/// Faces face each other if their normals are opposite within 30 degrees: the sides of a wider groove are not a gap.
 constexpr double k_facing_cosine = 0.866;
-/// Of the length of a ray: hits nearer than that are the surface itself, bent.
+/// Relative to the length of a ray: nearer hits are the curved surface itself.
 constexpr double k_start = 1e-6;
 
 struct NearFacet {
@@ -22,7 +22,7 @@ struct NearFacet {
   FaceId face;
 };
 
-/// Cells with their corners inside the border; of those cut by it the half that is.
+/// Returns triangles of the cells with their corners inside the border; of cells cut by the border, the half inside.
 std::vector<NearFacet> facets_of(const Model& model, const SurfaceSizes& field) {
   std::vector<NearFacet> facets;
   for (const FaceId f : model.faces.ids()) {
@@ -42,7 +42,7 @@ std::vector<NearFacet> facets_of(const Model& model, const SurfaceSizes& field) 
   return facets;
 }
 
-/// Length along `way` (unit) from p to a facet, within `reach`.
+/// Returns the length along `way` (unit) from p to a facet, within `reach`.
 std::optional<double> hit(const Point& p, const Vec3& way, double reach, const NearFacet& facet) {
   const double across = dot(way, facet.normal);
   if (across == 0.0) return std::nullopt;
@@ -59,7 +59,7 @@ std::optional<double> hit(const Point& p, const Vec3& way, double reach, const N
   return t;
 }
 
-/// The same size all over a facet, as near as sizes are long.
+/// Adds sources of the same size all over a facet, spaced by about that size.
 void add_over(const NearFacet& facet, const SizeSite& source, std::vector<SizeSite>& sources) {
   constexpr double k_most = 32.0;
   const double longest = std::max({distance(facet.p[0], facet.p[1]), distance(facet.p[1], facet.p[2]), distance(facet.p[2], facet.p[0])});
@@ -85,7 +85,7 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
     SizeSite own, opposite;
   };
   std::vector<std::vector<Found>> found(facets.size());
-  // Of a gap the size asked for is share * width: wider ones than this part of the largest edge ask for nothing.
+  // The size required by a gap is share * width: gaps wider than this fraction of the largest edge are ignored.
   const double share_of_gap = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
   const double share_of_part = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
   parallel_for(

@@ -14,9 +14,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_digits = 3;                 ///< of distances in messages
+constexpr int k_digits = 3;                 ///< digits of distances in messages
 constexpr std::size_t k_sample_chunk = 32;  ///< triangles: a sample takes 5 to 50 us
-/// Distances are measured at so many triangles at least; where there are more, at every second, third ... of them.
+/// Smallest number of triangles at which distances are measured; if there are more, every second, third ... is measured.
 constexpr std::size_t k_sampled = 20'000;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -27,7 +27,7 @@ Corners sorted_corners(const TriangleVertices& v) {
   return c;
 }
 
-/// Of each point of `to` the lowest of `from` with the same coordinates; invalid: none.
+/// Returns for each point of `to` the lowest point of `from` with the same coordinates; invalid: none.
 Column<VertexId, VertexId> same_points(const TriMesh& to, const TriMesh& from, const RunContext& context) {
   const auto less = [](const Point& a, const Point& b) { return std::tuple(a.x, a.y, a.z) < std::tuple(b.x, b.y, b.z); };
   std::vector<VertexId> order;
@@ -98,7 +98,7 @@ ReplacedFaces find_replaced_faces(const ModelWall& model, const TriMesh& made, c
         };
         look(middle);
         for (const VertexId v : repaired.triangles[fresh[i]])
-          if (!same[v].is_valid()) look(repaired.points[v]);  // the others are the model's
+          if (!same[v].is_valid()) look(repaired.points[v]);  // the others are points of the model
       },
       k_sample_chunk);
 

@@ -7,15 +7,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Sine of the angle between a straight way and the surface at its end, above which it is no longer taken for a way along the surface: an arc with that angle
-/// at both ends is 0.7 % longer than its chord.
+/// Sine of the angle between a straight path and the surface at its end, above which the path no longer counts as a path along the surface: an arc with that
+/// angle at both ends is 0.7 % longer than its chord.
 constexpr double k_plain_sine = 0.2;
-/// A way may bend by 60 degrees from its straight line at a node: the grid has a neighbour within 35 degrees of every direction.
+/// A path may deviate by 60 degrees from its straight line at a node: the grid has a neighbour within 35 degrees of every direction.
 constexpr double k_forward_cosine = 0.5;
-/// Of a size: less is no gain worth another round.
+/// Relative to a size: smaller gains do not justify another round.
 constexpr double k_least_gain = 1e-9;
 
-/// What a node's size comes from.
+/// Source of a node's size.
 struct Origin {
   Point point;
   double size = 0.0;
@@ -34,13 +34,13 @@ struct Carrier {
     std::uint32_t sum = 0;
     for (std::uint32_t& end : node_ends) end = sum += end;
     node_cells.resize(sum);
-    // Filled from the back, so the ends become begins and are moved back afterwards.
+    // Filled from the back, so that the ends become starts; they are moved back afterwards.
     for (std::size_t c = g.cell_ends.size(); c-- > 0;)
       for (std::uint32_t k = g.cell_ends[c]; k-- > begin_of(c);) node_cells[--node_ends[g.cell_nodes[k]]] = static_cast<std::uint32_t>(c);
   }
   std::uint32_t begin_of(std::size_t cell) const { return cell == 0 ? 0 : graph.cell_ends[cell - 1]; }
 
-  /// node_ends holds begins here.
+  /// Requires that node_ends holds the starts.
   template <class Visit>
   void for_neighbours(std::uint32_t node, const Visit& visit) const {
     const std::uint32_t end = node + 1 < node_ends.size() ? node_ends[node + 1] : static_cast<std::uint32_t>(node_cells.size());
@@ -58,9 +58,9 @@ struct Carrier {
     const double forward = dot(step, back);
     return forward > 0.0 && forward * forward >= k_forward_cosine * k_forward_cosine * step2 * back2;
   }
-  /// Hands the size of `from` on; true when `to` gets less than it had.
+  /// Propagates the size of `from`; returns true if the size of `to` is reduced.
   bool relax(std::uint32_t from, std::uint32_t to) {
-    // No way from here is shorter than the straight step's gain allows.
+    // No path from here is shorter than the gain of the straight step allows.
     const double most = graph.sizes[to] * (1.0 - k_least_gain);
     if (graph.sizes[from] >= most) return false;
     const Vec3 ray = graph.points[to] - origins[from].point;

@@ -1,4 +1,4 @@
-// A model and the sizes that its mesh begins with: what mesh_model() and forecast_surface() share.
+// A model with the sizes at the start of its meshing, shared by mesh_model() and forecast_surface().
 #pragma once
 
 #include <span>
@@ -16,13 +16,13 @@ struct SizedModel {
   ModelTopology topology;  ///< empty until small parts are absorbed (absorb_small_parts)
 };
 
-/// Samples of the edges, and the sizes that options, curvature and places request.
+/// Samples the edges and computes the sizes required by options, curvature and locations.
 /// \pre `model` and `options` outlive the result
-/// \throws Error(bad_argument) for rules of patches that match none, and for chord errors out of reach
+/// \throws Error(bad_argument) for patch rules that match no patch, and for chord errors out of reach
 SizedModel sized_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                        const RunContext& context);
 
-/// Adds the sizes of narrow places and, where they are requested, of gaps.
+/// Adds the sizes of narrow regions and, if requested, of gaps.
 /// \pre small parts are absorbed
 void add_narrow_places(SizedModel& sized, const WingBands* bands, const RunContext& context);
 

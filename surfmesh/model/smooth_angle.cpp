@@ -1,5 +1,6 @@
-// Each face measures its inner edges and lists those of its border with the exact normals at their ends; lists are sorted together, and edges of two triangles
-// whose normals agree on both sides are measured, too. Edges that turn far are joined to groups, and groups that are spots are told from those that are not.
+// Each face measures its inner edges and lists its border edges with the exact normals at their ends. The lists are sorted together, and edges of two
+// triangles whose normals agree on both sides are measured as well. Edges with a large turn are joined to groups, and spots are separated from the other
+// groups.
 #include "surfmesh/model/smooth_angle.h"
 
 #include <algorithm>
@@ -14,31 +15,31 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Faces that join at less than this have no crease: CAD systems take faces for tangent within about a degree, fitted surfaces miss it by a few.
+/// Faces that join at less than this angle have no crease: CAD systems treat faces as tangent within about a degree, fitted surfaces deviate by a few.
 constexpr double k_tangent = 5.0 * std::numbers::pi / 180.0;
 
-/// Edges that turn by more than this belong to the group of their neighbours: about where layers begin to take a smooth place for an edge.
+/// Edges that turn by more than this are grouped with their neighbours: from about this angle on, layers treat a smooth region as a ridge.
 constexpr double k_sharp = 45.0 * std::numbers::pi / 180.0;
-/// Of the longest edge of a group: what extends no farther is a spot. A cone of half angle a is thinner than its edges are long for 1 / tan(a) edges from its
-/// point, for 21 where the round tip of a wing of 4 % thickness ends at its trailing edge.
+/// Relative to the longest edge of a group: groups that do not extend farther are spots. A cone of half angle a is thinner than its edges are long over 1 /
+/// tan(a) edges from its point; over 21 edges where the round tip of a wing of 4 % thickness ends at its trailing edge.
 constexpr double k_spot = 25.0;
-/// A triangle follows the surface when its normal is within this of the exact ones at two of its vertices (at the third, a point of a cone, there is none).
-/// Two triangles around a half circle are 45 degrees off, folds 90 and more.
+/// A triangle follows the surface if its normal is within this angle of the exact ones at two of its vertices (the third may be the point of a cone, without
+/// a normal). Two triangles around a half circle deviate by 45 degrees, folds by 90 and more.
 constexpr double k_follows = 75.0 * std::numbers::pi / 180.0;
 
 struct LocalEdge {
   std::uint32_t low, high;
-  std::uint32_t triangle;  ///< of the face
+  std::uint32_t triangle;  ///< number within the face
   auto operator<=>(const LocalEdge&) const = default;
 };
 
-/// An edge that only one triangle of its face has; vertices by their numbers in all faces.
+/// An edge with only one triangle of its face; vertices have their numbers across all faces.
 struct BorderEdge {
   std::uint32_t low = 0, high = 0;
   FaceId face;
   std::uint32_t triangle = 0;
-  std::array<Vec3, 2> exact;  ///< outward normals of the surface at low and high; zero where it has none
-  Vec3 normal;                ///< of the triangle
+  std::array<Vec3, 2> exact;  ///< outward normals of the surface at low and high; zero where the surface has none
+  Vec3 normal;                ///< normal of the triangle
   std::array<Point, 2> ends;  ///< low and high
   bool follows = true;        ///< the triangle follows the surface
   Point middle() const { return 0.5 * (ends[0] + ends[1]); }
@@ -47,7 +48,7 @@ struct BorderEdge {
   }
 };
 
-/// A vertex of all faces: of a border by its number there, of the inside by its face.
+/// Identifies a vertex across all faces: on a border by its number there, inside by its face.
 struct VertexKey {
   FaceId face;  ///< none for vertices of borders
   std::uint32_t vertex = 0;
@@ -61,7 +62,7 @@ struct SharpEdge {
   std::array<VertexKey, 2> keys;
   std::array<Point, 2> ends;
   bool follow = true;  ///< both triangles follow the surface
-  FaceId face;         ///< one of those beside it
+  FaceId face;         ///< one of the adjacent faces
 };
 
 struct FaceAngles {
@@ -122,7 +123,7 @@ FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace&
       continue;
     }
     ++i;
-    if (e.high >= mesh.n_border) continue;  // of a triangle that stands for a point of a pole
+    if (e.high >= mesh.n_border) continue;  // belongs to a triangle at the point of a pole
     BorderEdge edge{.face = f,
                     .triangle = e.triangle,
                     .exact = {exact_normal(e.low), exact_normal(e.high)},
@@ -147,7 +148,7 @@ bool is_tangent(const BorderEdge& a, const BorderEdge& b) {
   return true;
 }
 
-/// Groups of sharp edges that share vertices; those that are no spots count, and all where a face has more than spots at its two ends.
+/// Adds groups of sharp edges that share vertices. Groups that are no spots count, and all groups of a face with more than the spots at its two ends.
 void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, SmoothAngle& best) {
   std::vector<VertexKey> keys;
   for (const SharpEdge& e : edges) keys.insert(keys.end(), e.keys.begin(), e.keys.end());

@@ -1,4 +1,4 @@
-// How far the triangles turn where the model does not: what a feature angle has to exceed (docs/method/envelope.md, "Feature angle").
+// Largest turn between triangles where the model is smooth, which a feature angle must exceed (docs/method/envelope.md, "Feature angle").
 #pragma once
 
 #include "surfmesh/model/mesh_faces.h"
@@ -10,9 +10,9 @@ namespace sterna::surfmesh {
 struct SmoothAngle {
   double angle = 0.0;  ///< rad
   Point place{};       ///< middle of that edge
-  /// The same without spots: connected edges that turn by more than 45 degrees within 25 edge lengths, whose triangles follow the surface. The model is
-  /// rounder there than its edges are short: the points of cones, round tips above thin trailing edges. Spots of a face that extend over more than 50 edges
-  /// count.
+  /// The same without spots. A spot is a group of connected edges that turn by more than 45 degrees within 25 edge lengths and whose triangles follow the
+  /// surface: the radius of the model is small compared to the edges there (points of cones, round tips above thin trailing edges). Spots of a face that
+  /// extend over more than 50 edges count.
   double angle_outside_spots = 0.0;  ///< rad
   Point place_outside_spots{};
 };

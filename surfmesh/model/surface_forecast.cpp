@@ -1,7 +1,7 @@
-// 1. The sizes of mesh_model, in the same order: of faces, of places, of edges, carried over the surface.
-// 2. of_face: areas of grid cells over the area of an equilateral triangle of the size there; a face has no fewer triangles than its border has edges, less
-// two.
-// 3. explain: the rule that asks for at least half of a face's triangles.
+// 1. The sizes of mesh_model, in the same order: of faces, of locations, of edges, carried over the surface.
+// 2. of_face: areas of grid cells divided by the area of an equilateral triangle of the local size; a face has at least as many triangles as border edges,
+// minus two.
+// 3. explain: the rule that causes at least half of a face's triangles.
 #include "surfmesh/model/surface_forecast.h"
 
 #include <algorithm>
@@ -19,16 +19,16 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_rough = 2e7;  ///< triangles: cells of sizes would take gigabytes
-/// Triangles made by those of the sizes: 1.05 to 1.16 on ten models of CAD, since edges are cut into whole numbers of segments.
+constexpr double k_rough = 2e7;  ///< triangles: above this, cells of sizes would take gigabytes
+/// Ratio of triangles made to those of the sizes: 1.05 to 1.16 on ten CAD models, since edges are cut into whole numbers of segments.
 constexpr double k_made = 1.1;
-constexpr double k_cause = 0.5;  ///< of a face's triangles: a rule that asks for so many is the cause
+constexpr double k_cause = 0.5;  ///< fraction of a face's triangles from which a rule counts as the cause
 constexpr double k_same_size = 1.05;
 constexpr int k_cell_samples = 2;    ///< in each direction of a cell inside a face
-constexpr int k_border_samples = 6;  ///< of one that the border crosses
-constexpr int k_most_pieces = 64;    ///< of an edge between two samples
+constexpr int k_border_samples = 6;  ///< in each direction of a cell crossed by the border
+constexpr int k_most_pieces = 64;    ///< for an edge between two samples
 
-/// What is known of one face.
+/// Sums for one face.
 struct FaceSum {
   double n = 0.0, area = 0.0;
 };
@@ -76,7 +76,7 @@ FaceSum sum_of_cells(const SizedModel& all, const SurfaceSizes& field, FaceId f)
   return sum;
 }
 
-/// Segments that an edge will be cut into.
+/// Returns the expected number of segments of an edge.
 double cuts_of(const SizedModel& all, const SurfaceSizes& field, EdgeId e) {
   const std::vector<EdgeSample>& samples = all.edges[e].samples;
   if (samples.empty() || all.topology.is_point[e] != 0) return 0.0;

@@ -1,4 +1,4 @@
-// How many triangles a model's surface will have, by the sizes of the mesher itself but without its triangles, and what asks for most of them.
+// Forecast of the number of triangles of a model's surface, from the mesher's sizes but without its triangles, with the rules that cause most of them.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace sterna::surfmesh {
 
-/// A face with many triangles, and the rule that asks for most of them.
+/// A face with many triangles, and the rule that causes most of them.
 struct FaceForecast {
   FaceId face;
   std::string name;
   double n_triangles = 0.0;
   double least_edge = 0.0;  ///< m
-  Point place;              ///< where the least edge is
+  Point place;              ///< location of the smallest edge
   std::string rule;         ///< "curvature: an edge spans at most 12 degrees"
   std::string advice;       ///< "a larger curvature_angle or min_edge"
 };
@@ -27,9 +27,9 @@ struct SurfaceForecast {
 };
 inline constexpr std::size_t k_forecast_faces = 3;
 
-/// Integrates 1 / size^2 over each face, with the sizes that mesh_model() begins with: within about 30 % of what it makes. Above k_rough triangles (20 million)
-/// sizes are not carried over the surface, and the number is a lower bound. Takes a fifth of the time of mesh_model() to twice its time (very many small
-/// faces). Rows at leading and trailing edges are not counted.
+/// Integrates 1 / size^2 over each face, with the sizes at the start of mesh_model(): within about 30 % of its number of triangles. Above k_rough triangles
+/// (20 million) sizes are not carried over the surface, and the number is a lower bound. Takes between a fifth of the time of mesh_model() and twice its time
+/// (for very many small faces). Rows at leading and trailing edges are not counted.
 /// \throws Error(bad_argument) as mesh_model()
 SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                                  const RunContext& context);

@@ -1,4 +1,4 @@
-// From a model to one watertight triangulation: sizes, edges cut once, faces meshed in parallel, joined (docs/method/surface.md).
+// Meshes a model as one watertight triangulation: sizes, edges cut once, faces meshed in parallel and joined (docs/method/surface.md).
 #pragma once
 
 #include <array>
@@ -46,9 +46,9 @@ struct SurfaceMeshOptions {
   std::string periodic = {};
 };
 
-/// What faces (patches) whose names match ask for instead; not a number: as the options above say.
+/// Options for the faces (patches) whose names match; NaN: the options above apply.
 struct PatchSurfaceOptions {
-  std::string names;                            ///< glob: "wing*", "*" any run of characters, "?" any one
+  std::string names;                            ///< glob: "wing*"; "*" matches any characters, "?" any single one
   double max_edge = k_automatic;                ///< m
   double min_edge = k_automatic;                ///< m
   double curvature_angle = k_automatic;         ///< rad
@@ -64,15 +64,15 @@ struct PatchSurfaceOptions {
   double trailing_edge_factor = k_automatic;
 };
 
-/// Lengths of edges asked for in space, whatever face is there. They are divided by `refinement`, too.
+/// Target edge lengths in space, independent of faces. They are also divided by `refinement`.
 struct SpaceSizes {
-  /// m, for a point and the change of length by distance: growing with it, infinite where nothing is asked for. From many threads.
+  /// m, for a point and the change of length per distance: grows with distance; infinite where there is no target. Thread-safe.
   std::function<double(const Point&, double)> regions;
-  std::function<double(const Point&)> function;  ///< m, > 0; called by the thread that called mesh_model alone; may jump
-  std::vector<SizeSite> samples;                 ///< least lengths at points
+  std::function<double(const Point&)> function;  ///< m, > 0; called only by the thread that called mesh_model; may be discontinuous
+  std::vector<SizeSite> samples;                 ///< smallest lengths at points
 };
 
-/// Where a vertex lies on an edge of the model; no edge: inside a face, or a corner.
+/// Location of a vertex on an edge of the model; no edge: inside a face, or a corner.
 struct EdgePlace {
   EdgeId edge;
   double t = 0.0;
@@ -82,100 +82,100 @@ struct FaceMeshSummary {
   FaceId face;
   std::string name;
   std::int64_t n_triangles = 0;
-  std::int64_t n_band = 0;  ///< of them in bands and strips, which the angles here say nothing of
+  std::int64_t n_band = 0;  ///< number of these in bands and strips, which the angles here exclude
   double min_angle = 0.0;   ///< rad
   double max_angle = 0.0;
-  Point worst_place{};                ///< where the smallest angle is
+  Point worst_place{};                ///< location of the smallest angle
   std::int64_t n_outside_20_130 = 0;  ///< triangles with an angle outside [20, 130] degrees
   double max_normal_angle = 0.0;      ///< rad: between a triangle and the surface at a corner of it
   Point normal_place{};
-  double curvature_angle = 0.0;  ///< rad: what it was to be at most
+  double curvature_angle = 0.0;  ///< rad: target for max_normal_angle
   double area = 0.0;             ///< m^2, of its triangles
-  double area_above = 0.0;       ///< m^2, of those whose normals are off by more
+  double area_above = 0.0;       ///< m^2, of those whose normals deviate by more
 };
 
-/// A thing of the model that the mesh does not show.
+/// An entity of the model that the mesh does not resolve.
 struct AbsorbedPart {
   std::string what;  ///< "edge shorter than its tolerance", with the names of faces
   Point place;
   double size = 0.0;  ///< metres
 };
 
-/// Two faces whose triangles cross, or one whose own do.
+/// Two faces whose triangles cross, or one face with self-crossing triangles.
 struct CrossingFaces {
   FaceId first, second;
   std::int64_t n_pairs = 0;
-  Point place{};             ///< of the first pair
-  bool is_one_part = false;  ///< both of one solid, or of one sheet
-  bool is_closed = false;    ///< the parts of both
+  Point place{};             ///< location of the first pair
+  bool is_one_part = false;  ///< both of one solid, or of one open part
+  bool is_closed = false;    ///< the parts of both are closed
 };
 
-/// An edge whose vertices are farther from a face of it than the model's tolerances say.
+/// An edge whose vertices are farther from an adjacent face than the model's tolerances allow.
 struct LooseEdge {
   EdgeId edge;
   FaceId face;
-  double distance = 0.0;   ///< m, the largest of its vertices
-  double tolerance = 0.0;  ///< m: the largest of the edge's, its corners' and the face's
+  double distance = 0.0;   ///< m, largest over its vertices
+  double tolerance = 0.0;  ///< m: largest of the tolerances of the edge, its corners and the face
   Point place{};
 };
 
 /// Bands along leading and trailing edges, and strips on blunt trailing edges.
 struct BandSummary {
-  std::int64_t n_edges = 0;   ///< of the model with rows beside them
+  std::int64_t n_edges = 0;   ///< model edges with rows beside them
   std::int64_t n_strips = 0;  ///< bases
   std::int64_t n_triangles = 0;
-  double max_stretch = 0.0;        ///< of cells in rows: length along : length across
-  double max_strip_stretch = 0.0;  ///< of cells on bases
-  double max_growth = 0.0;         ///< largest ratio of rows that follow each other
-  std::vector<std::string> notes;  ///< wishes that could not be met, and where rows had to be left out
+  double max_stretch = 0.0;        ///< cells in rows: length along : length across
+  double max_strip_stretch = 0.0;  ///< cells on bases
+  double max_growth = 0.0;         ///< largest ratio of consecutive row heights
+  std::vector<std::string> notes;  ///< requirements that could not be met, and locations where rows had to be omitted
 };
 
 struct SurfaceMeshReport {
-  std::vector<FaceMeshSummary> faces;  ///< as in the model
+  std::vector<FaceMeshSummary> faces;  ///< in the order of the model
   std::vector<AbsorbedPart> absorbed;
-  double min_angle = 0.0;  ///< rad; these four of isotropic triangles, those of bands apart
+  double min_angle = 0.0;  ///< rad; these four describe isotropic triangles, without those of bands
   double max_angle = 0.0;
   double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
-  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their least angle: below 10 degrees, below 20, ... up to 60
-  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller least angle
-  double share_20_130 = 1.0;                   ///< of the triangles: all angles within
-  FaceId worst_face;                           ///< where min_angle is
-  double max_edge_distance = 0.0;              ///< metres: from a vertex on an edge to a face of it
+  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their smallest angle: below 10 degrees, below 20, ... up to 60
+  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller smallest angle
+  double share_20_130 = 1.0;                   ///< fraction of the triangles with all angles within
+  FaceId worst_face;                           ///< face that has min_angle
+  double max_edge_distance = 0.0;              ///< metres: from a vertex on an edge to an adjacent face
   Point edge_distance_place{};
   std::vector<LooseEdge> loose_edges;  ///< by falling distance / tolerance
-  FaceId worst_normal_face;            ///< whose normals exceed the wanted angle by most; invalid where none does
-  double share_normals = 1.0;          ///< of the area: triangles within the curvature angle of the surface's normals at their corners
-  double max_smooth_angle = 0.0;       ///< rad: largest turn between two triangles where the model has no crease; what a feature angle has to exceed
+  FaceId worst_normal_face;            ///< face whose normals exceed the target angle by most; invalid if none does
+  double share_normals = 1.0;          ///< fraction of the area: triangles within the curvature angle of the surface's normals at their corners
+  double max_smooth_angle = 0.0;       ///< rad: largest turn between two triangles where the model has no crease; a feature angle must exceed it
   Point smooth_angle_place{};
-  std::int64_t n_free_edges = 0;         ///< of triangles: along free edges of the model
-  int n_rounds = 1;                      ///< of meshing; above 1 where places had to be refined to come out right
-  std::int64_t n_crossings = 0;          ///< pairs of triangles that cross and could not be refined away
+  std::int64_t n_free_edges = 0;         ///< free edges of triangles: along free edges of the model
+  int n_rounds = 1;                      ///< rounds of meshing; above 1 if regions had to be refined to become valid
+  std::int64_t n_crossings = 0;          ///< pairs of triangles that cross and could not be separated by refinement
   std::vector<CrossingFaces> crossings;  ///< by falling number; of the first 100 000 pairs
   BandSummary bands;
 };
 
-/// A surface mesh that remembers its model.
+/// A surface mesh with the model locations of its vertices.
 struct SurfaceMesh {
-  TriMesh mesh;  ///< a patch for each name of a face; vertices: corners, then edges', then inner ones, part by part where parts were joined (join_parts.h)
+  TriMesh mesh;  ///< one patch per face name; vertices: corners, then edges, then inner ones; if parts were joined, part by part (join_parts.h)
   Column<VertexId, VertexPlace> places;  ///< vertices on edges: on the first face that uses them
   Column<VertexId, EdgePlace> edge_places;
-  Column<CornerId, VertexId> corner_vertices;  ///< of the model's corners; invalid where no triangle has it
+  Column<CornerId, VertexId> corner_vertices;  ///< per corner of the model; invalid if no triangle has it
   Column<TriangleId, FaceId> triangle_face;
   Column<TriangleId, std::uint8_t> is_band;  ///< laid in rows, possibly stretched
   SurfaceMeshReport report;
 };
 
-/// Meshes a whole model. Vertices inside faces are exactly on their surface, those on edges exactly on the edge's curve, corners are the model's.
-/// Normals point outwards as the model's faces say. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
-/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no
-/// face's name matches, or sides of `periodic` that are no images; Error(overflow) beyond max_triangles, at once where sizes and areas say so;
-/// Error(non_manifold_surface) where triangles of faces do not join; Error(self_intersection) where triangles cross that finer ones do not part, unless
-/// options.crossings says otherwise
+/// Meshes a whole model. Vertices inside faces lie exactly on their surface, those on edges exactly on the edge's curve, and corners are those of the model.
+/// Normals point outwards as defined by the model's faces. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
+/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with locations; Error(bad_argument) for sizes that are not positive, a rule that no
+/// face's name matches, or sides of `periodic` that are not images of each other; Error(overflow) beyond max_triangles, at once if sizes and areas predict
+/// it; Error(non_manifold_surface) if triangles of faces do not join; Error(self_intersection) if triangles cross that refinement does not separate, unless
+/// options.crossings allows it
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                        const RunContext& context);
 
-/// Several lines for people.
+/// Returns several human-readable lines.
 std::string to_text(const SurfaceMeshReport& report);
 
 }  // namespace sterna::surfmesh
@@ -184,7 +184,8 @@ namespace sterna {
 
 namespace surfmesh {
 
-/// The options of rows at leading and trailing edges, of every struct that has them. The texts say what it means when nothing is given.
+/// Returns the schema fields of the row options at leading and trailing edges, for every struct that has them. The arguments are the help strings for values
+/// that are not given.
 template <class O>
 constexpr std::array<Field<O>, 6> edge_row_fields(std::string_view no_first, std::string_view no_stretch, std::string_view no_growth = {}) {
   return {{{.name = "leading_edge_chordwise",

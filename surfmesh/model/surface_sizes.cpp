@@ -1,6 +1,6 @@
-// 1. A lower bound: all sources with distances through space. It says how fine stations and cells have to be, wherever sizes may turn out small.
+// 1. A lower bound: all sources with distances through space. It sets the required resolution of stations and cells wherever sizes may be small.
 // 2. Stations along edges, the faces' borders through them, cells of the faces.
-// 3. One graph of corners, stations and nodes of cells; each asks for its own size; sizes are carried along it.
+// 3. One graph of corners, stations and nodes of cells, each with its own required size; sizes are carried along the graph.
 // 4. Values at corners of cells, with the edges that run through them.
 #include "surfmesh/model/surface_sizes.h"
 
@@ -13,10 +13,10 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Stations are at most this many times the lower bound apart.
+/// Largest distance of stations relative to the lower bound.
 constexpr double k_station_sizes = 1.0;
 constexpr int k_max_size_halvings = 24;
-/// Places between two stations at which the cells that an edge runs through are looked up.
+/// Number of intermediate points between two stations, used to find the cells that an edge runs through.
 constexpr int k_between = 4;
 
 double distance_along(const Point& p, const Point& a, const Point& b, double& share) {
@@ -26,13 +26,13 @@ double distance_along(const Point& p, const Point& a, const Point& b, double& sh
   return distance(p, a + share * along);
 }
 
-/// A station while the graph is built.
+/// A station during construction of the graph.
 struct Stop {
   double t = 0.0;
   Point point;
   double asked = 0.0;
   std::uint32_t node = 0;
-  std::array<Vec3, 2> normals{};  ///< of its faces; zero when there are more, or none
+  std::array<Vec3, 2> normals{};  ///< normals of its faces; zero if there are more than two, or none
 };
 
 }  // namespace
@@ -49,7 +49,7 @@ struct SurfaceSizes::Builder {
   Column<EdgeId, std::vector<Stop>> stops;
   SizeGraph graph;
 
-  /// In parallel where what the user asks for may be asked from any thread.
+  /// Runs in parallel if user functions may be called from any thread.
   template <class Body>
   void for_each(std::size_t n, std::size_t chunk, const Body& body) const {
     if (!sizes.places.is_serial()) return parallel_for(context, n, body, chunk);
@@ -83,7 +83,7 @@ struct SurfaceSizes::Builder {
         [&](std::size_t i) { keep_face(FaceId(static_cast<std::uint64_t>(i)), first_node[FaceId(static_cast<std::uint64_t>(i))]); }, 1);
   }
 
-  /// Samples of the edge, thinned to the distance that sizes need there, or with places between them.
+  /// Places stops at the samples of the edge, thinned to the distance that sizes require there, or with intermediate stops.
   void place_stops(EdgeId e, const std::vector<EdgeUsePlace>& uses) {
     const ModelEdge& edge = model.edges[e];
     const std::vector<EdgeSample>& samples = edges[e].samples;
@@ -132,7 +132,7 @@ struct SurfaceSizes::Builder {
           list.push_back({piece.b.t, piece.b.point, piece.b.asked, 0});
           along = 0.0;
         } else {
-          // What a place between stops asks for is handed to the last one.
+          // A requirement between stops is passed to the last stop.
           list.back().asked = std::min(list.back().asked, piece.b.asked + field.growth_ * along);
         }
       }
@@ -154,7 +154,7 @@ struct SurfaceSizes::Builder {
     return normals;
   }
 
-  /// (u, v) of the stops of one use, in the sense of its border.
+  /// Visits (u, v) of the stops of one use, in the sense of its border.
   template <class Visit>
   void for_stops(const OutlineUse& entry, const Visit& visit) const {
     const EdgeUse& use = model.faces[entry.place.face].borders[entry.place.border][entry.place.place];
@@ -185,7 +185,7 @@ struct SurfaceSizes::Builder {
         box.v = {std::min(box.v.from, at.v), std::max(box.v.to, at.v)};
       }
     }
-    // Borders that run around a period are closed by a seam that no edge of the model is.
+    // Borders that run around a period are closed by a seam that is not a model edge.
     if (!outline.winding.empty()) {
       loops = outline.polygons;
       for (const auto& loop : loops)
@@ -204,7 +204,7 @@ struct SurfaceSizes::Builder {
     field.faces_[f].grid = FaceGrid(*model.faces[f].surface, box, loops, bounds);
   }
 
-  /// Corners first, then the stations between them; a station sees the next one.
+  /// Adds the corners first, then the stations between them; each station is a neighbour of the next.
   void add_edges_to_graph() {
     for (const CornerId c : model.corners.ids()) graph.add_node(model.corners[c].point, {}, sizes.largest, true);
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
@@ -221,7 +221,7 @@ struct SurfaceSizes::Builder {
         if (k > 0) join(list[k - 1].node, list[k].node);
       }
     }
-    // Both sides of an absorbed strip are one line.
+    // Both sides of an absorbed strip are the same line.
     for (const EdgeId e : model.edges.ids()) {
       const SameEdge& same = topology.same_as[e];
       if (same.edge == e || stops[e].empty() || stops[same.edge].empty()) continue;

@@ -1,4 +1,4 @@
-// The wanted length of edges all over a model, as a field on its faces and edges: what places ask for, carried along the surface with limited growth.
+// Target edge length all over a model, as a field on its faces and edges: local requirements carried along the surface with limited growth.
 #pragma once
 
 #include <array>
@@ -15,26 +15,27 @@
 
 namespace sterna::surfmesh {
 
-/// size(x) = min over places y of (what y asks for + growth * distance from y to x along the surface): a fine leading edge asks nothing of a part across a gap.
-/// Faces ask by their largest edge and curvature, edges by the sizes at their samples, sources in space everywhere within their reach. Kept on cells of
-/// each face's (u, v) about two edges long (bilinear) and on stations of each edge (linear); beside an edge its own stations count too.
-/// Away from where it is asked for within about 5 % of the formula. Linear in the number of triangles that such sizes make, but for the order of the carrying.
+/// size(x) = min over locations y of (size required at y + growth * distance from y to x along the surface): refinement does not propagate across gaps. Faces
+/// contribute their largest edge and their curvature, edges the sizes at their samples, sources in space apply everywhere within their reach. Stored on cells
+/// of each face's (u, v) about two edges long (bilinear) and on stations of each edge (linear); near an edge its own stations count too. Away from the
+/// locations with requirements accurate to about 5 % of the formula. The cost is linear in the number of triangles of such sizes, apart from the sorting
+/// during propagation.
 class SurfaceSizes {
  public:
-  /// `in_space`: sources that count on all faces within their reach, besides those of `sizes`. With `keeps_grids` the nodes of grid() stay, and cells are no
-  /// longer than two edges everywhere.
+  /// `in_space`: sources that apply to all faces within their reach, in addition to those of `sizes`. With `keeps_grids` the nodes of grid() are kept, and
+  /// cells are nowhere longer than two edges.
   SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
                std::vector<SizeSite> in_space, const RunContext& context, bool keeps_grids = false);
 
-  /// Metres, from many threads.
+  /// Returns the size in metres. Thread-safe.
   /// \pre the face is not absorbed
   double on_face(FaceId face, Uv at, const Point& point) const;
-  /// Metres, on an edge that has faces and is no point.
+  /// Returns the size in metres on an edge that has faces and is not degenerate to a point.
   double on_edge(EdgeId edge, double t) const;
-  /// No place near `point` is wanted finer: the same formula with distances through space.
+  /// Returns a lower bound of the size near `point`: the same formula with distances through space.
   double least_near(const Point& point) const { return bound_(point, largest_); }
   std::size_t n_cells() const;
-  /// Empty for absorbed faces.
+  /// Returns an empty grid for absorbed faces.
   const FaceGrid& grid(FaceId face) const { return faces_[face].grid; }
 
  private:
@@ -44,7 +45,7 @@ class SurfaceSizes {
   };
   struct Cell {
     std::array<float, 4> sizes{};             ///< at the corners
-    std::uint32_t first = 0, n_segments = 0;  ///< of edges through the cell
+    std::uint32_t first = 0, n_segments = 0;  ///< range of the segments of edges through the cell
   };
   struct FaceField {
     FaceGrid grid;

@@ -1,5 +1,5 @@
-// Leading and trailing edges of wings that get bands of stretched triangles, and bases of blunt trailing edges that become strips of a stated number of cells:
-// which edges of the model they are, how they are cut, and what other sizes they overrule. Rules: docs/method/surface.md, "Wing edges and bands".
+// Leading and trailing edges of wings with bands of stretched triangles, and bases of blunt trailing edges meshed as strips of a given number of cells: which
+// model edges these are, how they are cut, and which other sizes they override. Rules: docs/method/surface.md, "Wing edges and bands".
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace sterna::surfmesh {
 
-/// Edges of one band bend by less than this where they meet: kinks of swept wings at the plane of symmetry do not end it.
+/// Edges of one band bend by less than this angle where they meet: kinks of swept wings at the plane of symmetry do not end the band.
 inline constexpr double k_largest_kink = 70.0 * std::numbers::pi / 180.0;
 
-/// Sine between a band and edges that leave it, at least.
+/// Smallest sine of the angle between a band and edges that leave it.
 inline constexpr double k_steep_sine = 0.42;
 
 /// An edge with rows of triangles on faces beside it.
@@ -26,24 +26,25 @@ struct BandEdge {
   BandKind kind = BandKind::leading;
   double first = 0.0;  ///< m, height of the first row
   double growth = 1.2;
-  double longest = 0.0;             ///< m: segments are no longer
-  std::vector<double> spacing{};    ///< m, wanted at the edge's samples
-  std::vector<double> reach{};      ///< m: so far from its samples rows grow
-  std::array<bool, 2> is_ending{};  ///< the band ends at the edge's start, end: stretch decays there
+  double longest = 0.0;             ///< m: upper limit of the segment length
+  std::vector<double> spacing{};    ///< m, target at the edge's samples
+  std::vector<double> reach{};      ///< m: extent of the rows from the edge's samples
+  std::array<bool, 2> is_ending{};  ///< the band ends at the edge's start, at its end: the stretch decays there
 };
 
-/// The end of an edge that leaves a band which goes on beyond it: cut into the heights of its rows there, because it is one of the band's columns.
+/// End of an edge that leaves a band which continues beyond it. The edge is one of the band's columns, so it is cut into the heights of the band's rows
+/// there.
 struct CrossingEnd {
   RowLaw law;
   double longest = 0.0;       ///< m, of the band's segments there
-  std::array<Vec3, 2> along;  ///< unit, of the band's edges at the corner: rows run like them
-  bool is_any = false;        ///< a band goes on here
+  std::array<Vec3, 2> along;  ///< unit vectors of the band's edges at the corner: rows run parallel to them
+  bool is_any = false;        ///< a band continues here
 };
 
-/// A base between two long sides.
+/// A trailing edge base between two long sides.
 struct BaseStrip {
   std::size_t n_cells = 0;
-  std::array<EdgeId, 2> long_edge;  ///< the second is cut at the shares of the first
+  std::array<EdgeId, 2> long_edge;  ///< the second is cut at the same length fractions as the first
   bool is_against = false;          ///< the edges' parameters run against each other
   std::vector<EdgeId> short_edges{};
   double width = 0.0;  ///< m, mean
@@ -53,16 +54,16 @@ struct WingBands {
   Column<EdgeId, std::optional<BandEdge>> edges;
   Column<EdgeId, std::array<CrossingEnd, 2>> crossings;  ///< at start and end
   Column<FaceId, std::optional<BaseStrip>> strips;
-  Column<EdgeId, std::size_t> n_short;           ///< cells that a short side of a strip is cut into; 0: none
-  Column<EdgeId, std::uint8_t> is_short_ending;  ///< no strip goes on beyond this short side
-  std::vector<std::string> notes;                ///< wishes that could not be met, with the faces' names
+  Column<EdgeId, std::size_t> n_short;           ///< cells across a short side of a strip; 0: no short side
+  Column<EdgeId, std::uint8_t> is_short_ending;  ///< no strip continues beyond this short side
+  std::vector<std::string> notes;                ///< requirements that could not be met, with the faces' names
 
   bool is_empty() const { return is_unused; }
   bool is_strip_in_band(FaceId f) const { return strips[f] && edges[strips[f]->long_edge[0]]; }
-  /// What face f asks for at p, a place on or beside it, does not count: a band's rows answer for it.
+  /// Returns true if the size required by face f at p, a location on or beside it, is ignored because the rows of a band determine the size there.
   bool covers(const Column<EdgeId, EdgeSamples>& samples, FaceId f, const Point& p) const;
 
-  /// Sizes at the samples of an edge as bands have them.
+  /// Replaces the sizes at the samples of an edge by those of the bands.
   void overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUsePlace>& uses, EdgeId e, double largest, std::vector<double>& sizes) const;
 
   bool is_unused = true;

@@ -1,5 +1,5 @@
-// Normals at both ends of an edge say each how far an arc would rise; the lower of the two counts, and nothing where they disagree in sign. Of lines the
-// tangents at both ends say it.
+// The normals at both ends of an edge each give the rise of an arc. The lower of the two is used, and zero if they disagree in sign. For lines the tangents
+// at both ends are used instead.
 #include "surfmesh/remesh/bulges.h"
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Largest angle between an edge and the curve over it, rad: edges that bend more are lines.
+/// Largest angle between an edge and the curve over it, rad: edges with a larger bend are lines.
 constexpr double k_most_rise = 0.5;
-/// A bulge is at most this part of the height of a triangle beside it: a patch that rises more beside a short edge would lean over its neighbours.
+/// Largest ratio of a bulge to the height of an adjacent triangle: a higher patch beside a short edge would overlap its neighbours.
 constexpr double k_bulge_of_height = 0.2;
 
-/// Of two half-edges of an edge the one with the smaller id.
+/// Returns the half-edge of an edge with the smaller id.
 HalfedgeId smaller_of(const Topology& topology, HalfedgeId h) {
   const HalfedgeId o = topology.twin(h);
   return o.is_valid() ? std::min(h, o) : h;
@@ -41,16 +41,16 @@ void find_line_bulges(const Reference& r, FeatureLine& line, const StraightParts
   const std::size_t n = line.vertices.size();
   line.bulges.assign(n - 1, Vec3{});
   const auto is_straight = [&](std::size_t i) { return parts.is_straight[line.halfedges[i]] != 0; };
-  // Tangents by the circle through three vertices, or of a straight segment; ends have none.
+  // Tangents from the circle through three vertices, or of a straight segment; ends have none.
   std::vector<Vec3> tangents(n);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Vec3 in = at(i) - at(i - 1), out = at(i + 1) - at(i);
     const bool is_in = is_straight(i - 1), is_out = is_straight(i);
     tangents[i] = normalized(is_in == is_out ? norm2(out) * in + norm2(in) * out : is_in ? in : out);
   }
-  // An end goes on as the line bends from there, if it still does so behind the next vertex.
+  // At an end the line continues with its bend there, if it still has the same bend behind the next vertex.
   const auto rise_at_end = [&](std::size_t near, std::size_t far, const Vec3& rise, double length) {
-    if (far == 0 || far >= n - 1) return Vec3{};  // also of a line of one edge, behind which there is no vertex
+    if (far == 0 || far >= n - 1) return Vec3{};  // also for a line of one edge, behind which there is no vertex
     const double behind = distance(at(near), at(far));
     const double bend = angle_between(tangents[near], tangents[far]) * 0.5 * length / behind;
     return norm(rise) > 0.0 ? std::min(1.0, bend / norm(rise)) * rise : rise;
@@ -59,7 +59,7 @@ void find_line_bulges(const Reference& r, FeatureLine& line, const StraightParts
     if (is_straight(i)) continue;
     const double length = distance(at(i), at(i + 1));
     const Vec3 e = (at(i + 1) - at(i)) / length;
-    // Both point to the side the curve is on.
+    // Both point to the side of the curve.
     Vec3 rise_a = tangents[i] - dot(tangents[i], e) * e, rise_b = dot(tangents[i + 1], e) * e - tangents[i + 1];
     if (i == 0) rise_a = rise_at_end(1, 2, rise_b, length);
     if (i + 2 == n) rise_b = rise_at_end(n - 2, n - 3, rise_a, length);
@@ -80,7 +80,7 @@ Vec3 limited(const Reference& r, HalfedgeId h, const Vec3& bulge) {
   return rise > most ? most / rise * bulge : bulge;
 }
 
-/// Without its part out of the planes of flat faces beside the edge.
+/// Removes the component of the bulge out of the planes of flat faces beside the edge.
 Vec3 in_planes(const Reference& r, HalfedgeId h, Vec3 bulge, const StraightParts& parts) {
   for (const HalfedgeId e : {h, r.topology.twin(h)}) {
     if (!e.is_valid()) continue;

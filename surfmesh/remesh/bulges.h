@@ -1,4 +1,4 @@
-// How far the curved surface rises over the edges of the given triangles.
+// Height of the curved surface above the edges of the given triangles.
 #pragma once
 
 #include "geom/base/run_context.h"

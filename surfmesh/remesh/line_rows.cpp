@@ -15,19 +15,19 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A nose is looked at over this part of the width beside it, and is longer than that part of it.
+/// A nose is sampled over this fraction of the adjacent width, and is longer than that second fraction of it.
 constexpr double k_nose_probe = 0.01, k_nose_length = 0.25;
-/// Sides of a leading edge are as wide as each other within this factor.
+/// Largest ratio of the widths on both sides of a leading edge.
 constexpr double k_alike_width = 3.0;
-/// Triangles that one way across the surface passes.
+/// Largest number of triangles on one path across the surface.
 constexpr int k_most_passed = 100'000;
 
-/// A line at one place.
+/// Properties of a line at one location.
 struct LineLook {
   double turn = 0.0;  ///< rad
   bool is_convex = false;
-  Vec3 looks;                   ///< unit: away from both sides, in the middle between them
-  std::array<Vec3, 2> normal;   ///< of the surface beside it
+  Vec3 looks;                   ///< unit: outward direction, halfway between both sides
+  std::array<Vec3, 2> normal;   ///< normals of the surface beside it
   std::array<double, 2> width;  ///< m, across each side
 };
 
@@ -51,19 +51,19 @@ LineLook look_at_line(const Reference& r, const FeatureLine& line, std::size_t s
 }
 
 struct LineShape {
-  std::size_t n_sharp = 0, n_convex = 0, n_corner = 0;  ///< of k_looks
+  std::size_t n_sharp = 0, n_convex = 0, n_corner = 0;  ///< number of the k_looks locations
   double looks = 0.0;                                   ///< mean x
   std::array<double, 2> looks_of_side{};                ///< mean x of each side's normal
   std::array<double, 2> width{};                        ///< m, mean
 };
 
-/// Where on a line the k-th look is, as a segment.
+/// Returns the segment of the k-th sampled location on a line.
 std::uint32_t segment_of_look(const Reference& r, std::int32_t line, std::size_t k) {
   const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(k_looks);
   return r.line_place(line, share * r.lines[static_cast<std::size_t>(line)].length()).segment;
 }
 
-/// \param most m, widths above are of no interest
+/// \param most m, upper limit of the measured widths
 LineShape shape_of_line(const Reference& r, std::int32_t number, double most) {
   LineShape shape;
   for (std::size_t k = 0; k < k_looks; ++k) {
@@ -80,14 +80,14 @@ LineShape shape_of_line(const Reference& r, std::int32_t number, double most) {
   return shape;
 }
 
-/// The narrow side, where a line is the side of a base that looks aft.
+/// Returns the narrow side, if the line is the side of a base that faces aft.
 std::optional<std::size_t> base_side(const LineShape& shape, double length) {
   for (std::size_t i = 0; i < 2; ++i)
     if (shape.looks_of_side[i] > k_looks_along && shape.width[i] < k_strip_width * shape.width[1 - i] && length > k_strip_length * shape.width[i]) return i;
   return std::nullopt;
 }
 
-/// m, of the bend over `reach` to each side; the mean of all places.
+/// Returns the radius of the bend over `reach` to each side in metres; the mean of all locations.
 double radius_across(const Reference& r, std::int32_t number, double reach) {
   double sum = 0.0;
   for (std::size_t k = 0; k < k_looks; ++k) {
@@ -104,7 +104,7 @@ double radius_across(const Reference& r, std::int32_t number, double reach) {
   return sum > 0.0 ? 2.0 * reach * k_looks / sum : std::numeric_limits<double>::infinity();
 }
 
-/// Whether the surface looks forward along the line.
+/// Returns true if the surface faces forward along the line.
 bool is_ahead(const Reference& r, const FeatureLine& line) {
   std::size_t n = 0;
   for (const HalfedgeId h : line.halfedges) n += r.normals[h].x < -k_looks_along ? 1 : 0;
@@ -122,7 +122,7 @@ double width_across(const Reference& r, HalfedgeId h, double most) {
   Vec3 way = inward_of(h);
   double length = 0.0;
   for (int i = 0; i < k_most_passed && length < most; ++i) {
-    // Leaves the triangle over the edge that the way meets first.
+    // The path leaves the triangle over the edge that it meets first.
     HalfedgeId out;
     double least = std::numeric_limits<double>::infinity();
     for (const HalfedgeId e : {next(h), previous(h)}) {
@@ -196,7 +196,7 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
       const SurfaceLimits& limits = limits_of.of(beside[i]);
       rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
       rows.longest = std::min(rows.longest, band.longest(limits.max_edge));
-      // All rows of one side fit into their share of its width.
+      // All rows of one side fit into their fraction of its width.
       const double room = k_share_of_chord * shape.width[i];
       rows.longest =
           std::min(rows.longest, std::max(rows.sides[i].first, (room * (band.growth - 1.0) + rows.sides[i].first) / (k_isotropic_height * band.growth)));
@@ -211,7 +211,7 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     (*kind == BandKind::leading ? is_leading_found : is_trailing_found) = true;
     found.lines.push_back(rows);
   }
-  // Rows go on where another line with rows begins.
+  // Rows continue where another line with rows begins.
   std::vector<std::uint32_t> n_at(r.mesh->n_vertices(), 0);
   for (const LineRows& rows : found.lines)
     for (const VertexId v : {r.lines[static_cast<std::size_t>(rows.line)].vertices.front(), r.lines[static_cast<std::size_t>(rows.line)].vertices.back()})

@@ -1,5 +1,5 @@
-// Lines of a triangulation that are trailing or leading edges and get rows of stretched triangles, as surface_mesh lays them on CAD (docs/method/surface.md,
-// "Wing edges and bands").
+// Trailing and leading edges of a triangulation that get rows of stretched triangles, as surface_mesh lays them on CAD. Rules: docs/method/surface.md,
+// "Wing edges and bands".
 #pragma once
 
 #include <array>
@@ -17,31 +17,32 @@ namespace sterna::surfmesh {
 struct SideRows {
   bool is_any = false;
   double first = 0.0;            ///< m, height of the first row
-  double growth = 1.2;           ///< of rows that follow each other
+  double growth = 1.2;           ///< ratio of consecutive row heights
   double curvature_angle = 0.2;  ///< rad: a row spans at most this angle of the surface,
-  double min_edge = 0.0;         ///< m: but for that is no lower than this
+  double min_edge = 0.0;         ///< m: the angle does not reduce the height below this
 };
 
 struct LineRows {
   std::int32_t line = k_no_line;
   std::array<SideRows, 2> sides;  ///< left of the line, right of it
-  double longest = 0.0;           ///< m: edges along are no longer
+  double longest = 0.0;           ///< m: upper limit of edge lengths along the line
   bool is_nose = false;
-  double at_ends = 0.0;               ///< m, of a nose: what its curvature asks for where rows end
-  std::array<bool, 2> is_going_on{};  ///< at its start, its end: another line with rows does
+  double at_ends = 0.0;               ///< m, for a nose: size required by its curvature where rows end
+  std::array<bool, 2> is_going_on{};  ///< at its start, its end: another line with rows continues there
 };
 
 struct RowLines {
   std::vector<LineRows> lines;
-  std::vector<std::string> notes;  ///< wishes that could not be met
+  std::vector<std::string> notes;  ///< requirements that could not be met
 };
 
-/// Lines with rows: sharp ones (a turn of more than 120 degrees) that look aft or forward along x, and sides of narrow bases that look aft, rows on the wing's
-/// side only; lines that were laid on smooth noses (is_nose) where the surface is bent as a nose is. Lines of kept triangles have none.
+/// Finds lines with rows. These are sharp lines (a turn of more than 120 degrees) that face aft or forward along x; the sides of narrow bases that face aft,
+/// with rows on the wing's side only; and lines laid on smooth noses (is_nose) where the surface has the curvature of a nose. Lines of kept triangles have no
+/// rows.
 RowLines find_row_lines(const Reference& reference, const SurfaceLimitTable& limits, const RemeshOptions& options,
                         std::span<const PatchSurfaceOptions> patches);
 
-/// Metres across the surface, at right angles from the middle of a half-edge into its triangle, to the next line or `most`.
+/// Returns the distance in metres across the surface, at right angles from the middle of a half-edge into its triangle, to the next line, at most `most`.
 double width_across(const Reference& reference, HalfedgeId h, double most);
 
 }  // namespace sterna::surfmesh

@@ -12,18 +12,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A nose nearer to a vertex than this part of the edge goes through the vertex.
+/// A nose nearer to a vertex than this fraction of the edge is moved through the vertex.
 constexpr double k_snap = 0.15;
-/// Here the nose is at the vertex: the part of x across the span.
+/// Below this component of x across the span, the nose is at the vertex.
 constexpr double k_exactly_ahead = 1e-6;
 /// Cosine between the spans of neighbours.
 constexpr double k_same_span = 0.5;
-/// A nose looks ahead: x of the normal.
+/// Limit of the normal's x component on a nose, which faces forward.
 constexpr double k_nose_ahead = -0.2;
-/// Times that a span's direction is found from the tensor by multiplication.
+/// Number of power iterations for a span's direction from the tensor.
 constexpr int k_power_steps = 24;
 
-/// Sum of bends times edges' squares about a vertex (Cohen-Steiner & Morvan 2003; Alliez et al. 2003): its strongest direction is along the span.
+/// Sum of bends times squared edge lengths around a vertex (Cohen-Steiner & Morvan 2003; Alliez et al. 2003): its dominant direction is along the span.
 struct BendTensor {
   std::array<double, 6> t{};  ///< xx, yy, zz, xy, yz, zx
   void add(double weight, const Vec3& e) {
@@ -37,7 +37,8 @@ struct BendTensor {
   Vec3 times(const Vec3& v) const { return {t[0] * v.x + t[3] * v.y + t[5] * v.z, t[3] * v.x + t[1] * v.y + t[4] * v.z, t[5] * v.x + t[4] * v.y + t[2] * v.z}; }
 };
 
-/// Of the smooth piece in which a half-edge begins at its vertex: unit, along the surface; zero where that is flat or bent alike in all directions.
+/// Returns the span direction in the smooth piece in which a half-edge begins at its vertex: unit, along the surface; zero if the surface is flat or equally
+/// curved in all directions there.
 Vec3 span_at(const Reference& r, HalfedgeId corner) {
   BendTensor tensor;
   const Point& p = r.mesh->points[r.topology.from(corner)];
@@ -56,7 +57,7 @@ Vec3 span_at(const Reference& r, HalfedgeId corner) {
       start = e;
     }
   };
-  // Clockwise to a line or around, then the other way.
+  // Clockwise up to a line or once around, then the other way.
   const auto is_line = [&](HalfedgeId h) { return r.line[h] != k_no_line || !r.topology.twin(h).is_valid(); };
   HalfedgeId h = corner;
   bool is_around = false;
@@ -84,10 +85,10 @@ Vec3 span_at(const Reference& r, HalfedgeId corner) {
 
 struct NoseFinder {
   const Reference& r;
-  Column<HalfedgeId, Vec3> span;     ///< where the half-edge begins
+  Column<HalfedgeId, Vec3> span;     ///< at the start of the half-edge
   Column<HalfedgeId, double> ahead;  ///< x of the direction across it
 
-  /// Share of the edge at which a nose crosses it; negative: none does.
+  /// Returns the fraction of the edge at which a nose crosses it; negative: no crossing.
   double crossing(HalfedgeId h) const {
     const HalfedgeId a = h, b = next(h);
     if (r.line[h] != k_no_line || !r.topology.twin(h).is_valid()) return -1.0;
@@ -114,7 +115,7 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
   NoseCut cut;
   cut.mesh.points = wall.points;
   cut.mesh.patches = wall.patches;
-  // Vertices that noses go through, or pass so near that they are moved there; then edges that they cross elsewhere.
+  // First vertices that noses pass through, or so near that the noses are moved there; then edges crossed elsewhere.
   Column<VertexId, std::uint8_t> is_on(wall.n_vertices(), 0);
   for (std::size_t i = 0; i < r.topology.n_halfedges(); ++i) {
     const HalfedgeId h(i), o = r.topology.twin(h);
@@ -192,9 +193,9 @@ std::optional<NoseCut> cut_noses_if_asked(const TriMesh& wall, const ReferenceOp
   if (!is_asked) return std::nullopt;
   const Reference reference(wall, reference_options, {}, {}, context);
   NoseCut cut = cut_noses(reference, !options.smooth, context);
-  // The curve between the given vertices may meet another sheet; the triangles themselves do not.
+  // The curve between the given vertices may meet another part of the surface; the triangles themselves do not.
   if (options.smooth && find_crossings(cut.mesh, context).total > 0) cut = cut_noses(reference, true, context);
-  // Of the candidates those that are noses of wings.
+  // Keeps only the candidates that are noses of wings.
   ReferenceOptions with_all = reference_options;
   with_all.noses = std::move(cut.edges);
   const Reference all(cut.mesh, with_all, {}, {}, context);

@@ -1,7 +1,7 @@
 // Steps: normals of triangles, lines and their corners, smooth pieces, normals at corners of triangles, bulges.
 //
 // The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share (bulges.cpp), so patches join
-// without gaps. A flat place beside a curved one stays flat (straight_parts.cpp), where point-normal triangles (Vlachos et al. 2001) would make it wavy.
+// without gaps. A flat region beside a curved one stays flat (straight_parts.cpp), where point-normal triangles (Vlachos et al. 2001) would make it wavy.
 #include "surfmesh/remesh/reference.h"
 
 #include <algorithm>
@@ -17,16 +17,17 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Of the body's length: a triangle less high than this has no normal of its own, as files in single precision round by 6e-8.
+/// Relative to the body's length: a triangle with less height has no normal of its own, as files in single precision round by 6e-8.
 constexpr double k_thin_height = 2e-6;
-/// Times that triangles without a normal take one from their neighbours: chains of such triangles are short.
+/// Number of rounds in which triangles without a normal take one from their neighbours: chains of such triangles are short.
 constexpr int k_normal_rounds = 8;
-/// Of the feature angle: an edge that bends by this part of it is a line, too, if its surroundings bend by less than the next part of that.
+/// Relative to the feature angle: an edge that bends by at least this fraction is a line as well, if its surroundings bend by less than the second fraction
+/// of its bend.
 constexpr double k_crease_share = 0.3;
 constexpr double k_crease_contrast = 0.15;
-/// Squared distances that are this much larger than the least found are looked behind, too.
+/// The walk continues behind triangles whose squared distance is up to this factor larger than the smallest one found.
 constexpr double k_walk_slack = 1.3;
-/// Triangles that one walk looks at.
+/// Largest number of triangles tested in one walk.
 constexpr std::size_t k_walk_most = 400;
 
 Column<TriangleId, Vec3> normals_of(const TriMesh& mesh, const Topology& topology, const RunContext& context) {
@@ -62,7 +63,7 @@ Column<TriangleId, Vec3> normals_of(const TriMesh& mesh, const Topology& topolog
   return normals;
 }
 
-/// The edges that are lines, and of them the sharp ones; all half-edges of such an edge are marked.
+/// Line edges and, among them, sharp edges; both half-edges of such an edge are marked.
 struct Marks {
   Column<HalfedgeId, std::uint8_t> is_line, is_sharp;
 };
@@ -85,7 +86,8 @@ Marks mark_edges(const Reference& r, double angle, const RunContext& context) {
   return marks;
 }
 
-/// Edges that bend less than a line, but by much more than all about them: a crease between places that are flat at its scale. Runs of them become lines.
+/// Marks creases: edges that bend less than a line, but much more than all edges around them, between regions that are flat at that scale. Runs of them
+/// become lines.
 void mark_creases(const Reference& r, double angle, Marks& marks, const RunContext& context) {
   const double least = k_crease_share * angle;
   Column<HalfedgeId, std::uint8_t> is_crease(marks.is_line.size(), 0);
@@ -110,7 +112,7 @@ void mark_creases(const Reference& r, double angle, Marks& marks, const RunConte
   for (const HalfedgeId h : found) marks.is_line[h] = marks.is_sharp[h] = 1;
 }
 
-/// Of two half-edges of an edge the one with the smaller id.
+/// Returns the half-edge of an edge with the smaller id.
 HalfedgeId first_of(const Topology& topology, HalfedgeId h) {
   const HalfedgeId o = topology.twin(h);
   return o.is_valid() ? std::min(h, o) : h;
@@ -136,7 +138,7 @@ struct LineFinder {
   VertexId other_end(HalfedgeId h, VertexId v) const { return r.topology.from(h) == v ? r.topology.to(h) : r.topology.from(h); }
   const Point& at(VertexId v) const { return r.mesh->points[v]; }
 
-  /// From v along h, over vertices with two line edges, as far as `scale`: the place there.
+  /// Returns the location reached from v along h, over vertices with two line edges, at a distance of `scale`.
   Point look_along(VertexId v, HalfedgeId h) const {
     const VertexId start = v;
     double left = scale;
@@ -162,7 +164,7 @@ struct LineFinder {
       if (star[v].size() != 2) r.is_corner[VertexId(v)] = 1;
       else turns[v] = turn(VertexId(v));
     }
-    // Of vertices in a bend only the one that bends most within the scale.
+    // In a bend only the vertex with the largest turn within the scale is a corner.
     for (std::size_t v = 0; v < star.size(); ++v) {
       if (turns[v] <= angle) continue;
       bool is_most = true;
@@ -183,7 +185,7 @@ struct LineFinder {
     }
   }
 
-  /// Vertices from v along h up to the next corner, or around.
+  /// Returns the vertices from v along h up to the next corner, or around.
   std::vector<VertexId> trace(VertexId v, HalfedgeId h) {
     std::vector<VertexId> way{v};
     while (true) {
@@ -219,7 +221,7 @@ struct LineFinder {
     r.lines.push_back(std::move(line));
   }
 
-  /// Closed runs are cut in three by length, so that a line has two different ends.
+  /// Adds a line. Closed runs are cut in three by length, so that a line has two different ends.
   void add(const std::vector<VertexId>& way) {
     if (way.front() != way.back()) return add_line(way);
     double length = 0.0;
@@ -275,7 +277,7 @@ void find_regions(Reference& r) {
   }
 }
 
-/// By angles, over the triangles about a vertex that no sharp edge parts.
+/// Computes angle-weighted normals over the triangles around a vertex that no sharp edge separates.
 void find_normals(Reference& r, const Marks& marks, const RunContext& context) {
   const TriMesh& mesh = *r.mesh;
   const auto weighted = [&](HalfedgeId h) {
@@ -363,7 +365,7 @@ Foot Reference::nearest(const Point& p, TriangleId start) const {
   look(start);
   std::size_t best = 0;
   std::size_t done = 0;
-  // Each triangle seen is left over its edges once, as long as it is near enough.
+  // The walk expands each visited triangle over its edges once, if it is near enough.
   for (; done < seen.size() && seen.size() < k_walk_most; ++done) {
     if (seen[done].distance2 > k_walk_slack * seen[best].distance2) continue;
     for (int k = 0; k < 3; ++k) {

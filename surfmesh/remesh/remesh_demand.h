@@ -1,4 +1,4 @@
-// Remeshing that is only worth its time where needles go: it ends as soon as it is seen that they do not.
+// Remeshing whose only purpose is to remove sliver triangles: it ends as soon as it is clear that they remain.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,25 @@
 
 namespace sterna::surfmesh {
 
-/// What a result has to meet.
+/// Requirements for a result.
 struct RemeshDemand {
-  double most_needles = std::numeric_limits<double>::infinity();              ///< triangles with an angle below k_needle_angle, of all
+  double most_needles = std::numeric_limits<double>::infinity();              ///< largest fraction of triangles with an angle below k_needle_angle
   double least_angle = 0.0;                                                   ///< rad
-  double largest_distance = std::numeric_limits<double>::infinity();          ///< of the body's length, between the two surfaces, seen from either
-  double largest_distance_of_edge = std::numeric_limits<double>::infinity();  ///< of the new triangles' edges there
-  double more_turned = std::numeric_limits<double>::infinity();               ///< share of the area turned, more than of the given triangles
+  double largest_distance = std::numeric_limits<double>::infinity();          ///< relative to the body length, between the two surfaces, measured in both
+                                                                              ///< directions
+  double largest_distance_of_edge = std::numeric_limits<double>::infinity();  ///< relative to the new triangles' edges there
+  double more_turned = std::numeric_limits<double>::infinity();               ///< fraction of the area turned, in excess of that of the given triangles
 };
 
-/// remesh_surface that gives up early: before the work, where corners of lines, which stay, force more needles than that (edges between two corners that are
-/// much shorter than the edges there will be); and after a round that does not meet the demand, whatever crosses: later rounds keep more of the given
-/// triangles. A result that is further from the given surface than demanded, or turned more, is refused at last.
-/// \throws Error as remesh_surface; Error(geometry_failed) with the place of the thinnest triangle, or of the largest distance, where it gives up
+/// Calls remesh_surface but ends early. It ends before the work if corners of lines, which stay, force more sliver triangles than allowed (edges between two
+/// corners that are much shorter than the target edges there). It also ends after a round that does not meet the demand, even if triangles cross: later
+/// rounds keep more of the given triangles. A result that is farther from the given surface than allowed, or turned more, is refused at the end.
+/// \throws Error as remesh_surface; Error(geometry_failed) with the location of the thinnest triangle, or of the largest distance, if it ends early
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RemeshDemand& demand, const RunContext& context);
 
-/// \throws Error(geometry_failed), with the place of the largest distance, where distance or turn are more than demanded: also for a result that was made
-/// without demand
+/// Checks distance and turn of a result, also of one that was made without demand.
+/// \throws Error(geometry_failed), with the location of the largest distance, if distance or turn exceed the demand
 void require_likeness(const RemeshReport& report, const RemeshDemand& demand);
 
 }  // namespace sterna::surfmesh

@@ -11,8 +11,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Triangles made by those of the sizes: 1.18 to 1.50 on eleven clean surfaces, since edges that were cut are shorter than the size, and those of sharp lines
-/// and narrow places are shorter still.
+/// Ratio of triangles made to those of the sizes: 1.18 to 1.50 on eleven clean surfaces. Cut edges are shorter than the size, and those of sharp lines and
+/// narrow regions are shorter still.
 constexpr double k_made = 1.3;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How many triangles remesh_surface() will make, by its sizes, and which patch takes most of them.
+// Forecast of the number of triangles of remesh_surface() from its sizes, and the patch with most of them.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@ namespace sterna::surfmesh {
 
 struct RemeshForecast {
   double n_triangles = 0.0;
-  std::string patch;          ///< that takes most of them
-  double of_patch = 0.0;      ///< its triangles
+  std::string patch;          ///< patch with most of the triangles
+  double of_patch = 0.0;      ///< number of its triangles
   double least_edge = 0.0;    ///< m, the shortest in that patch
-  Point place;                ///< where it is
-  bool is_by_longest = true;  ///< max_edge asks for at least half of them; else curvature, narrow places or sources
+  Point place;                ///< location of the shortest edge
+  bool is_by_longest = true;  ///< max_edge causes at least half of the triangles; else curvature, narrow regions or sources
 };
 
-/// From the sizes of the first round, without its triangles: within about 30 % of what remesh_surface() makes.
+/// Computes the forecast from the sizes of the first round, without its triangles: within about 30 % of the result of remesh_surface().
 /// \throws Error of remesh_surface for options and surfaces that it refuses at once
 RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                                const RunContext& context);

@@ -88,7 +88,7 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is
         Part part;
         TriangleId last;
         const auto add = [&](const Point& p, double edge) {
-          // No farther than the last one's nearest triangle.
+          // The nearest triangle of the previous query bounds the distance.
           NearestHit hit;
           if (last.is_valid()) hit = tree.nearest(p, distance(p, nearest_on_triangle(p, corners(to, last))) * (1.0 + 1e-9));
           if (!hit.triangle.is_valid()) hit = tree.nearest(p);
@@ -100,7 +100,8 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is
             add(from.points[VertexId(i)], 0.0);
             continue;
           }
-          // Middles of edges once, with the triangle that has them ascending; at a rim maybe not at all, where they are middles of the input's edges.
+          // Middles of edges once, with the triangle that has them ascending; on an open boundary possibly not at all, where they are middles of the input's
+          // edges.
           const TriangleVertices& v = from.triangles[TriangleId(i - n_points)];
           const auto [a, b, c] = corners(from, TriangleId(i - n_points));
           const double edge = longest_edge(from, TriangleId(i - n_points));

@@ -1,4 +1,4 @@
-// What a remeshed surface is like: angles, needles, distances.
+// Measures of a remeshed surface: angles, sliver triangles, distances.
 #pragma once
 
 #include "geom/mesh/tri_mesh.h"
@@ -6,9 +6,9 @@
 
 namespace sterna::surfmesh {
 
-/// Angles, radius ratios and the body length.
+/// Measures angles, radius ratios and the body length.
 void measure_angles(const TriMesh& mesh, RemeshReport& report);
-/// From samples of `from` to the nearest place of `to`. Parallel. \param is_from_new which of the two has the new triangles
+/// Measures the distance from samples of `from` to the nearest location of `to`. Parallel. \param is_from_new true if `from` has the new triangles, else `to`
 SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is_from_new, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -1,4 +1,4 @@
-// The wanted length of edges on a reference: kept at its vertices, growing with the distance along its edges.
+// Target edge length on a reference: stored at its vertices, growing with the distance along its edges.
 #pragma once
 
 #include <optional>
@@ -12,50 +12,50 @@
 
 namespace sterna::surfmesh {
 
-/// What one patch of one connected piece asks for, as a member of the family.
+/// Limits for one patch of one connected piece, for the current member of the refinement family.
 struct SurfaceLimits {
   double max_edge, min_edge;  ///< m
   double curvature_angle;     ///< rad
   double chord_error;         ///< m
 };
 
-/// The limits of each triangle: the automatic longest edge is one of its connected piece.
+/// Limits of each triangle: the automatic longest edge is computed per connected piece.
 class SurfaceLimitTable {
  public:
   /// The wall must outlive it.
   SurfaceLimitTable(const TriMesh& wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules);
   const SurfaceLimits& of(TriangleId t) const { return limits_[pieces_.component[t]][wall_.triangle_patch[t].index()]; }
-  /// m, the shortest edge that may be asked for anywhere.
+  /// Returns the shortest target edge possible anywhere, m.
   double least() const;
 
  private:
   const TriMesh& wall_;
   Components pieces_;
-  std::vector<std::vector<SurfaceLimits>> limits_;  ///< of each piece each patch
+  std::vector<std::vector<SurfaceLimits>> limits_;  ///< for each piece and each patch
 };
 
 class RemeshSizes {
  public:
-  /// What options, patches, curvature, gaps and `asked` want. The reference must outlive it.
+  /// Sizes required by options, patches, curvature, gaps and `asked`. The reference must outlive the object.
   /// \throws Error(bad_argument) as remesh_surface
   RemeshSizes(const Reference& reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
               const RunContext& context);
 
-  /// Metres, at a point of (or near) a triangle of the reference. From many threads, but for a function of the user (is_serial).
+  /// Returns the size in metres at a point of (or near) a triangle of the reference. Thread-safe, except for a user function (is_serial).
   double operator()(const Point& p, TriangleId t) const;
-  /// All sizes anew; curvature asks for nothing at these vertices of the reference, as rows of a leading edge answer for it there. Empty: nowhere.
+  /// Recomputes all sizes, ignoring curvature at these vertices of the reference because the rows of a leading edge determine the size there. Empty: nowhere.
   void cover(const Column<VertexId, std::uint8_t>& covered, const RunContext& context);
-  /// Lowers sizes at places; then carry() hands them on.
+  /// Lowers the size at a location; carry() then propagates it.
   void lower(TriangleId t, const Point& p, double size);
   void carry();
-  /// Sizes at places in space, which grow with the distance in space, in place of those of the call before.
+  /// Sets sizes at locations in space, which grow with the distance in space. Replaces those of the previous call.
   void ask_at(std::span<const SizeSite> sites, const RunContext& context);
   bool is_serial() const { return static_cast<bool>(asked_.function); }
   double min_edge(TriangleId t) const { return min_edge_[t]; }
   double largest() const { return largest_; }
   double least() const;
   double slope() const { return slope_; }
-  /// Triangles that such sizes make, about.
+  /// Returns the approximate number of triangles for these sizes.
   double n_expected() const;
 
  private:
@@ -64,12 +64,12 @@ class RemeshSizes {
   std::vector<PatchSurfaceOptions> patches_;
   SpaceSizes asked_;
   double refinement_ = 1.0, slope_ = 0.2, largest_ = 0.0;
-  Column<TriangleId, double> cap_, min_edge_, own_;  ///< own: what the curvature of the triangle's edges asks for
+  Column<TriangleId, double> cap_, min_edge_, own_;  ///< own: required by the curvature of the triangle's edges
   Column<VertexId, double> at_;
   std::optional<SizeSites> sites_;
 };
 
-/// The shortest edge that options ask for anywhere (m), before there are sizes: over which lines' turns are seen.
+/// Returns the shortest edge that options require anywhere (m), before there are sizes: the length over which turns of lines are measured.
 double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

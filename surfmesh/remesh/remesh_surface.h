@@ -1,5 +1,5 @@
-// New triangles for a triangulated surface: sizes by curvature as of surface_mesh on CAD, sharp edges and patches kept, vertices on a smooth reconstruction of
-// the input (docs/method/surface.md, "Sliver triangles": the third repair).
+// Re-triangulation of a triangulated surface: sizes by curvature as in surface_mesh on CAD, sharp edges and patches kept, vertices on a smooth reconstruction
+// of the input (docs/method/surface.md, "Sliver triangles": the third repair).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace sterna::surfmesh {
 
-/// Named and meant as in SurfaceMeshOptions; what that has for wings and faces of CAD is not known of a triangulation.
+/// Names and meanings are those of SurfaceMeshOptions; its options for wings and CAD faces do not apply to a triangulation.
 struct RemeshOptions {
   double max_edge = k_automatic;
   double min_edge = k_automatic;
@@ -42,47 +42,47 @@ struct RemeshOptions {
 /// Rows of stretched triangles at leading and trailing edges.
 struct RowReport {
   std::int64_t n_triangles = 0;
-  std::int64_t n_columns = 0;      ///< places of lines that rows stand on
-  std::int64_t n_without = 0;      ///< places of those lines with none
+  std::int64_t n_columns = 0;      ///< locations of lines on which rows stand
+  std::int64_t n_without = 0;      ///< locations of those lines without rows
   double max_stretch = 0.0;        ///< largest length along : length across of their cells
-  double max_growth = 0.0;         ///< largest ratio of the heights of rows that follow each other
-  std::vector<std::string> notes;  ///< wishes that could not be met
+  double max_growth = 0.0;         ///< largest ratio of consecutive row heights
+  std::vector<std::string> notes;  ///< requirements that could not be met
 };
 
-/// How far one surface is from another: sampled at vertices, middles of edges and of triangles.
+/// Distance of one surface from another: sampled at vertices, middles of edges and of triangles.
 struct SurfaceDistance {
   double max = 0.0;      ///< m
   double mean = 0.0;     ///< m, over the samples
-  Point place{};         ///< where the largest is
-  double of_edge = 0.0;  ///< the largest of the distances over the longest edge of the new triangle there
+  Point place{};         ///< location of the largest distance
+  double of_edge = 0.0;  ///< largest ratio of the distance to the longest edge of the new triangle there
 };
 
 struct RemeshReport {
   std::int64_t n_triangles_before = 0, n_triangles = 0;
-  std::int64_t n_lines = 0;                    ///< sharp edges, borders of patches and rims: pieces between corners
-  std::int64_t n_corners = 0;                  ///< ends of those, which stay where they were
-  double least_size = 0.0;                     ///< m, asked for anywhere
-  double max_edge = 0.0;                       ///< m, the largest of the sizes asked for
+  std::int64_t n_lines = 0;                    ///< sharp edges, patch borders and open boundaries: pieces between corners
+  std::int64_t n_corners = 0;                  ///< ends of these, which do not move
+  double least_size = 0.0;                     ///< m, smallest target size anywhere
+  double max_edge = 0.0;                       ///< m, the largest target size
   double min_angle = 0.0;                      ///< rad
   double max_angle = 0.0;                      ///< rad
-  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller least angle
+  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller smallest angle
   double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
-  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their least angle: below 10 degrees, below 20, ... up to 60
-  std::int64_t n_needles = 0;                  ///< triangles with an angle below k_needle_angle
-  std::vector<ErrorPlace> needles;             ///< the worst of them, at most k_max_places, and which features force them
+  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their smallest angle: below 10 degrees, below 20, ... up to 60
+  std::int64_t n_needles = 0;                  ///< sliver triangles: with an angle below k_needle_angle
+  std::vector<ErrorPlace> needles;             ///< the worst of these, at most k_max_places, and the features that force them
   SurfaceDistance to_input;                    ///< from the new surface to the given one
   SurfaceDistance from_input;                  ///< from the given one to the new
-  double turned_before = 0.0, turned = 0.0;    ///< shares of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner
+  double turned_before = 0.0, turned = 0.0;    ///< fractions of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner
   double length = 0.0;                         ///< m, body length
-  std::int64_t n_kept = 0;                     ///< triangles taken as they were, because new ones would cross
-  int n_rounds = 1;                            ///< of remeshing; above 1 where triangles crossed
+  std::int64_t n_kept = 0;                     ///< triangles kept unchanged, because new ones would cross
+  int n_rounds = 1;                            ///< rounds of remeshing; above 1 if triangles crossed
   RowReport rows;
 };
 
-/// An angle below this is a needle's (docs/method/surface.md, "Sliver triangles"), rad.
+/// Triangles with a smaller angle are sliver triangles (docs/method/surface.md, "Sliver triangles"), rad.
 inline constexpr double k_needle_angle = 8.0 * std::numbers::pi / 180.0;
 
-/// Triangles turned by more from the smooth surface are no likeness of it, rad.
+/// Triangles turned by more than this from the smooth surface do not represent it, rad.
 inline constexpr double k_turned_angle = 10.0 * std::numbers::pi / 180.0;
 
 struct RemeshResult {
@@ -90,36 +90,36 @@ struct RemeshResult {
   RemeshReport report;
 };
 
-/// Remeshes a wall. Edges that bend by more than feature_angle, borders of patches and rims are lines: their corners stay, vertices between slide along them.
-/// All else lies on the input, or with `smooth` on quadratic patches over its triangles whose bulge is the smaller one of what the normals at both ends of each
-/// edge say, so that flat places stay flat. No vertex ever leaves the smooth piece of surface that it is on for another one, however near.
-/// \pre manifold, oriented, clear of itself; closed, or open along rims, which stay
-/// \post manifold, closed where the input was; no two triangles cross (exact); every patch that had triangles has some; the same bytes for any threads
-/// \param patches rules for patches by name, the last that matches counts; of them max_edge, min_edge, curvature_angle, chord_error
-/// and rows at leading and trailing edges
-/// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that asks for
-/// trailing_edge_cells or factors; Error(non_manifold_surface);
-/// Error(self_intersection) where the input crosses itself or most of what was made does; Error(overflow) beyond max_triangles, before the work;
-/// Error(cancelled)
+/// Remeshes a wall. Edges that bend by more than feature_angle, borders of patches and open boundaries are lines: their corners stay, vertices between slide
+/// along them. All other vertices lie on the input or, with `smooth`, on quadratic patches over its triangles. The bulge of such a patch is the smaller one
+/// of those given by the normals at both ends of each edge, so that flat regions stay flat. No vertex leaves its smooth piece of surface for another one,
+/// however near.
+/// \pre manifold, oriented, without self-intersection; closed, or open along boundaries, which stay
+/// \post manifold, closed if the input was; no two triangles cross (exact); no patch loses all its triangles; bitwise the same for any number of threads
+/// \param patches rules for patches by name, the last match counts; used: max_edge, min_edge, curvature_angle, chord_error and rows at leading and trailing
+/// edges
+/// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that sets trailing_edge_cells or factors;
+/// Error(non_manifold_surface); Error(self_intersection) if the input crosses itself or most of the result does; Error(overflow) beyond max_triangles, before
+/// the work; Error(cancelled)
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RunContext& context);
 
-/// Several lines for people.
+/// Returns several human-readable lines.
 std::string to_text(const RemeshReport& report);
 
-/// How thin the triangles of a surface are.
+/// Sliver measures of a surface.
 struct NeedleCount {
   std::int64_t n = 0;        ///< triangles with an angle below the limit
-  double least_angle = 0.0;  ///< rad; of a surface without triangles 0
-  Point place{};             ///< middle of the triangle that has it
+  double least_angle = 0.0;  ///< rad; 0 for a surface without triangles
+  Point place{};             ///< middle of the triangle with the smallest angle
 };
 /// \param limit rad
 NeedleCount count_needles(const TriMesh& mesh, double limit = k_needle_angle);
-/// Whether layers and tetrahedra on a repaired or wrapped surface miss gates: an angle below k_worst_needle_angle, or more than k_needle_share of the
-/// triangles have one below k_needle_angle.
+/// Returns true if layers and tetrahedra on a repaired or wrapped surface would miss gates: an angle is below k_worst_needle_angle, or more than the fraction
+/// k_needle_share of the triangles has one below k_needle_angle.
 bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles);
 
-/// Sliver tetrahedra and prisms as thin as that miss gates for dihedral angles wherever they are, rad.
+/// Sliver tetrahedra and prisms below this angle miss the gates for dihedral angles at any location, rad.
 inline constexpr double k_worst_needle_angle = 1.0 * std::numbers::pi / 180.0;
 inline constexpr double k_needle_share = 0.005;
 

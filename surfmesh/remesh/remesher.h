@@ -1,4 +1,4 @@
-// Local operations on the new surface: every edge towards the wanted length, every triangle towards equilateral, every vertex on the reference.
+// Local operations on the new surface that drive edges to their target length, triangles to equilateral shape, and vertices onto the reference.
 #pragma once
 
 #include <cstdint>
@@ -12,57 +12,61 @@
 
 namespace sterna::surfmesh {
 
-/// Passes are serial in a fixed order (but smoothing, colour by colour), so the result is the same for any number of threads.
+/// Remeshes by local operations. Passes are serial in a fixed order (except smoothing, colour by colour), so the result does not depend on the number of
+/// threads.
 class Remesher {
  public:
-  /// Begins with the reference's own triangles. Both must outlive this.
+  /// Starts with the reference's own triangles. Both must outlive this object.
   Remesher(const Reference& reference, const RemeshSizes& sizes, const RunContext& context);
 
-  /// Edges shorter than `least` (of what is wanted) go; shortest first. Returns how many. The first time triangles may lie against the reference where some
-  /// did before: needles of the input do.
+  /// Collapses edges shorter than `least` times the target length, shortest first. Returns the number. In the first call triangles may be inverted against
+  /// the reference if some were before: sliver triangles of the input are.
   std::int64_t collapse_short(double least, bool is_first);
-  /// Edges longer than `most` are halved; longest first, until none is left, or there are `max_triangles` and more: very thin sheets ask for without end.
+  /// Halves edges longer than `most` times the target, longest first, until none is left or `max_triangles` is reached: very thin baffles would otherwise be
+  /// split without end.
   std::int64_t split_long(double most, std::int64_t max_triangles);
   std::int64_t n_triangles() const;
-  /// Middle of the shortest edge that is still to be halved, with its length, m; the first vertex and 0 where none is.
+  /// Returns the middle and length (m) of the shortest edge that is still to be halved; the first vertex and 0 if there is none.
   std::pair<Point, double> shortest_to_halve(double most) const;
-  /// Where that makes the worse of two triangles better.
+  /// Flips edges where the worse of the two triangles becomes better.
   std::int64_t flip_edges();
-  /// Where that brings vertices nearer to six neighbours (four at lines' sides of a straight line) and leaves good triangles.
+  /// Flips edges where vertices come closer to six neighbours (four beside a straight line) and the triangles remain good.
   std::int64_t regularise();
-  /// Vertices towards the middle of their surroundings, weighted by sizes; where the worst triangle about gets no worse, or stays better than `floor`.
+  /// Moves vertices towards the centre of their surroundings, weighted by sizes, if the worst adjacent triangle does not get worse, or stays better than
+  /// `floor`.
   void smooth(int rounds, double floor = 0.6);
-  /// Triangles worse than `quality` (mean ratio): their edges go, are flipped or halved, or their vertices moved, where the worst about gets better.
+  /// Improves triangles worse than `quality` (mean ratio): collapses, flips or halves their edges, or moves their vertices, if the worst nearby triangle
+  /// improves.
   std::int64_t improve(double quality);
-  /// What is near in space comes near in memory.
+  /// Renumbers so that neighbours in space are neighbours in memory.
   void renumber();
-  /// Wanted lengths anew from the field.
+  /// Updates target lengths from the field.
   void refresh_sizes();
 
-  /// Rows of stretched triangles: the mesh is opened along the lines, and on each side with rows the opened border climbs away from the line row by row, while
-  /// the triangles before it make room; the rows themselves are made by result(). Lines with rows and the border do not change afterwards. Once.
+  /// Grows rows of stretched triangles. The mesh is opened along the lines. On each side with rows, the opened border moves away from the line row by row,
+  /// while the triangles in front make room; result() makes the rows themselves. Lines with rows and the border do not change afterwards. Call once.
   void grow_rows(std::span<const LineRows> rows);
-  /// Outer ends of rows with the length of the edges there: what sizes have to follow.
+  /// Returns the outer ends of rows with the edge lengths there, which sizes have to follow.
   std::vector<SizeSite> row_ends() const;
-  /// Of all places of noses, for each side.
+  /// Returns the reach of rows at all locations of noses, for each side.
   std::vector<RowReach> nose_reaches() const;
   RowReport row_report() const;
 
   const WorkMesh& mesh() const { return mesh_; }
-  /// Strips between lines: each edge from one line to another, at its middle, with its length.
+  /// Strips between lines: the middle and length of each edge from one line to another.
   struct Strip {
     TriangleId triangle;
     Point point;
     double width;
   };
   std::vector<Strip> strips() const;
-  /// Triangles with an angle below `angle`, the least first, and what of lines and corners is there.
+  /// Returns the triangles with an angle below `angle`, smallest first, with the lines and corners there.
   std::vector<ErrorPlace> needles(double angle) const;
-  /// Share of the area of triangles that are turned by more than `angle` from the reference at a corner; rows do not count.
+  /// Returns the fraction of the area of triangles turned by more than `angle` from the reference at a corner; rows do not count.
   double turned_share(double angle) const;
-  /// Vertices and triangles that are left, in their order.
+  /// Returns the remaining vertices and triangles, in their order.
   TriMesh result() const;
-  /// Triangles of the reference about those of result() in the pairs: the nearer of `rings` rings about what the pairs cover. Sorted, each once.
+  /// Returns the reference triangles near those of result() in the pairs: within `rings` rings around the area covered by the pairs. Sorted, unique.
   std::vector<TriangleId> reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const;
 
  private:
@@ -71,7 +75,7 @@ class Remesher {
   bool is_locked(std::uint32_t h) const { return mesh_.line[h] != k_no_line && locked_[static_cast<std::size_t>(mesh_.line[h])] != 0; }
   bool is_kept(std::uint32_t t) const { return r_.is_kept[mesh_.hint[t]] != 0; }
   Vec3 normal_at(std::uint32_t v, TriangleId hint, const Point& towards, const Vec3& seen) const;
-  /// As of the last update().
+  /// Returns the quality computed by the last update().
   double quality(std::uint32_t t) const { return quality_[t]; }
   double quality_now(std::uint32_t t) const;
   void update(std::uint32_t t) { quality_[t] = quality_now(t); }
@@ -101,23 +105,23 @@ class Remesher {
   bool search(std::uint32_t v);
   std::vector<std::vector<std::uint32_t>> colours() const;
 
-  /// Of a place of a line with rows, on one side: its rows, [0] on the line, the last the border's vertex.
+  /// A location of a line with rows, on one side: its rows, [0] on the line, the last one the border's vertex.
   struct LineColumn {
-    std::uint32_t vertex = k_none;                    ///< of the border
-    std::uint32_t before = 0, after = 0;              ///< its neighbours along the border, the face to the left of the way from one to the other
+    std::uint32_t vertex = k_none;                    ///< vertex of the border
+    std::uint32_t before = 0, after = 0;              ///< its neighbours along the border; the face is to the left of the path from one to the other
     std::size_t before_column = 0, after_column = 0;  ///< k_no_column: a neighbour without rows
     std::vector<WorkVertex> rows;
     std::vector<double> heights;  ///< m
-    Vec3 way;                     ///< unit, of the last step
+    Vec3 way;                     ///< unit vector of the last step
     double spacing = 0.0;         ///< m, mean length of the two edges along the line
-    double room = 0.0;            ///< m, that rows may climb
+    double room = 0.0;            ///< m: available height for the rows
     double climbed = 0.0;         ///< m
     const SideRows* wish = nullptr;
     bool is_growing = true;
     bool is_nose = false;
     std::size_t n_rows() const { return rows.size() - 1; }
   };
-  /// An edge of a line with rows on this side, from a to b with the face to the left: vertices of the border.
+  /// An edge of a line with rows on this side, from a to b with the face to the left; a and b are vertices of the border.
   struct RowEdge {
     std::uint32_t a, b;
     std::size_t a_column, b_column;
@@ -125,8 +129,8 @@ class Remesher {
   };
   /// A triangle of rows.
   struct RowCell {
-    std::uint32_t edge;                                   ///< of row_edges_
-    std::array<std::array<std::uint32_t, 2>, 3> corners;  ///< of each the side (0: a, 1: b) and the row
+    std::uint32_t edge;                                   ///< index in row_edges_
+    std::array<std::array<std::uint32_t, 2>, 3> corners;  ///< for each corner the side (0: a, 1: b) and the row
   };
   static constexpr std::size_t k_no_column = ~std::size_t{0};
 
@@ -147,14 +151,15 @@ class Remesher {
   const RemeshSizes& sizes_;
   RunContext context_;
   WorkMesh mesh_;
-  std::vector<double> quality_;         ///< of each triangle, k_folded for one against the reference
+  std::vector<double> quality_;         ///< per triangle; k_folded for one inverted against the reference
   std::vector<std::uint8_t> locked_;    ///< lines of kept triangles
-  std::vector<std::uint8_t> is_rim_;    ///< lines that end the surface; empty where none does
+  std::vector<std::uint8_t> is_rim_;    ///< lines that are open boundaries; empty if there is none
   double flat_ = 0.0;                   ///< m
-  std::int32_t front_ = k_no_line - 1;  ///< stands for the line of the border's edges; locked
+  std::int32_t front_ = k_no_line - 1;  ///< placeholder for the line of the border's edges; locked
   std::vector<LineColumn> columns_;
   std::vector<RowEdge> row_edges_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;  ///< vertices of the opened mesh and those of lines that they were, by the first
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;  ///< vertices of the opened mesh and the line vertices they were copied from, sorted by the
+                                                                 ///< first
 };
 
 }  // namespace sterna::surfmesh

@@ -1,4 +1,4 @@
-// Remesher: vertices move along the reference, and bad triangles get better.
+// Remesher: moves vertices along the reference and improves bad triangles.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,23 +12,24 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A vertex whose triangles are all better than this stays.
+/// A vertex whose triangles are all better than this is not moved.
 constexpr double k_still = 0.96;
-/// Directions and steps (of the wanted length) of the search for a better place.
+/// Directions and steps (relative to the target length) of the search for a better location.
 constexpr int k_search_directions = 8;
 constexpr std::array<double, 3> k_search_steps = {0.25, 0.1, 0.03};
 constexpr double k_search_gain = 1e-4;
-/// Edges shorter than this may go for a better triangle, and ones longer may be halved.
+/// Shorter edges may be collapsed for a better triangle, and longer ones may be halved.
 constexpr double k_short_in_trouble = 1.0;
 constexpr double k_long_after_trouble = 1.7;
-/// Mean ratio of a triangle with a corner of about 10 degrees; whatever its edges are, they may go, and ones of this many wanted lengths may stay.
+/// Mean ratio of a triangle with a corner of about 10 degrees. For worse triangles edges of any length may be collapsed, and edges of up to this many target
+/// lengths may stay.
 constexpr double k_needle_ratio = 0.3;
 constexpr double k_long_for_needles = 3.0;
 constexpr std::size_t k_move_chunk = 256;
 
 }  // namespace
 
-/// Greedy, in the order of vertices: no two neighbours have the same.
+/// Computes a greedy colouring in the order of vertices: no two neighbours have the same colour.
 std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
   std::vector<std::uint8_t> colour(mesh_.vertices.size(), 255);
   std::vector<std::vector<std::uint32_t>> lists;
@@ -39,7 +40,7 @@ std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
       if (colour[w] < 64) used |= std::uint64_t{1} << colour[w];
     });
     const int c = std::countr_one(used);
-    if (c >= 64) continue;  // a vertex with more than 63 neighbours stays
+    if (c >= 64) continue;  // a vertex with more than 63 neighbours is not moved
     colour[v] = static_cast<std::uint8_t>(c);
     if (lists.size() <= static_cast<std::size_t>(c)) lists.resize(static_cast<std::size_t>(c) + 1);
     lists[static_cast<std::size_t>(c)].push_back(v);
@@ -47,7 +48,8 @@ std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
   return lists;
 }
 
-/// Moved by a share of the way to the middle: on a line between its neighbours, on a face of the triangles about, each weighted by its area in wanted lengths.
+/// Returns the vertex moved by a fraction of the distance to the centre: on a line between its neighbours, on a face of the adjacent triangles, each weighted
+/// by its area in target lengths.
 WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
   const WorkVertex& v = mesh_.vertices[number];
   WorkVertex moved = v;
@@ -117,7 +119,7 @@ void Remesher::smooth(int rounds, double floor) {
     }
 }
 
-/// Looks around for a place where the worst triangle at v is better.
+/// Searches around the vertex for a location where the worst triangle at v is better.
 bool Remesher::search(std::uint32_t number) {
   if (mesh_.vertices[number].kind == VertexKind::corner || mesh_.vertices[number].is_fixed) return false;
   bool has_moved = false;

@@ -1,5 +1,5 @@
-// Remesher: rows of stretched triangles along lines. The mesh is opened along the line; the border climbs row by row, the triangles before it give way by
-// collapses into it, flips and moves. What it leaves behind is filled with the columns' rows.
+// Remesher: rows of stretched triangles along lines. The mesh is opened along the line. The border climbs row by row, and the triangles in front of it make
+// room by collapses into it, flips and moves. The gap behind the border is filled with the columns' rows.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,28 +12,29 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Triangles before the border have at least this mean ratio, or what they had.
+/// Triangles in front of the border have at least this mean ratio, or their previous one.
 constexpr double k_border_floor = 0.25;
-/// Steps of one row, at most: each goes all the way that is left, a half or a quarter of it, then the triangles before the border give way.
+/// Largest number of steps of one row: each step covers the remaining distance, a half or a quarter of it; then the triangles in front of the border make
+/// room.
 constexpr int k_border_steps = 16;
 constexpr std::array<double, 3> k_border_shares = {1.0, 0.5, 0.25};
-/// Of a row's height: a border that gets no further keeps this much of the row.
+/// Relative to a row's height: if the border cannot move further, the row is kept from this fraction on.
 constexpr double k_least_part = 0.5;
-/// Edges before the border shorter than this part of what is wanted go.
+/// Relative to the target length: shorter edges in front of the border are collapsed.
 constexpr double k_short_before_border = 0.6;
 constexpr double k_longest_at_border = 2.0;
-/// Of rows' triangles: cosine between their normal and the surface's, at least, and the length of a row's edge over that on the line.
+/// Limits for triangles of rows: smallest cosine between their normal and the surface's, and range of the ratio of a row's edge length to that on the line.
 constexpr double k_row_cosine = 0.5;
 constexpr double k_row_narrowest = 0.45, k_row_widest = 2.2;
-/// Of a step: its length is exact to this part, and at the worst to that one.
+/// Relative to a step: normal accuracy of its length, and the worst accepted one.
 constexpr double k_row_tolerance = 1e-7, k_row_inexact = 0.05;
 constexpr int k_row_iterations = 20;
-/// Share of the last step's direction in the next one's: borders get smoother than the line.
+/// Weight of the last step's direction in the next one: borders become smoother than the line.
 constexpr double k_straight_on = 0.5;
 
 }  // namespace
 
-/// Each vertex on the lines becomes one for each fan of triangles that is left around it.
+/// Splits each vertex on the lines into one copy for each fan of triangles around it.
 void Remesher::open_lines(std::span<const LineRows> rows) {
   front_ = static_cast<std::int32_t>(r_.lines.size());
   locked_.resize(r_.lines.size() + 1, 0);
@@ -42,7 +43,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
   for (const LineRows& l : rows) rows_of[static_cast<std::size_t>(l.line)] = &l;
   struct Cut {
     std::uint32_t halfedge;
-    const SideRows* side;  ///< null: none on this one
+    const SideRows* side;  ///< null: no rows on this side
   };
   std::vector<Cut> cuts;
   std::vector<std::uint32_t> touched;
@@ -107,7 +108,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
     column.after_column = column_of[column.after];
     const Point& p = mesh_.at(column.vertex);
     column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
-    // The line's vertex seen from this side: the hints of triangles may be from the other one, where both are in one smooth piece.
+    // The line's vertex with the normal of this side: the hints of triangles may be from the other side, if both are in one smooth piece.
     const std::int32_t l = mesh_.line[b.out];
     const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
     column.is_nose = rows_of[static_cast<std::size_t>(l)]->is_nose;
@@ -135,7 +136,7 @@ const WorkVertex& Remesher::row_at(std::uint32_t vertex, std::size_t column, std
   return c.rows[std::min(row, c.n_rows())];
 }
 
-/// Across the row below, and partly straight on.
+/// Returns the direction across the row below, blended with the last direction.
 Vec3 Remesher::row_direction(const LineColumn& c, std::size_t row) const {
   const WorkVertex& top = c.rows[row - 1];
   const Vec3 along = row_at(c.after, c.after_column, row - 1).point - row_at(c.before, c.before_column, row - 1).point;
@@ -147,7 +148,7 @@ Vec3 Remesher::row_direction(const LineColumn& c, std::size_t row) const {
   return way;
 }
 
-/// The cells that a column's next row would make with its neighbours'.
+/// Tests the cells that a column's next row would form with its neighbours.
 bool Remesher::is_step_good(const LineColumn& c, const WorkVertex& top, std::size_t row) const {
   const Point& below = c.rows[row - 1].point;
   const auto is_up = [&](const Point& p, const Point& q, const Point& r) {
@@ -172,7 +173,7 @@ bool Remesher::is_step_good(const LineColumn& c, const WorkVertex& top, std::siz
   return true;
 }
 
-/// Puts a vertex elsewhere if all triangles about are better than `floor` then. \return whether it is there
+/// Moves a vertex if all adjacent triangles are then better than `floor`. \return true if it was moved
 bool Remesher::place(std::uint32_t v, const WorkVertex& where, double floor) {
   const WorkVertex kept = mesh_.vertices[v];
   WorkVertex moved = where;
@@ -187,7 +188,7 @@ bool Remesher::place(std::uint32_t v, const WorkVertex& where, double floor) {
   return false;
 }
 
-/// The vertex that h begins at goes into the border's at its end.
+/// Merges the start vertex of h into the border vertex at its end.
 bool Remesher::take_into(std::uint32_t h, double floor) {
   if (!is_collapse_legal(h) || !(collapse_quality(h, k_longest_at_border) > floor)) return false;
   const std::uint32_t u = mesh_.to(h);
@@ -196,11 +197,11 @@ bool Remesher::take_into(std::uint32_t h, double floor) {
   return true;
 }
 
-/// Before a vertex of the border that wants to go towards a point. \return whether anything has changed
+/// Makes room in front of a border vertex in the direction of a point. \return true if the mesh was changed
 bool Remesher::make_room(std::uint32_t v, const Point& towards) {
   const Vec3 way = towards - mesh_.at(v);
   bool has_changed = false;
-  // Vertices that stand in the way go into the border, the nearest first.
+  // Vertices that block the border are merged into it, the nearest first.
   std::vector<std::pair<double, std::uint32_t>> near;
   mesh_.for_out(v, [&](std::uint32_t h) {
     if (mesh_.twin[h] == k_none || !(dot(mesh_.at(mesh_.to(h)) - mesh_.at(v), way) > 0.0)) return;
@@ -226,7 +227,7 @@ bool Remesher::make_room(std::uint32_t v, const Point& towards) {
   return has_changed;
 }
 
-/// The border's vertex goes to its next row, or a part of the way. \return whether the row is there
+/// Moves the border's vertex to its next row, or a part of the distance. \return true if the row was made
 bool Remesher::advance(LineColumn& c, const WorkVertex& target, double height) {
   const std::uint32_t v = c.vertex;
   const WorkVertex start = mesh_.vertices[v];
@@ -253,7 +254,7 @@ bool Remesher::advance(LineColumn& c, const WorkVertex& target, double height) {
   const bool is_row = is_there || (done > k_least_part * height && is_step_good(c, mesh_.vertices[v], row));
   if (!is_row) {
     for (int i = 0; i < k_border_steps && !place(v, start, std::min(0.0, before - 1e-9)); ++i) make_room(v, start.point);
-    // What cannot go back is a low row.
+    // If the vertex cannot be moved back, the row stays lower.
     if (mesh_.vertices[v].point == start.point) return false;
   }
   c.way = normalized(mesh_.at(v) - start.point);
@@ -281,7 +282,7 @@ bool Remesher::grow_column(LineColumn& c, std::size_t row) {
   };
   WorkVertex target;
   if (!step(height, target)) return false;
-  // Curvature across allows no more than its angle, but for min_edge.
+  // The turn across is limited by the curvature angle, down to a height of min_edge.
   if (const double turn = angle_between(top.normal, target.normal); turn > c.wish->curvature_angle) {
     const double lower = std::max(height * c.wish->curvature_angle / turn, std::min(height, c.wish->min_edge));
     if (lower < height) {

@@ -1,5 +1,5 @@
-// Sizes that rows at leading and trailing edges ask for: lengths along their lines, and where the curvature of noses asks for nothing because rows answer for
-// it.
+// Sizes required by rows at leading and trailing edges: edge lengths along their lines, and regions of noses where the curvature is ignored because rows
+// determine the size.
 #pragma once
 
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace sterna::surfmesh {
 
-/// Lengths that edges along lines with rows are to have, at places no further apart than that; smaller towards the ends of noses, where rows end.
+/// Returns target edge lengths along lines with rows, at locations no farther apart than that length; smaller towards the ends of noses, where rows end.
 std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& rows);
 
-/// How far rows climb from a place of a line.
+/// Height of the rows above a location of a line.
 struct RowReach {
   Point point;
   double height = 0.0;  ///< m
 };
 
-/// Of the places of noses, as high as the law of their rows makes them.
+/// Returns the reaches at the locations of noses, predicted by the law of their rows.
 std::vector<RowReach> foreseen_reaches(const Reference& reference, const RowLines& rows);
 
-/// Vertices of the reference nearer to places of noses than rows climb there. Empty without such places.
+/// Returns the vertices of the reference that are nearer to a location of a nose than the rows reach there. Empty without such locations.
 Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std::span<const RowReach> reaches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

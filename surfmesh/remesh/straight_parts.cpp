@@ -1,6 +1,6 @@
-// The bend between two chords of an arc belongs to both, in proportion to their lengths. Where a straight part continues an arc tangentially, the last chord
-// has all of the bend at its end, as much as at its other end. So the share of a part at its end is the bend there less the rise of its neighbour at the
-// neighbour's far end: nothing for a straight part, its own rise for a chord of the same arc, whatever the lengths.
+// The bend between two chords of an arc is shared by both, in proportion to their lengths. Where a straight part continues an arc tangentially, the last
+// chord carries all of the bend at its end, as much as at its other end. So the share of a part at its end is the bend there minus the rise of its neighbour
+// at the neighbour's far end: zero for a straight part, its own rise for a chord of the same arc, for any lengths.
 #include "surfmesh/remesh/straight_parts.h"
 
 #include <algorithm>
@@ -15,28 +15,29 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Of the bend at its end: a part with a smaller share is straight there. Chords of one arc, each as long as the other, have half of it.
+/// Relative to the bend at its end: a part with a smaller share is straight there. Chords of equal length on one arc have half of it.
 constexpr double k_straight_share = 0.3;
-/// A part this many times as long as its neighbour is straight there: an arc cut by angle or by chord has no such steps, and an arc of one chord shows no rise.
+/// A part this many times as long as its neighbour is straight there: an arc cut by angle or by chord has no such steps, and an arc of one chord has no rise.
 constexpr double k_much_longer = 4.0;
-/// Below this ratio of lengths the neighbour's rise says nothing that the mean normal does not.
+/// Below this ratio of lengths the neighbour's rise adds no information to the mean normal.
 constexpr double k_longer = 2.0;
-/// rad: smaller bends are none.
+/// rad: smaller bends count as zero.
 constexpr double k_no_bend = 1e-4;
-/// A continuation of an edge this near to the end of the surface or to an edge is taken there: rad, and of the angle between two edges.
+/// A continuation of an edge this near to the end of the surface or to an edge is moved there: rad, and relative to the angle between two edges.
 constexpr double k_near_end = 0.1, k_near_edge = 0.15;
-/// Of the body's length: distance from a plane that comes from rounding in files of single precision.
+/// Relative to the body's length: distance from a plane caused by rounding in files of single precision.
 constexpr double k_plane_noise = 2e-7;
-/// rad: triangles that bend more are not coplanar, however small.
+/// rad: triangles with a larger bend are not coplanar, however small they are.
 constexpr double k_most_plane_bend = 0.05;
-/// Of the bend over the edges beside it that are at least half as long: an edge with less is a diagonal of a strip between two of those, not its side.
+/// Relative to the bend over the adjacent edges that are at least half as long: an edge with a smaller bend is a diagonal of a strip between two of those,
+/// not its side.
 constexpr double k_diagonal_share = 0.3, k_side_length = 0.5;
-/// Points of a facet that its width is measured by, at most.
+/// Largest number of points of a facet used to measure its width.
 constexpr std::size_t k_width_points = 64;
 /// Cosine between directions of straight edges that count as one; sine between a direction and a plane that counts as in it.
 constexpr double k_same_direction = 0.95, k_in_plane = 0.1;
 
-/// What one end of a part says.
+/// Classification of one end of a part.
 enum class End : std::uint8_t { no_bend, straight, curved };
 
 End end_of(double bend, double share, double length, double beside) {
@@ -51,7 +52,7 @@ struct FanWalk {
   const Reference& r;
   const Column<HalfedgeId, std::uint8_t>& is_sharp;
 
-  /// Corners (half-edges from the vertex) from `first` counter-clockwise up to a sharp edge or once around; true: around.
+  /// Collects corners (half-edges from the vertex) from `first` counter-clockwise up to a sharp edge or once around; true: around.
   bool turn_left(HalfedgeId first, std::vector<HalfedgeId>& fan) const {
     for (HalfedgeId h = first;;) {
       fan.push_back(h);
@@ -61,7 +62,7 @@ struct FanWalk {
       if (h == first) return true;
     }
   }
-  /// Those to the right of `first`, in their order.
+  /// Collects the corners to the right of `first`, in their order.
   void turn_right(HalfedgeId first, std::vector<HalfedgeId>& fan) const {
     for (HalfedgeId h = first; is_sharp[h] == 0;) {
       h = next(r.topology.twin(h));
@@ -75,14 +76,14 @@ struct FanWalk {
   }
 };
 
-/// Where the surface goes on behind an edge.
+/// Continuation of the surface behind an edge.
 struct Continuation {
   bool exists = false;
   Point point;
   Vec3 normal;
 };
 
-/// On the side of the triangle opposite of the vertex that the corner `h` is at, `angle` from the corner's first edge.
+/// Returns the point on the triangle's side opposite the vertex of corner `h`, at `angle` from the corner's first edge.
 Continuation opposite_point(const FanWalk& walk, HalfedgeId h, double angle) {
   const Reference& r = walk.r;
   const Point &v = r.mesh->points[r.topology.from(h)], &x = r.mesh->points[r.topology.to(h)], &y = r.mesh->points[r.topology.from(previous(h))];
@@ -94,7 +95,7 @@ Continuation opposite_point(const FanWalk& walk, HalfedgeId h, double angle) {
   return {true, x + t * (y - x), normalized((1.0 - t) * r.normals[next(h)] + t * r.normals[previous(h)])};
 }
 
-/// Of the edge of `h` behind the half-edge's first vertex: as straight as the surface allows.
+/// Returns the continuation of the edge of `h` behind the half-edge's first vertex: as straight as the surface allows.
 Continuation continuation(const FanWalk& walk, HalfedgeId h) {
   std::vector<HalfedgeId> fan;
   const auto go = [&](double target, bool is_left) {
@@ -124,7 +125,7 @@ struct EdgeEnd {
   double most_rise = std::numeric_limits<double>::infinity();
 };
 
-/// Of an edge that is no line, at the first vertex of `h`.
+/// Classifies the end of a non-line edge at the first vertex of `h`.
 EdgeEnd edge_end(const FanWalk& walk, HalfedgeId h) {
   const Reference& r = walk.r;
   const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
@@ -141,7 +142,7 @@ EdgeEnd edge_end(const FanWalk& walk, HalfedgeId h) {
   return result;
 }
 
-/// Diagonals of strips end where the sides of the strips do, but the surface is curved along them.
+/// Returns true for diagonals of strips: they end where the sides of the strips do, but the surface is curved along them.
 bool is_diagonal(const FanWalk& walk, HalfedgeId h) {
   const Reference& r = walk.r;
   const auto bend = [&](HalfedgeId e) { return angle_between(r.triangle_normals[triangle_of(e)], r.triangle_normals[triangle_of(r.topology.twin(e))]); };
@@ -169,7 +170,7 @@ class FlatFaces {
     grow();
     std::vector<std::uint32_t> order(facets_.size());
     std::iota(order.begin(), order.end(), 0U);
-    // Largest first: what lies between two flat faces has the bends at both.
+    // Largest first: a facet between two flat faces has the bends at both.
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return facets_[i].area > facets_[j].area; });
     for (const std::uint32_t f : order)
       if (is_flat(f))
@@ -226,7 +227,7 @@ class FlatFaces {
     return length > 0.0 ? norm(cross(b - a, p - a)) / length : 0.0;
   }
 
-  /// Largest distance of the facet's points from the edge.
+  /// Returns the largest distance of the facet's points from the edge.
   double width(const PlaneFacet& facet, HalfedgeId h) const {
     const std::size_t step = std::max<std::size_t>(1, facet.triangles.size() / k_width_points);
     double most = height_over(h, r_.mesh->points[r_.topology.from(previous(h))]);
@@ -239,7 +240,7 @@ class FlatFaces {
     End end;
     bool is_much_wider;
   };
-  /// What the border of facet `f` says at its half-edge h.
+  /// Classifies the border of facet `f` at its half-edge h.
   BorderEnd border_end(const PlaneFacet& facet, HalfedgeId h, HalfedgeId o) const {
     const TriangleId u = triangle_of(o);
     const Vec3& n = r_.triangle_normals[u];
@@ -280,7 +281,7 @@ class FlatFaces {
   std::vector<PlaneFacet> facets_;
 };
 
-/// The normal of a fan of triangles about a vertex, once its straight parts are known.
+/// Returns the normal of a fan of triangles around a vertex, with its straight parts known.
 Vec3 straight_normal(const FanWalk& walk, const StraightParts& parts, HalfedgeId h, std::vector<HalfedgeId>& fan) {
   const Reference& r = walk.r;
   fan.clear();
@@ -291,7 +292,7 @@ Vec3 straight_normal(const FanWalk& walk, const StraightParts& parts, HalfedgeId
   for (const HalfedgeId e : fan) {
     const Vec3& n = parts.plane[triangle_of(e)];
     if (norm2(n) == 0.0) continue;
-    // Triangles of one flat face are in a row: each face counts once.
+    // Triangles of one flat face are consecutive: each face counts once.
     if (norm2(flat) == 0.0) flat = n;
     else if (norm2(flat - n) > 0.0) flat = flat + n;
   }
@@ -326,12 +327,12 @@ std::vector<std::uint8_t> straight_segments(const TriMesh& mesh, const FeatureLi
   const auto step = [&](std::size_t i) { return mesh.points[line.vertices[i + 1]] - mesh.points[line.vertices[i]]; };
   const auto turn = [&](std::size_t i) { return cross(normalized(step(i - 1)), normalized(step(i))); };
   std::vector<std::uint8_t> result(n - 1, 0);
-  // What segment i says where segment j continues it at vertex v; `far` is the other end of j.
+  // Classifies the end of segment i where segment j continues it at vertex v; `far` is the other end of j.
   const auto end_at = [&](std::size_t i, std::size_t v, std::size_t j, std::size_t far) {
     const double bend = angle_between(step(v - 1), step(v));
     if (result[j] != 0) return bend <= k_no_bend ? End::no_bend : End::curved;
     const double length = norm(step(i)), beside = norm(step(j));
-    // Behind a neighbour that ends the line nothing is known: it may be the last chord of an arc.
+    // If the neighbour ends the line, there is no information behind it: it may be the last chord of an arc.
     double rise = length > beside ? bend : 0.0;
     if (far > 0 && far + 1 < n) {
       const double all = norm(step(far - 1)) + norm(step(far));

@@ -1,4 +1,4 @@
-// Parts of the given surface that are straight although curved parts continue them tangentially: long edges beside finely cut arcs, flat faces between fillets.
+// Straight parts of the given surface that curved parts continue tangentially: long edges beside finely cut arcs, flat faces between fillets.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 namespace sterna::surfmesh {
 
 struct StraightParts {
-  Column<HalfedgeId, std::uint8_t> is_straight;  ///< of the edge, the same for both half-edges
-  Column<HalfedgeId, double> most_rise;          ///< rad: largest rise of a curve over the edge at the half-edge's first vertex
-  Column<TriangleId, Vec3> plane;                ///< unit normal of the flat face that the triangle is in; zero: none
+  Column<HalfedgeId, std::uint8_t> is_straight;  ///< per edge, the same for both half-edges
+  Column<HalfedgeId, double> most_rise;          ///< rad: largest rise of a curve over the edge, at the half-edge's first vertex
+  Column<TriangleId, Vec3> plane;                ///< unit normal of the flat face of the triangle; zero: none
 };
 
-/// Finds edges that carry none of the bend at their ends, because the parts that continue them carry all of it, and flat faces: coplanar triangles, or one
-/// much larger than its neighbours, that carry none of the bend along their border.
-/// \pre lines and normals of `reference` are there; bulges are not used. \param is_sharp edges across which the surface is not smooth
+/// Finds straight edges and flat faces. An edge is straight if it carries none of the bend at its ends, because the adjacent parts carry all of it. A flat
+/// face consists of coplanar triangles, or of one much larger than its neighbours, that carry none of the bend along their border.
+/// \pre lines and normals of `reference` are set; bulges are not used. \param is_sharp edges across which the surface is not smooth
 StraightParts find_straight_parts(const Reference& reference, const Column<HalfedgeId, std::uint8_t>& is_sharp, const RunContext& context);
 
-/// Turns normals at ends of straight edges and at borders of flat faces, which are means with the bends beside them: normal to the straight part.
+/// Corrects normals at ends of straight edges and at borders of flat faces, which are means with the adjacent bends: makes them normal to the straight part.
 void straighten_normals(Reference& reference, const Column<HalfedgeId, std::uint8_t>& is_sharp, const StraightParts& parts, const RunContext& context);
 
-/// Of each segment of the line whether it is straight.
+/// Returns a flag per segment of the line: true if the segment is straight.
 std::vector<std::uint8_t> straight_segments(const TriMesh& mesh, const FeatureLine& line);
 
 }  // namespace sterna::surfmesh

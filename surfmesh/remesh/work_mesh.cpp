@@ -8,7 +8,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Every third bit of the lower 21.
+/// Spreads the lower 21 bits to every third bit.
 std::uint64_t spread(std::uint64_t x) {
   x &= 0x1fffff;
   x = (x | x << 32) & 0x1f00000000ffffull;
@@ -40,7 +40,7 @@ void WorkMesh::join(std::uint32_t a, std::uint32_t b, std::int32_t l) {
 void WorkMesh::split(std::uint32_t h, std::uint32_t m) {
   const std::uint32_t o = twin[h];
   const std::int32_t l = line[h];
-  // Each side: triangle (a, b, c) with the edge a b becomes (a, m, c), and a new one (m, b, c).
+  // On each side, triangle (a, b, c) with the edge a b becomes (a, m, c), and a new one (m, b, c) is added.
   const auto halve = [&](std::uint32_t e) {
     const std::uint32_t t = e / 3, bc = next(e), c = apex(e), b = to(e);
     const auto n = static_cast<std::uint32_t>(triangles.size());
@@ -77,7 +77,7 @@ void WorkMesh::collapse(std::uint32_t h) {
     if (e != h && e / 3 != (o == k_none ? k_none : o / 3)) triangles[e / 3][e % 3] = u;
   });
   const auto close = [&](std::uint32_t e) {
-    // The triangle of e is gone: its two other edges become one. A line among them stays.
+    // The triangle of e is removed: its two other edges become one. If one of them is a line, it stays a line.
     const std::uint32_t p = next(e), q = prev(e), c = apex(e);
     const std::uint32_t tp = twin[p], tq = twin[q];
     const std::int32_t l = line[p] != k_no_line ? line[p] : line[q];

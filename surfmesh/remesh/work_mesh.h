@@ -1,4 +1,4 @@
-// A triangle mesh that changes in place: splits, collapses, flips; half-edge 3 t + c begins at corner c of triangle t.
+// A triangle mesh for in-place changes (splits, collapses, flips); half-edge 3 t + c begins at corner c of triangle t.
 #pragma once
 
 #include <array>
@@ -14,26 +14,26 @@ inline constexpr std::uint32_t k_none = 0xffffffffu;
 
 enum class VertexKind : std::uint8_t { face, line, corner };
 
-/// Where a vertex of the new surface is on the reference.
+/// Location of a vertex of the new surface on the reference.
 struct WorkVertex {
   Point point;
-  double size = 0.0;  ///< m, wanted length of edges here
+  double size = 0.0;  ///< m, target edge length here
   VertexKind kind = VertexKind::face;
-  std::int32_t line = k_no_line;  ///< of kind line
+  std::int32_t line = k_no_line;  ///< for kind line
   double s = 0.0;                 ///< m, along the line
-  Foot foot;                      ///< of kind face
-  Vec3 normal;                    ///< of kind face: the reference's at the foot
-  VertexId corner;                ///< of kind corner: vertex of the reference
-  std::uint32_t out = k_none;     ///< a half-edge that begins here; k_none: the vertex is gone
-  bool is_fixed = false;          ///< of a line with rows, or their outer end: neither moves nor goes
+  Foot foot;                      ///< for kind face
+  Vec3 normal;                    ///< for kind face: the reference's normal at the foot
+  VertexId corner;                ///< for kind corner: vertex of the reference
+  std::uint32_t out = k_none;     ///< a half-edge that begins here; k_none: the vertex is deleted
+  bool is_fixed = false;          ///< on a line with rows, or at their outer end: neither moved nor removed
 };
 
 struct WorkMesh {
   std::vector<WorkVertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [0] = k_none: gone
-  std::vector<std::uint32_t> twin;                      ///< for each half-edge; k_none: rim
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [0] = k_none: deleted
+  std::vector<std::uint32_t> twin;                      ///< for each half-edge; k_none: open boundary
   std::vector<std::int32_t> line;                       ///< for each half-edge, of its edge
-  std::vector<TriangleId> hint;                         ///< for each triangle one of the reference in the same smooth piece, about there
+  std::vector<TriangleId> hint;                         ///< for each triangle a nearby one of the reference in the same smooth piece
 
   static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::uint32_t prev(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -43,7 +43,7 @@ struct WorkMesh {
   bool is_gone(std::uint32_t t) const { return triangles[t][0] == k_none; }
   const Point& at(std::uint32_t v) const { return vertices[v].point; }
 
-  /// Half-edges that begin at v, one for each triangle.
+  /// Visits the half-edges that begin at v, one for each triangle.
   template <class Visit>
   void for_out(std::uint32_t v, const Visit& visit) const {
     const std::uint32_t first = vertices[v].out;
@@ -58,7 +58,7 @@ struct WorkMesh {
       visit(h);
     }
   }
-  /// Neighbours of v; at a rim the one that no half-edge from v leads to, too.
+  /// Visits the neighbours of v; on an open boundary also the one to which no half-edge from v leads.
   template <class Visit>
   void for_ring(std::uint32_t v, const Visit& visit) const {
     for_out(v, [&](std::uint32_t h) {
@@ -68,21 +68,21 @@ struct WorkMesh {
   }
   bool is_edge(std::uint32_t a, std::uint32_t b) const;
 
-  /// The vertex `m` becomes the middle of the edge of h.
+  /// Splits the edge of h; the vertex `m` becomes its middle.
   void split(std::uint32_t h, std::uint32_t m);
-  /// The vertex that h begins at goes to its end.
+  /// Merges the start vertex of h into its end vertex.
   /// \pre the link condition
   void collapse(std::uint32_t h);
   /// \pre an edge of two triangles that is no line, and none between their apexes
   void flip(std::uint32_t h);
-  /// Drops what is gone; what is near in space comes near in memory.
+  /// Removes deleted items; neighbours in space become neighbours in memory.
   void renumber();
 
  private:
   void join(std::uint32_t a, std::uint32_t b, std::int32_t l);
 };
 
-/// The reference's own triangles.
+/// Returns the reference's own triangles as a work mesh.
 WorkMesh work_mesh_of(const Reference& reference);
 
 }  // namespace sterna::surfmesh

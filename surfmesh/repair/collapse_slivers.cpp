@@ -14,10 +14,10 @@ constexpr int k_collapse_rounds = 10;
 
 struct ShortEdge {
   double length = 0.0;
-  std::uint32_t from = 0, to = 0;  ///< from goes
+  std::uint32_t from = 0, to = 0;  ///< `from` is removed
 };
 
-/// Common neighbours of the ends of an inner edge: two, or the collapse would pinch the surface.
+/// Returns true if the ends of an inner edge have two common neighbours; else the collapse would pinch the surface.
 bool is_link_clean(const std::vector<std::vector<std::uint32_t>>& facets_at, const std::vector<Facet>& facets, std::uint32_t a, std::uint32_t b) {
   std::vector<std::uint32_t> na, nb, common;
   for (const std::uint32_t t : facets_at[a]) na.insert(na.end(), facets[t].begin(), facets[t].end());
@@ -25,7 +25,7 @@ bool is_link_clean(const std::vector<std::vector<std::uint32_t>>& facets_at, con
   sort_unique(na);
   sort_unique(nb);
   std::set_intersection(na.begin(), na.end(), nb.begin(), nb.end(), std::back_inserter(common));
-  return common.size() == 4;  // the ends themselves, too
+  return common.size() == 4;  // including the ends themselves
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void collapse_slivers(RepairState& state, const RepairOptions& options, const Ru
       if (length > limit || edge.count != 2) continue;
       const auto at = edges.at(edge);
       if (!state.info[at[0] / 3].is_touched && !state.info[at[1] / 3].is_touched) continue;
-      // The vertex of the input stays: it has the lower number. Those in the plane of a half model stay in it.
+      // The vertex of the input stays: it has the lower number. Vertices in the plane of a half model stay in it.
       const bool is_low_kept = is_on_cap[edge.low] || !is_on_cap[edge.high];
       list.push_back({length, is_low_kept ? edge.high : edge.low, is_low_kept ? edge.low : edge.high});
     }
@@ -68,7 +68,7 @@ void collapse_slivers(RepairState& state, const RepairOptions& options, const Ru
         const Vec3 old = area_vector(c[0], c[1], c[2]);
         std::replace(f.begin(), f.end(), edge.from, edge.to);
         const Vec3 now = area_vector(state.points[f[0]], state.points[f[1]], state.points[f[2]]);
-        // A sliver's own normal says little.
+        // The normal of a sliver triangle itself is not reliable.
         const bool has_area = norm(old) > limit * std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
         if (norm(now) == 0.0 || (has_area && dot(old, now) < k_turn_cosine_of_collapse * norm(old) * norm(now))) is_harmless = false;
       }

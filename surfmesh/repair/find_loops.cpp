@@ -1,4 +1,4 @@
-// Edges with an odd number of facets: at every vertex their number is even, so they fall into closed polygons. A walk along them that comes back to one of its
+// Edges with an odd number of facets: at every vertex their number is even, so they form closed polygons. A walk along them that returns to one of its
 // vertices cuts the polygon off there, so each is simple, and two holes that touch in a vertex are two holes.
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
     at[edges[e].to].push_back(e);
   }
   std::vector<char> is_used(edges.size(), 0);
-  std::vector<std::uint32_t> place(state.points.size(), 0xffffffffu);  // in the walk
+  std::vector<std::uint32_t> place(state.points.size(), 0xffffffffu);  // index in the walk
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t start = 0; start < edges.size(); ++start) {
     if (is_used[start]) continue;
@@ -48,7 +48,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
         place[v] = static_cast<std::uint32_t>(walk.size());
         walk.push_back(v);
       }
-      // On, along the facets' sense where there is a choice, else to the side that bends back most.
+      // Continues along the facets' sense if there is a choice, else to the side that bends back most.
       const Vec3 back = state.points[from] - state.points[v];
       std::uint32_t next = 0xffffffffu;
       double best = 1e300;

@@ -1,6 +1,6 @@
-// Every facet has two sides. Around an edge, the side of one facet and the side of the next that face each other see the same space; so sides fall into cells.
-// Parts that hang together over edges have cells of their own; rays say which cells of different parts are one, and which is the outside. That is what winding
-// numbers would tell of closed parts, and does not depend on the sense of the facets.
+// Every facet has two sides. Around an edge, the side of one facet and the side of the next one that face each other bound the same space; so sides form
+// cells. Edge-connected parts have cells of their own. Rays determine which cells of different parts are one, and which is the outside. For closed parts this
+// is equivalent to winding numbers, but it does not depend on the sense of the facets.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,15 +16,17 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_rays = 60;                     ///< tried for each part
-constexpr double k_from_edge = 1e-6;           ///< barycentric: a ray that passes an edge nearer than that decides nothing
-constexpr double k_beside_share = 1e-7;        ///< of L: how far beside a facet its sides are looked at
-constexpr double k_most_leaking = 0.005;       ///< of the area may be solid for the winding number and have the outside on both sides: more, and it leaks in
-constexpr double k_least_kept = 0.01;          ///< of the area: less is no body
-constexpr std::size_t k_within_samples = 300;  ///< facets of a component that are looked up in another
-constexpr double k_contact_share = 2e-3;       ///< of a component's length: nearer to the other's surface, it touches it
-constexpr double k_mostly_within = 0.9;        ///< of the samples
-constexpr double k_grazing = 1e-4;             ///< cosine to the normal below which it decides nothing, either
+constexpr int k_rays = 60;                     ///< number tried for each part
+constexpr double k_from_edge = 1e-6;           ///< barycentric: a ray that passes nearer to an edge is inconclusive
+constexpr double k_beside_share = 1e-7;        ///< relative to L: distance from a facet at which its sides are tested
+constexpr double k_most_leaking = 0.005;       ///< fraction of the area: facets that are solid by winding number but have the outside on both sides; with
+                                               ///< more, the hull leaks
+                                               ///< hull leaks
+constexpr double k_least_kept = 0.01;          ///< fraction of the area: with less, there is no body
+constexpr std::size_t k_within_samples = 300;  ///< number of facets of a component that are tested against another
+constexpr double k_contact_share = 2e-3;       ///< relative to a component's length: nearer to the other's surface, it touches that component
+constexpr double k_mostly_within = 0.9;        ///< fraction of the samples
+constexpr double k_grazing = 1e-4;             ///< cosine to the normal below which a ray is inconclusive as well
 
 struct AroundEdge {
   std::uint32_t third = 0;  ///< vertex
@@ -32,7 +34,7 @@ struct AroundEdge {
   bool is_along = false;  ///< the facet runs from the edge's low to its high vertex
 };
 
-/// Facets at an edge by angle about low -> high, counter-clockwise from the first.
+/// Returns the facets at an edge by angle around low -> high, counter-clockwise from the first.
 std::vector<AroundEdge> around(const RepairState& state, const EdgeTable& edges, const Edge& edge) {
   std::vector<AroundEdge> list;
   for (const std::uint32_t h : edges.at(edge)) {
@@ -60,7 +62,7 @@ std::vector<AroundEdge> around(const RepairState& state, const EdgeTable& edges,
   return list;
 }
 
-/// Side 2 f is where the normal of facet f points to, 2 f + 1 the other.
+/// Side 2 f is on the side of the normal of facet f, 2 f + 1 on the other.
 std::uint32_t side_ahead(const AroundEdge& x) { return 2 * x.facet + (x.is_along ? 0 : 1); }
 std::uint32_t side_behind(const AroundEdge& x) { return 2 * x.facet + (x.is_along ? 1 : 0); }
 
@@ -69,7 +71,7 @@ struct Sides {
   std::uint32_t outside;
 };
 
-/// Walks the ray and joins the sides that see each other. False when it decides nothing.
+/// Follows the ray and joins the sides that face each other. Returns false if the ray is inconclusive.
 bool join_along(const TriMesh& mesh, const TriangleTree& tree, std::uint32_t start, const Vec3& direction, Sides& sides) {
   const auto c = corners(mesh, TriangleId(start));
   const Vec3 p = (c[0] + c[1] + c[2]) / 3.0;
@@ -112,7 +114,7 @@ TriMesh mesh_of(const RepairState& state) {
   return mesh;
 }
 
-/// Spread over the sphere, none along an axis.
+/// Returns directions spread over the sphere, none along an axis.
 Vec3 ray_direction(int i) {
   const double golden = 2.399963229728653, z = 1.0 - (2.0 * i + 1.0) / k_rays, r = std::sqrt(1.0 - z * z);
   return normalized(Vec3{r * std::cos(golden * i + 0.3), r * std::sin(golden * i + 0.3), z + 0.0123});
@@ -149,10 +151,10 @@ Sides find_cells(const RepairState& state, const EdgeTable& edges, const RunCont
 
 /// A component that is connected over edges of two facets.
 struct Body {
-  std::vector<std::pair<std::uint32_t, bool>> facets;  ///< with whether they are to be turned, to point outwards
+  std::vector<std::pair<std::uint32_t, bool>> facets;  ///< true if the facet must be reversed to point outwards
   Box box;
   double volume = 0.0;     ///< signed, in the sense of its first facet
-  bool is_outward = true;  ///< most of its facets are so in the file
+  bool is_outward = true;  ///< most of its facets point outwards in the file
   bool is_closed = true;
 };
 
@@ -206,7 +208,7 @@ bool is_box_within(const Box& inner, const Box& outer, double tolerance) {
 }
 
 struct Within {
-  double share = 0.0;   ///< of the samples
+  double share = 0.0;   ///< fraction of the samples
   bool is_all = false;  ///< contacts count as within
 };
 
@@ -279,7 +281,7 @@ bool keep_outer_hull(RepairState& state, const SolidReference& reference, const 
       if (std::abs(winding[l]->winding_number(p)) > 0.5) return l % 2 == 0;
     return false;
   };
-  std::vector<char> front(state.facets.size()), back(state.facets.size());  // whether the outside is there
+  std::vector<char> front(state.facets.size()), back(state.facets.size());  // true if the outside is there
   double all = 0.0, leaking = 0.0;
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     front[t] = sides.cells.root(2 * t) == outside;

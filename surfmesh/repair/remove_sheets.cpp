@@ -7,10 +7,10 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_open_share = 0.9;   ///< of the box's diagonal: the rim of a flap is longer, that of a body with a hole mostly shorter
-constexpr double k_flat_share = 1e-6;  ///< of L: the vertices of a flat sheet are that near to its plane
+constexpr double k_open_share = 0.9;   ///< relative to the box's diagonal: the open boundary of a flap is longer, that of a body with a hole mostly shorter
+constexpr double k_flat_share = 1e-6;  ///< relative to L: largest distance of the vertices of a flat baffle from its plane
 
-/// Pieces that are connected over edges with two facets.
+/// Returns the pieces that are connected over edges with two facets.
 std::vector<std::uint32_t> smooth_pieces(const RepairState& state, const EdgeTable& edges) {
   DisjointSets sets(state.facets.size());
   for (const Edge& edge : edges.edges())
@@ -18,7 +18,7 @@ std::vector<std::uint32_t> smooth_pieces(const RepairState& state, const EdgeTab
   return std::move(sets).roots();
 }
 
-/// Flaps: pieces with open edges that hang on crowded ones, where the rest is closed without them.
+/// Removes flaps: pieces with open edges attached to crowded edges, if the rest is closed without them.
 bool remove_flaps(RepairState& state) {
   const EdgeTable edges = state.edges();
   const std::vector<std::uint32_t> piece = smooth_pieces(state, edges);
@@ -52,7 +52,7 @@ bool remove_flaps(RepairState& state) {
     all &= is_flap[t] != 0;
   }
   if (!any || all) return false;
-  // Two flaps at one edge may each be taken for the rest of the other: the first goes, then the next look decides.
+  // Two flaps at one edge may each be mistaken for the rest of the other: the first is removed, then the next pass decides.
   std::vector<char> is_gone(state.facets.size(), 0);
   for (const Edge& edge : edges.edges()) {
     if (edge.count < 3) continue;
@@ -99,7 +99,7 @@ void remove_flat_parts(RepairState& state) {
     is_sheet[t] = is_open[parts.part[t]] && is_flat[parts.part[t]];
     is_kept[t] = !is_sheet[t];
     any |= is_sheet[t] != 0;
-    // A body is closed already: flat open parts beside open ones may be its sides.
+    // A body is closed already: flat open parts beside open parts may be the body's sides.
     has_body |= !is_open[parts.part[t]];
   }
   if (!any || !has_body) return;

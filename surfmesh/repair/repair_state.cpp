@@ -12,7 +12,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr std::size_t k_max_drawn = 400000;  ///< facets that a drawing of changes has
+constexpr std::size_t k_max_drawn = 400000;  ///< largest number of facets in a drawing of changes
 
 Box box_of(const RepairState& state, const std::vector<std::uint32_t>& facets) {
   Box box;
@@ -97,7 +97,7 @@ void weld_rounded(RepairState& state, bool is_oriented) {
     sorted.emplace_back(key_of, t);
   }
   std::sort(sorted.begin(), sorted.end());
-  const auto is_even = [](const Facet& f) { return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2; };  // runs upwards: one of the two senses
+  const auto is_even = [](const Facet& f) { return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2; };  // one of the two senses
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
     bool is_cap = false;
     std::int64_t balance = 0;
@@ -108,7 +108,7 @@ void weld_rounded(RepairState& state, bool is_oriented) {
       if (end > begin) is_kept[t] = 0;
     }
     if (end - begin < 2) continue;
-    // A facet that falls onto the cap is no part of the result.
+    // A facet that coincides with the cap is not part of the result.
     if (is_cap) state.info[sorted[begin].second].mark = FacetMark::cap;
     if (is_oriented && balance == 0) is_kept[sorted[begin].second] = 0;
   }

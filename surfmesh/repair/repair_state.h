@@ -35,80 +35,81 @@ struct RepairState {
   void keep(const std::vector<char>& is_kept);
   void add(const Facet& facet, const FacetInfo& of);
 
-  /// Notes a change and draws these facets as they are now. `size` < 0: the diameter of their box.
+  /// Records a change and draws these facets in their current state. `size` < 0: the diameter of their box.
   void note(RepairKind kind, const std::vector<std::uint32_t>& of, double size = -1.0);
-  /// The same for a set of facets: one change for each of its parts that hang together over edges.
+  /// Records a change for a set of facets: one for each of its edge-connected parts.
   void note_parts(RepairKind kind, const std::vector<char>& is_of, const EdgeTable& edges);
 };
 
-/// Vertices with equal coordinates become one; facets with a repeated vertex, without area, or written twice are dropped. Of copies with opposite senses none
-/// stays where `is_oriented`, for there is nothing between them; else one does.
+/// Merges vertices with equal coordinates, and drops facets with a repeated vertex, without area, or duplicated. Of copies with opposite senses none stays if
+/// `is_oriented`, because they enclose nothing; else one stays.
 void weld_rounded(RepairState& state, bool is_oriented = false);
 
-/// Parts (connected over edges) whose box is smaller than allowed are dropped.
+/// Drops parts (connected over edges) whose box is smaller than allowed.
 void drop_small_parts(RepairState& state, const RepairOptions& options);
-/// Closed parts without thickness (of four facets in one plane, left over where facets were cut or replaced) are dropped: they have no inside.
+/// Drops closed parts without thickness (four facets in one plane, left over from cutting or replacing facets): they have no inside.
 void drop_flat_parts(RepairState& state);
 
-/// Rims within a tolerance that grows from rounding to options.gap are joined, vertices to vertices and vertices to edges; never beyond half an edge.
+/// Joins open boundaries within a tolerance that grows from rounding to options.gap, vertices to vertices and vertices to edges; never beyond half an edge.
 void zip_seams(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// Flat open parts, and open flaps on edges that are closed without them.
+/// Removes flat open parts, and open flaps on edges that are closed without them.
 void remove_sheets(RepairState& state, const RunContext& context);
 
-/// Closed polygons of edges with an odd number of facets, each simple; a loop runs against its facets. Edges that end nowhere are left out.
+/// Returns closed polygons of edges with an odd number of facets, each simple; a loop runs against its facets. Chains of edges that do not close are skipped.
 std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state);
 
-/// Recognises the opening of half a model, puts its rim into the plane and closes it with facets of mark `cap`; sets report.half.
+/// Recognises the opening of a half model, moves its boundary into the plane and closes it with facets of mark `cap`; sets report.half.
 void cap_half(RepairState& state, const RepairOptions& options);
 
 /// Fills loops within the limits. `kind`: filled or replaced. \return loops that stay open
 std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairKind kind, const RunContext& context);
 
-/// Vertices of facets that cross go to a grid of about 1e-10 of the length: planes that were meant to be one and are not, by rounding, become one.
+/// Rounds the vertices of facets that cross to a grid of about 1e-10 of the length: planes that differ only by rounding become one.
 void snap_crossings(RepairState& state, const RunContext& context);
 
-/// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are over, or there are more crossings than before. \return whether something was
-/// cut
+/// Cuts facets where they cross, in rounds, until nothing crosses, the rounds are used up, or the number of crossings grows. \return true if facets were cut
 bool cut_crossings(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// What is solid, by winding numbers: level 0 are bodies, level 1 cavities in them, level 2 bodies in cavities. A place is solid where the deepest level that
-/// encloses it is even. Each mesh has its components turned outwards.
+/// Solid regions, by winding numbers: level 0 are bodies, level 1 cavities in them, level 2 bodies in cavities. A point is solid if the deepest level that
+/// encloses it is even. The components of each mesh are oriented outwards.
 struct SolidReference {
   std::vector<TriMesh> levels;  ///< at least one
-  bool is_by_winding = false;   ///< more than one level, or the fluid is inside: cells between facets do not tell
+  bool is_by_winding = false;   ///< more than one level, or the fluid is inside: cells between facets cannot decide
 };
 
-/// The levels of the components. With the fluid outside a component is a cavity where it lies within another and has the opposite sense in the file; with the
-/// fluid inside also where it has the same sense but does not cross the other: a body in the fluid. Contacts count as lying within.
+/// Computes the levels of the components. With the fluid outside, a component is a cavity if it lies within another one and has the opposite sense in the
+/// file. With the fluid inside, also if it has the same sense but does not cross the other: a body in the fluid. Contacts count as lying within.
 /// \pre closed, perhaps crossing itself
 SolidReference solid_reference(const RepairState& state, bool is_fluid_inside, const RunContext& context);
 
-/// Keeps facets with solid on one side, turned away from it; \pre nothing crosses. Sides are cells between facets: what the outside does not reach is solid.
-/// Where open edges make the outside leak into what is solid by the winding numbers of `reference`, or that has cavities, winding numbers decide. Returns
-/// false, and changes nothing, when hardly anything would be left.
+/// Keeps facets with solid on one side, oriented away from it. \pre nothing crosses
+/// Sides are cells between facets: cells not connected to the outside are solid. Where open edges connect the outside to a region that is solid by the
+/// winding numbers of `reference`, or if `reference` has cavities, winding numbers decide. Returns false, and changes nothing, if hardly any facet would
+/// remain.
 bool keep_outer_hull(RepairState& state, const SolidReference& reference, const RunContext& context);
 
-/// What decides about parts that touch.
+/// Input for the treatment of parts that touch.
 struct Contacts {
   bool is_fluid_inside = false;
-  std::vector<std::string> names;  ///< of the patches
+  std::vector<std::string> names;  ///< names of the patches
 };
 
-/// Vertices and edges in which the solid touches itself become several, a little apart. Where bodies touch along edges they are joined instead: the vertices
-/// move into the fluid on both sides, if nothing crosses then; else the bodies are separated, with a warning that names them.
+/// Splits vertices and edges in which the solid touches itself, and moves the copies a little apart. Bodies that touch along edges are joined instead: the
+/// vertices move into the fluid on both sides, if nothing crosses then. Else the bodies are separated, with a warning that names them.
 void separate_touching(RepairState& state, const Contacts& contacts, const RunContext& context);
 
-/// Edges shorter than options.sliver become a vertex, where something was changed and that turns no facet.
+/// Collapses edges shorter than options.sliver, in changed regions and if no facet is inverted.
 void collapse_slivers(RepairState& state, const RepairOptions& options, const RunContext& context);
 
-/// What still crosses, crowds an edge or is open is taken out with growing rings around it, and filled. \pre oriented \return whether nothing is left
+/// Removes facets that still cross, are at a crowded edge or are open, with growing rings around them, and fills the holes. \pre oriented \return true if no
+/// defect is left
 bool replace_crossings(RepairState& state, const RepairOptions& options, const Contacts& contacts, const RunContext& context);
 
-/// Facets of each component get one sense where that is possible: the majority's.
+/// Orients the facets of each component consistently if possible: in the majority's sense.
 void make_consistent(RepairState& state);
 
-/// Samples distances both ways. \pre result made of `state` without the cap
+/// Samples distances in both directions. \pre the result is made of `state` without the cap
 void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, const std::vector<Facet>& input_facets, const RunContext& context);
 
 }  // namespace sterna::surfmesh

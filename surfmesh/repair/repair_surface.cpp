@@ -1,5 +1,4 @@
-// The driver. What it hands on between steps is a soup with shared vertices (RepairState); that the result is what it should be is stitch_surface's verdict on
-// it.
+// The driver. The steps pass a soup with shared vertices (RepairState); stitch_surface verifies the result.
 #include "surfmesh/repair/repair_surface.h"
 
 #include <algorithm>
@@ -19,9 +18,9 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_hull_tries = 3;
-constexpr std::int64_t k_most_again = 200;  ///< crossings in a second try
+constexpr std::int64_t k_most_again = 200;  ///< largest number of crossings for a second attempt
 
-/// What repair is for; other errors are the caller's.
+/// Returns true for errors that repair handles; other errors are returned to the caller.
 bool is_reparable(ErrorCode code) {
   return code == ErrorCode::open_surface || code == ErrorCode::non_manifold_surface || code == ErrorCode::self_intersection ||
          code == ErrorCode::not_orientable;
@@ -32,7 +31,7 @@ struct Input {
   std::vector<Facet> facets;
 };
 
-/// Notes the facets of `before` that `after` no longer has.
+/// Records the facets of `before` that are missing in `after`.
 void note_dropped(RepairState& state, const WorkingSurface& before, const WorkingSurface& after) {
   std::set<std::array<std::uint32_t, 2>> left;
   for (const FacetOrigin& origin : after.origin) left.insert({origin.soup, origin.facet});
@@ -81,7 +80,7 @@ RepairState first_state(const std::vector<SurfaceSoup>& soups, const StitchOptio
   state.points = std::move(surface.points);
   state.facets = std::move(surface.facets);
   state.info = std::move(info);
-  // Facets without area fill T-junctions at best; those are found as such.
+  // Facets without area at best fill T-junctions, which are found separately.
   std::vector<char> is_flat(state.facets.size(), 0), is_kept(state.facets.size(), 1);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     const auto c = state.corners(t);
@@ -105,7 +104,8 @@ bool needs_hull(const RepairState& state, const RunContext& context) {
   return find_crossings(state.points, state.facets, context, 1).total > 0;
 }
 
-/// Cuts what crosses; where that opens edges or leaves crossings, planes cross that were meant to be one: then once more, from a grid.
+/// Cuts crossing facets. If that opens edges or leaves crossings, planes cross that are equal except for rounding: then it cuts again after rounding to a
+/// grid.
 void cut_or_snap(RepairState& state, const RepairOptions& options, const RunContext& context) {
   const auto trouble = [&](const RepairState& of) {
     return static_cast<std::int64_t>(count_open_edges(of)) + find_crossings(of.points, of.facets, context).total;
@@ -119,11 +119,11 @@ void cut_or_snap(RepairState& state, const RepairOptions& options, const RunCont
   if (trouble(snapped) < before) state = std::move(snapped);
 }
 
-/// Cuts what crosses, takes the outer hull and mends what that leaves. \return whether a hull could be taken
+/// Cuts crossing facets, takes the outer hull and repairs the resulting defects. \return true if a hull could be taken
 bool cut_to_hull(RepairState& state, const RepairOptions& options, const Contacts& contacts, const RunContext& context) {
   const SolidReference first = solid_reference(state, contacts.is_fluid_inside, context);
   for (int round = 0; round < k_hull_tries && needs_hull(state, context); ++round) {
-    // What replacing could not mend, and is much, would only be cut into ever smaller pieces.
+    // Many crossings that replacement could not repair would only be cut into ever smaller pieces.
     if (round > 0 && find_crossings(state.points, state.facets, context).total > k_most_again) break;
     const SolidReference reference = round == 0 ? first : solid_reference(state, contacts.is_fluid_inside, context);
     cut_or_snap(state, options, context);
@@ -139,7 +139,7 @@ bool cut_to_hull(RepairState& state, const RepairOptions& options, const Contact
 }
 
 void check_options(RepairOptions options) {
-  for (const Option& option : options_of(options)) set_option(option, option.get());  // refuses what is out of range
+  for (const Option& option : options_of(options)) set_option(option, option.get());  // throws for values out of range
 }
 
 StitchOptions strictly(StitchOptions stitching) {
@@ -148,10 +148,10 @@ StitchOptions strictly(StitchOptions stitching) {
   return stitching;
 }
 
-/// Whether facets that cross are cut and a hull is taken.
+/// Returns true if crossing facets are cut and a hull is taken.
 bool is_cutting(const RepairOptions& options) { return options.hull; }
 
-/// All that is done before facets are cut. \return openings that stay
+/// Runs all steps before facets are cut. \return openings that remain
 std::size_t close_up(RepairState& state, const RepairOptions& options, const RunContext& context) {
   drop_small_parts(state, options);
   zip_seams(state, options, context.part("zip", 0.0, 0.5));
@@ -182,7 +182,7 @@ std::string sources_of(const std::vector<SurfaceSoup>& soups) {
   return text;
 }
 
-/// One sentence a kind: how many places, the largest, the first.
+/// Returns one sentence per kind: number of locations, the largest, the first.
 std::vector<std::string> tell(const RepairReport& report) {
   static constexpr std::array<const char*, k_repair_kinds> k_words = {"dropped (no area, copies)",
                                                                       "welded within rounding",
@@ -218,7 +218,7 @@ std::vector<std::string> tell(const RepairReport& report) {
   return messages;
 }
 
-/// \throws Error(open_surface) where half a model is open elsewhere, too
+/// \throws Error(open_surface) if a half model is open elsewhere as well
 void require_rim_in_plane(const TriMesh& mesh, const HalfRim& half, const RunContext& context) {
   const Topology topology(mesh, context);
   const auto axis = static_cast<std::size_t>(half.axis[0] - 'x');

@@ -1,4 +1,5 @@
-// A surface with holes, seams, crossings, sheets and inner walls made into one that can be meshed, with as few changes as possible, each of them told.
+// Repairs a surface with holes, seams, crossings, baffles and inner walls so that it can be meshed, with as few changes as possible; all changes are
+// reported.
 #pragma once
 
 #include <array>
@@ -16,37 +17,37 @@
 
 namespace sterna::surfmesh {
 
-/// Lengths are shares of the body length L (the longest side of the box), so that the defaults fit any body.
+/// Lengths are fractions of the body length L (the longest side of the box), so that the defaults fit any body.
 struct RepairOptions {
-  double gap = 1e-3;            ///< L; wider seams stay open, and are holes
+  double gap = 1e-3;            ///< L; wider seams stay open and are treated as holes
   double hole = 0.3;            ///< L; diameter of the largest curved hole that is filled
-  double flat_hole = 2.0;       ///< L; the same for holes with a flat rim
-  int hole_edges = 1000;        ///< of the largest hole that is filled
+  double flat_hole = 2.0;       ///< L; the same for holes with a flat boundary
+  int hole_edges = 1000;        ///< edges of the largest hole that is filled
   double smallest_part = 1e-3;  ///< L; parts with a smaller box are dropped
   double sliver = 1e-7;         ///< L; shorter edges are collapsed where something was changed
-  double largest_move = 0.01;   ///< L; of what is left of the input; more is an error
+  double largest_move = 0.01;   ///< L; largest allowed movement of retained facets; more is an error
   std::string half = "automatic";
-  double half_tolerance = 1e-3;  ///< L; how far from its plane the rim of a half model may lie
+  double half_tolerance = 1e-3;  ///< L; largest distance of the boundary of a half model from its plane
   bool hull = true;
   int rounds = 6;
 };
 
-/// What was done to a place.
+/// Kind of a local change.
 enum class RepairKind {
-  dropped,         ///< facets without area, copies, doubled sheets
+  dropped,         ///< facets without area, copies, doubled baffles
   welded,          ///< vertices within rounding
   zipped,          ///< a seam closed
-  into_plane,      ///< the rim of a half model moved into its plane
+  into_plane,      ///< the boundary of a half model moved into its plane
   filled,          ///< a hole
   cut,             ///< facets cut where they cross others
   removed_sheet,   ///< facets with the fluid on both sides
   removed_inside,  ///< facets with the fluid on neither side
   removed_part,    ///< a part too small to matter
-  separated,       ///< vertices or edges in which more than two facets met
+  separated,       ///< vertices or edges with more than two facets split
   joined,          ///< bodies that touched along edges, over the crevice between them
   collapsed,       ///< short edges
-  replaced,        ///< crossing facets taken out and the hole filled
-  turned           ///< facets against the sense of the others
+  replaced,        ///< crossing facets removed and the hole filled
+  turned           ///< facets oriented against the others
 };
 inline constexpr std::size_t k_repair_kinds = 14;
 /// "filled", "removed_sheet" ...
@@ -54,36 +55,36 @@ std::string_view to_string(RepairKind kind);
 
 struct RepairChange {
   RepairKind kind = RepairKind::dropped;
-  Vec3 position;              ///< m; centre of the place
-  double size = 0.0;          ///< m; how far something moved (welded, zipped, into_plane, separated, collapsed), else the diameter of the place
-  std::int64_t n_facets = 0;  ///< concerned: added, removed, cut or moved
+  Vec3 position;              ///< m; centre of the changed region
+  double size = 0.0;          ///< m; largest movement (welded, zipped, into_plane, separated, collapsed), else the diameter of the region
+  std::int64_t n_facets = 0;  ///< number of facets added, removed, cut or moved
 };
 
-/// The facets that were changed or taken out, for drawing.
+/// The changed and the removed facets, for drawing.
 struct RepairDrawing {
   std::vector<Vec3> points;  ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> change;  ///< per triangle: index into RepairReport::changes
 };
 
-/// The opening of half a body: its rim lies in the plane, exactly.
+/// The opening of a half model: its boundary lies exactly in the plane.
 struct HalfRim {
   std::string axis;      ///< "x", "y" or "z"
   double at = 0.0;       ///< m
   bool is_above = true;  ///< the body is on the side of larger coordinates
-  double off = 0.0;      ///< m; how far the rim was off the plane at most
+  double off = 0.0;      ///< m; largest distance of the boundary from the plane before
   std::int64_t n_vertices = 0;
 };
 
 struct RepairReport {
-  StitchReport stitch;                ///< of the result, which stitch_surface proves
-  std::vector<RepairChange> changes;  ///< in the order in which they were made; empty: the input is as good as the result, which has its bytes
+  StitchReport stitch;                ///< report on the result, which is verified by stitch_surface
+  std::vector<RepairChange> changes;  ///< in chronological order; empty: the input was valid, and the result is bitwise identical
   std::optional<HalfRim> half;
   double length = 0.0;       ///< m, L
-  double moved = 0.0;        ///< m; farthest sample of what is left of the input's facets from the input
-  double from_result = 0.0;  ///< m; farthest sample of the result from the input: the middle of the largest filled hole, mostly
-  double from_input = 0.0;   ///< m; farthest sample of the input from the result: what was removed
-  double sampling = 0.0;     ///< m; no point is farther than the figures above plus this
+  double moved = 0.0;        ///< m; largest distance of samples of retained facets from the input
+  double from_result = 0.0;  ///< m; largest distance of samples of the result from the input: mostly the middle of the largest filled hole
+  double from_input = 0.0;   ///< m; largest distance of samples of the input from the result: what was removed
+  double sampling = 0.0;     ///< m; sampling error: no point is farther than the figures above plus this
   RepairDrawing drawing;
   std::vector<std::string> messages;  ///< one sentence for each kind of change, as logged
 
@@ -95,39 +96,40 @@ struct RepairResult {
   RepairReport report;
 };
 
-/// Steps: weld and drop (as stitch_surface); small parts; seams zipped with a growing tolerance, T-junctions, too; sheets; the opening of a half model
-/// recognised and put into its plane; holes filled, flat ones flat; crossings cut exactly and the outer hull kept (facets with the fluid on one side); vertices
-/// and edges in which the hull touches itself separated; short edges collapsed; what still crosses after rounding replaced by a filling, in growing rings. A
-/// surface that stitch_surface accepts (without allow_open) comes back with the same bytes and no change.
-/// \post closed, or with a rim in report.half's plane to the bit; manifold, oriented, without crossings (stitch_surface is asked); patches are those of the nearest
-/// facets of the input.
-/// \throws Error as stitch_surface for what is left, with places and the next thing to try; mesh_invalid when the surface would move by more than allowed
+/// Repairs a surface. Steps: weld and drop (as stitch_surface); small parts; seams zipped with a growing tolerance, including T-junctions; baffles; the
+/// opening of a half model recognised and moved into its plane; holes filled, flat ones flat; crossings cut exactly and the outer hull kept (facets with the
+/// fluid on one side); vertices and edges in which the hull touches itself separated; short edges collapsed; facets that still cross after rounding replaced
+/// by a filling, in growing rings. A surface that stitch_surface accepts (without allow_open) is returned bitwise unchanged.
+/// \post closed, or with an open boundary in report.half's plane to the bit; manifold, oriented, without crossings (verified by stitch_surface); patches are
+/// those of the nearest facets of the input.
+/// \throws Error as stitch_surface for remaining defects, with locations and the next step to try; mesh_invalid if the surface would move by more than
+/// allowed
 RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context);
 
-/// What repair finds to do, by its own steps up to the filling of holes: nothing is cut, no hull is taken, nothing proved.
+/// Diagnosis by the repair steps up to the filling of holes: nothing is cut, no hull is taken, nothing is verified.
 struct RepairForecast {
   bool is_needed = false;        ///< false: stitch_surface accepts the surface, and the rest is empty
-  std::string problem;           ///< what stitch_surface said, with its counts
-  std::vector<Vec3> places;      ///< m; where, the first of them
-  std::int64_t n_facets = 0;     ///< with an area, as read
-  double area = 0.0;             ///< m^2, of these
+  std::string problem;           ///< error of stitch_surface, with its counts
+  std::vector<Vec3> places;      ///< m; locations of the first defects
+  std::int64_t n_facets = 0;     ///< with non-zero area, as read
+  double area = 0.0;             ///< m^2, of these facets
   double length = 0.0;           ///< m, body length
-  std::int64_t n_changes = 0;    ///< places in all; 0 of half a model with its rim in the plane
-  std::int64_t n_seams = 0;      ///< places zipped
-  std::int64_t n_sheets = 0;     ///< places removed
+  std::int64_t n_changes = 0;    ///< number of changed regions in total; 0 for a half model with its boundary in the plane
+  std::int64_t n_seams = 0;      ///< number of zipped seams
+  std::int64_t n_sheets = 0;     ///< number of removed baffles
   std::int64_t n_holes = 0;      ///< filled
   std::int64_t n_fillings = 0;   ///< facets that fill them
-  std::int64_t n_open = 0;       ///< openings that repair does not close: above its limits, or as large as what is there
-  double widest_open = 0.0;      ///< m; diagonal of the box of the widest of them
+  std::int64_t n_open = 0;       ///< openings that repair does not close: above its limits, or as large as the surface itself
+  double widest_open = 0.0;      ///< m; diagonal of the box of the widest such opening
   Vec3 widest_place;             ///< m; its middle
-  std::int64_t n_crossings = 0;  ///< pairs of facets that cross or touch, then
-  std::int64_t n_crowded = 0;    ///< edges of more than two facets, then
+  std::int64_t n_crossings = 0;  ///< pairs of facets that cross or touch after these steps
+  std::int64_t n_crowded = 0;    ///< edges of more than two facets after these steps
   std::optional<HalfRim> half;
-  bool is_enough = true;  ///< nothing stays open, and what crosses may be cut
+  bool is_enough = true;  ///< nothing stays open, and crossings can be cut
 };
 
-/// Quick: mostly a small share of the time of repair_surface, which may still fail where the hull leaks or rounding leaves crossings.
-/// \throws Error as repair_surface for what no repair is for (file_malformed, empty_surface, bad_argument); cancelled
+/// Diagnoses a surface. Mostly takes a small fraction of the time of repair_surface, which may still fail if the hull leaks or rounding leaves crossings.
+/// \throws Error as repair_surface for defects without repair (file_malformed, empty_surface, bad_argument); cancelled
 RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context);
 
 }  // namespace sterna::surfmesh

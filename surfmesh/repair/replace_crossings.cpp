@@ -6,15 +6,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_max_rings = 5;            ///< of facets around those that cross
+constexpr int k_max_rings = 5;            ///< rings of facets around the crossing ones
 constexpr double k_own_hole = 2.0;        ///< L
-constexpr double k_most_replaced = 0.05;  ///< of the facets at one time: more is no local matter
+constexpr double k_most_replaced = 0.05;  ///< fraction of the facets at one time: more is not a local defect
 
 }  // namespace
 
 bool replace_crossings(RepairState& state, const RepairOptions& given, const Contacts& contacts, const RunContext& context) {
   RepairOptions options = given;
-  options.hole = options.flat_hole = k_own_hole;  // what was taken out is put back, however long its facets
+  options.hole = options.flat_hole = k_own_hole;  // removed regions are filled again, however long their facets are
   for (int round = 0; round < options.rounds; ++round) {
     if (!find_loops(state).empty()) fill_holes(state, options, RepairKind::replaced, context);
     separate_touching(state, contacts, context);

@@ -1,5 +1,5 @@
-// At an edge with four facets or more, the two on the sides of one wedge of the solid stay together. Fans of facets that hang together so at a vertex get a
-// copy of it each; all of them move a little into their solid, so that they no longer touch.
+// At an edge with four or more facets, the two facets on the sides of one wedge of the solid stay connected. Each fan of facets connected in this way at a
+// vertex gets its own copy of the vertex; all copies move slightly into their solid, so that they no longer touch.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -14,13 +14,13 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_apart_share = 1e-5;    ///< of L
-constexpr double k_apart_of_edge = 0.02;  ///< of the shortest edge at the vertex: no facet turns over
-constexpr double k_join_share = 1e-4;     ///< of L: half the width of what joins bodies that touch along a line
+constexpr double k_apart_share = 1e-5;    ///< relative to L
+constexpr double k_apart_of_edge = 0.02;  ///< relative to the shortest edge at the vertex: no facet is inverted
+constexpr double k_join_share = 1e-4;     ///< relative to L: half the width of the bridge between bodies that touch along a line
 constexpr std::size_t k_most_named = 5;   ///< pairs of bodies in warnings
 constexpr std::uint32_t k_no_partner = 0xffffffffu;
 
-/// Twins of half-edges; at crowded edges by wedges of the solid, at those of `is_of_fluid` by wedges of the fluid. \pre normals out of the solid
+/// Returns the twins of half-edges; at crowded edges by wedges of the solid, at edges in `is_of_fluid` by wedges of the fluid. \pre normals out of the solid
 std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable& edges, const std::vector<char>& is_of_fluid) {
   std::vector<std::uint32_t> twin(3 * state.facets.size(), k_no_partner);
   for (std::size_t i = 0; i < edges.edges().size(); ++i) {
@@ -31,7 +31,8 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       twin[at[1]] = at[0];
       continue;
     }
-    // The solid is behind a facet: clockwise about its own direction, the fluid before it. Its partner is the first facet that way, which runs against it.
+    // The solid is behind a facet, clockwise around the facet's own direction; the fluid is in front. The partner is the first facet in that direction, which
+    // runs against it.
     const Vec3 &u = state.points[edge.low], &v = state.points[edge.high];
     const Vec3 axis = normalized(v - u);
     for (const std::uint32_t h : at) {
@@ -42,7 +43,7 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       for (const std::uint32_t g : at) {
         if (g == h || (state.facets[g / 3][g % 3] == edge.low) == is_along) continue;
         const Vec3 other = state.points[state.facets[g / 3][previous_halfedge(g) % 3]] - u;
-        double angle = std::atan2(dot(other, e2), dot(other, e1));  // counter-clockwise about the axis
+        double angle = std::atan2(dot(other, e2), dot(other, e1));  // counter-clockwise around the axis
         if (is_along != (!is_of_fluid.empty() && is_of_fluid[i])) angle = -angle;
         if (angle <= 0.0) angle += 6.283185307179586;
         if (angle < best) {
@@ -52,19 +53,19 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       }
     }
     for (const std::uint32_t h : at)
-      if (twin[h] != k_no_partner && twin[twin[h]] != h) twin[h] = k_no_partner;  // no alternation: left to the verdict
+      if (twin[h] != k_no_partner && twin[twin[h]] != h) twin[h] = k_no_partner;  // facets do not alternate: left to the final check
   }
   return twin;
 }
 
-/// Half-edges that start at each vertex.
+/// Returns the half-edges that start at each vertex.
 std::vector<std::vector<std::uint32_t>> corners_of(const RepairState& state) {
   std::vector<std::vector<std::uint32_t>> corners_at(state.points.size());
   for (std::uint32_t h = 0; h < 3 * state.facets.size(); ++h) corners_at[state.facets[h / 3][h % 3]].push_back(h);
   return corners_at;
 }
 
-/// Corners at a vertex that hang together over twins.
+/// Returns the corners at a vertex that are connected over twins.
 std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const std::vector<std::uint32_t>& twin,
                                                 const std::vector<std::uint32_t>& corners_at_v, std::uint32_t v) {
   std::map<std::uint32_t, std::uint32_t> fan;  // by half-edge
@@ -93,7 +94,7 @@ std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const 
   return fans;
 }
 
-/// Number of the body of each facet: connected over twins.
+/// Returns the body number of each facet: connected over twins.
 std::vector<std::uint32_t> bodies_over(const RepairState& state, const std::vector<std::uint32_t>& twin) {
   std::vector<std::uint32_t> body(state.facets.size(), k_no_partner);
   std::vector<std::uint32_t> stack;
@@ -116,7 +117,7 @@ std::vector<std::uint32_t> bodies_over(const RepairState& state, const std::vect
   return body;
 }
 
-/// Per edge: four facets or more of several bodies.
+/// Returns a flag per edge: four or more facets of several bodies.
 std::vector<char> contacts_of(const EdgeTable& edges, const std::vector<std::uint32_t>& body) {
   std::vector<char> is_contact(edges.edges().size(), 0);
   for (std::size_t i = 0; i < is_contact.size(); ++i) {
@@ -130,7 +131,7 @@ std::size_t count_crowded(const EdgeTable& edges) {
   return static_cast<std::size_t>(std::ranges::count_if(edges.edges(), [](const Edge& edge) { return edge.count > 2; }));
 }
 
-/// Gives each of these edges a vertex in its middle, so that it can be opened or joined there though its ends stay as they are.
+/// Adds a vertex in the middle of each of these edges, so that the edge can be opened or joined there while its ends stay unchanged.
 void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_split) {
   std::vector<std::uint32_t> middle(3 * state.facets.size(), k_no_partner);  // of half-edges
   for (std::size_t i = 0; i < is_split.size(); ++i) {
@@ -141,7 +142,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
     for (const std::uint32_t h : edges.at(edge)) middle[h] = number;
   }
   for (std::size_t t = 0, n = state.facets.size(); t < n; ++t) {
-    // The corner that a piece is cut from lies between two sides; pieces are cut while a side has a middle, the rest keeps the facet's number.
+    // The corner from which a piece is cut lies between two sides. Pieces are cut while a side has a middle; the rest keeps the facet's number.
     std::vector<std::uint32_t> polygon;
     for (std::size_t k = 0; k < 3; ++k) {
       polygon.push_back(state.facets[t][k]);
@@ -175,7 +176,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
   }
 }
 
-/// Per edge: crowded, and neither end has fans of its own for what meets there, so that opening the ends would leave it crowded.
+/// Returns a flag per edge: crowded, and neither end has separate fans for the facets there, so that opening the ends would leave the edge crowded.
 std::vector<char> closed_contacts(const RepairState& state, const EdgeTable& edges, const std::vector<std::uint32_t>& twin) {
   std::vector<char> is_closed(edges.edges().size(), 0);
   if (count_crowded(edges) == 0) return is_closed;
@@ -188,7 +189,7 @@ std::vector<char> closed_contacts(const RepairState& state, const EdgeTable& edg
   return is_closed;
 }
 
-/// Names parts that touch each other at a crowded edge of one body: a cavity at the outer shell, a body in a duct at its wall.
+/// Logs a warning with the names of parts that touch each other at a crowded edge of one body: a cavity at the outer shell, a body in a duct at its wall.
 void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const Contacts& contacts) {
   if (count_crowded(edges) == 0) return;
   WorkingSurface surface;
@@ -224,7 +225,7 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
   }
 }
 
-/// Moves one fan of facets at a vertex to a place; a copy of the vertex where another fan keeps it.
+/// Moves one fan of facets at a vertex to a location, with a copy of the vertex if another fan keeps it.
 void move_fan(const std::vector<std::uint32_t>& fan, std::uint32_t v, const Vec3& to, bool is_copy, RepairState& state) {
   std::uint32_t own = v;
   if (is_copy) {
@@ -239,7 +240,7 @@ void move_fan(const std::vector<std::uint32_t>& fan, std::uint32_t v, const Vec3
   }
 }
 
-/// Joins bodies over the crevice at these edges: facets on the two sides of one wedge of the fluid stay together, and the vertices move into that wedge.
+/// Joins bodies over the crevice at these edges: facets on the two sides of one wedge of the fluid stay connected, and the vertices move into that wedge.
 void join_over(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact) {
   const std::vector<std::uint32_t> twin = wedge_twins(state, edges, is_contact);
   std::vector<char> is_at_contact(3 * state.facets.size(), 0);  // half-edges
@@ -249,7 +250,7 @@ void join_over(RepairState& state, const EdgeTable& edges, const std::vector<cha
   const std::vector<std::vector<std::uint32_t>> corners_at = corners_of(state);
   const std::vector<Vec3> before = state.points;
   const std::vector<Facet> facets = state.facets;
-  // Into the facet, across its side.
+  // Direction into the facet, across its side.
   const auto into = [&](std::uint32_t h) {
     const Vec3 &a = before[facets[h / 3][h % 3]], &b = before[facets[h / 3][next_halfedge(h) % 3]], &c = before[facets[h / 3][previous_halfedge(h) % 3]];
     const Vec3 axis = normalized(b - a);
@@ -281,7 +282,7 @@ void join_over(RepairState& state, const EdgeTable& edges, const std::vector<cha
   }
 }
 
-/// The patch that most facets of a body have.
+/// Returns the patch of most facets of a body.
 std::string name_of_body(const RepairState& state, const std::vector<std::uint32_t>& body, std::uint32_t number, const std::vector<std::string>& names) {
   std::map<std::uint32_t, std::size_t> n;
   for (std::size_t t = 0; t < body.size(); ++t)
@@ -290,7 +291,7 @@ std::string name_of_body(const RepairState& state, const std::vector<std::uint32
   return most != n.end() && most->first < names.size() ? names[most->first] : "surface";
 }
 
-/// Names the bodies that touch at these edges and will be apart.
+/// Logs a warning with the names of the bodies that touch at these edges and will be separated.
 void warn_of_opened(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const std::vector<std::uint32_t>& body,
                     const std::vector<std::string>& names) {
   std::map<std::array<std::uint32_t, 2>, Vec3> pairs;
@@ -311,7 +312,7 @@ void warn_of_opened(RepairState& state, const EdgeTable& edges, const std::vecto
   }
 }
 
-/// Joins bodies that touch along edges. \return whether nothing touches there any more, and nothing new crosses
+/// Joins bodies that touch along edges. \return true if nothing touches there any more, and nothing new crosses
 bool join_contacts(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const RunContext& context) {
   RepairState joined = state;
   split_edges(joined, edges, is_contact);

@@ -1,6 +1,6 @@
-// For each tolerance: rim vertices near the middle of another rim's edge split that edge (which moves nothing), then the nearest pairs of rim vertices become
-// one at their midpoint, where the rim goes on beside them in the same way. A pair is refused where it would turn a facet, crowd an edge, or where the two are
-// farther from each other than half of their rims' edges: features are larger than gaps.
+// For each tolerance: boundary vertices near the middle of another boundary's edge split that edge (no vertex moves). Then the nearest pairs of boundary
+// vertices are merged at their midpoint, if the boundaries continue beside them in the same way. A pair is refused if it would invert a facet, crowd an edge,
+// or if the two are farther from each other than half of their boundary edges: features are larger than gaps.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,18 +15,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_first_share = 1e-9;   ///< of L
-constexpr double k_growth = 4.0;         ///< of the tolerance
+constexpr double k_first_share = 1e-9;   ///< relative to L
+constexpr double k_growth = 4.0;         ///< growth of the tolerance
 constexpr int k_tries = 4;               ///< rounds at one tolerance
-constexpr double k_feature_share = 0.5;  ///< of the shortest rim edge: pairs farther apart are no seam
-constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60 degrees was spoiled
+constexpr double k_feature_share = 0.5;  ///< relative to the shortest boundary edge: pairs farther apart are no seam
+constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60 degrees would be damaged
 constexpr std::uint32_t k_nobody = 0xffffffffu;
 
 struct Rims {
-  std::vector<std::uint32_t> halfedges;                ///< of edges with one facet
+  std::vector<std::uint32_t> halfedges;                ///< half-edges of edges with one facet
   std::vector<std::uint32_t> vertices;                 ///< ascending
-  std::vector<std::vector<std::uint32_t>> neighbours;  ///< per vertex of the surface, along rims
-  std::vector<double> shortest;                        ///< rim edge at a vertex, m
+  std::vector<std::vector<std::uint32_t>> neighbours;  ///< per vertex of the surface, along open boundaries
+  std::vector<double> shortest;                        ///< boundary edge at a vertex, m
 };
 
 Rims find_rims(const RepairState& state) {
@@ -54,7 +54,8 @@ Box grown(Box box, double by) {
   return box;
 }
 
-/// Splits rim edges at vertices of other rims; one split an edge and round, facets with several rims one edge a round. \return number of splits
+/// Splits boundary edges at vertices of other boundaries: one split per edge and round, one edge per round for facets with several boundary edges. \return
+/// number of splits
 std::size_t split_at_vertices(RepairState& state, double tolerance, const RunContext& context) {
   const Rims rims = find_rims(state);
   std::vector<Box> boxes;
@@ -147,7 +148,7 @@ std::vector<Pair> near_pairs(const RepairState& state, const Rims& rims, double 
   return pairs;
 }
 
-/// Joins pairs as far as that is harmless. \return those joined
+/// Joins pairs if that is harmless. \return the joined pairs
 std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
   const auto count_open = [](const RepairState& of) {
     std::size_t n = 0;
@@ -213,7 +214,7 @@ std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
   return {};
 }
 
-/// One change for each run of pairs along a rim.
+/// Records one change for each run of pairs along an open boundary.
 void note_seams(RepairState& state, const std::vector<Pair>& pairs, const Rims& rims) {
   std::vector<std::uint32_t> pair_of(rims.neighbours.size(), k_nobody);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) pair_of[pairs[i].a] = pair_of[pairs[i].b] = i;

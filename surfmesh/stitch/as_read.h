@@ -1,4 +1,4 @@
-// Soups as one mesh without any repair: what later surfaces are compared with.
+// Soups as one mesh without any repair: the reference for later comparisons.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace sterna::surfmesh {
 
-/// All facets in metres, equal coordinates one vertex, patches named as stitch_surface names them. Facets may have any sense and a repeated vertex; edges may
-/// have any number of facets.
+/// Returns all facets in metres, equal coordinates merged to one vertex, patches named as in stitch_surface. Facets may have any sense and a repeated vertex;
+/// edges may have any number of facets.
 /// \throws Error(file_malformed) for an index out of range or a coordinate that is not finite; Error(empty_surface) when there is no facet
 TriMesh mesh_as_read(const std::vector<SurfaceSoup>& soups, const StitchOptions& options);
 

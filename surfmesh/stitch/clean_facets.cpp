@@ -11,7 +11,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// For each facet the first one with the same vertices (itself when there is none), and whether there are others.
+/// For each facet the first one with the same vertices (itself if there is none), and a flag for the existence of others.
 struct Copies {
   std::vector<std::uint32_t> first;
   std::vector<char> is_doubled;
@@ -29,7 +29,7 @@ Copies find_copies(const WorkingSurface& surface, const EdgeTable& edges) {
     opposite.clear();
     for (const std::uint32_t h : edges.at(edge)) {
       const std::uint32_t third = surface.facets[h / 3][previous_halfedge(h) % 3];
-      if (third > edge.high) opposite.emplace_back(third, h / 3);  // each facet is looked at from its lowest edge only
+      if (third > edge.high) opposite.emplace_back(third, h / 3);  // each facet is visited from its lowest edge only
     }
     std::sort(opposite.begin(), opposite.end());
     for (std::size_t i = 1; i < opposite.size(); ++i) {
@@ -43,7 +43,7 @@ Copies find_copies(const WorkingSurface& surface, const EdgeTable& edges) {
   return copies;
 }
 
-/// Facets (first ones only) of the patch of doubled facets around `start`, and whether the rest of the surface is closed without it.
+/// Facets (first ones only) of the patch of doubled facets around `start`, and a flag that the rest of the surface is closed without it.
 struct DoubledPatch {
   std::vector<std::uint32_t> facets;
   bool is_redundant = false;
@@ -136,7 +136,7 @@ ThinParts find_thin_parts(const std::vector<Vec3>& points, const std::vector<Fac
     size.area += triangle_area(a, b, c);
     for (const Vec3& p : {a, b, c}) size.box.add(p);
   }
-  // The volume of what is as thin as a line is nothing but rounding.
+  // The volume of a part as thin as a line consists of rounding errors only.
   std::vector<char> is_without(parts.count);
   for (std::uint32_t p = 0; p < parts.count; ++p) {
     const Size& size = sizes[p];
@@ -154,7 +154,7 @@ bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edge
   const ThinParts thin = find_thin_parts(surface.points, surface.facets, edges);
   if (thin.count == 0) return false;
   const auto first = static_cast<std::size_t>(std::ranges::find(thin.is_thin, 1) - thin.is_thin.begin());
-  report.n_duplicate_removed += std::ranges::count(thin.is_thin, 1);  // a sheet whose two sides have different triangles; readers compare what is left
+  report.n_duplicate_removed += std::ranges::count(thin.is_thin, 1);  // a baffle whose two sides have different triangles; readers compare the remaining facets
   report.messages.push_back("dropped " + count_of(thin.count, "closed part", "closed parts") + " without thickness (" +
                             count_of(std::ranges::count(thin.is_thin, 1), "facet", "facets") + "), the first at " +
                             format_point(surface.metres(surface.corners(first)[0])));

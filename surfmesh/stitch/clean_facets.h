@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: facets that say nothing - with a repeated vertex, written twice, or without area.
+// Private to surfmesh/stitch: redundant facets, i.e. with a repeated vertex, duplicated, or without area.
 #pragma once
 
 #include "surfmesh/stitch/edge_table.h"
@@ -7,33 +7,34 @@
 
 namespace sterna::surfmesh {
 
-/// Drops facets with a repeated vertex; neighbours keep each other, for their edges fall together.
+/// Drops facets with a repeated vertex; their neighbours stay connected, because their edges coincide.
 void drop_degenerate_facets(WorkingSurface& surface, StitchReport& report);
 
-/// Of facets with the same three vertices one stays; but a connected patch of such facets is dropped altogether when the rest of the surface is closed without
-/// it: when at every edge where the patch meets other facets their number is even (a doubled membrane inside a body, a fin without thickness).
+/// Keeps one of the facets with the same three vertices. A connected patch of such facets is dropped completely if the rest of the surface is closed without
+/// it, i.e. if at every edge where the patch meets other facets their number is even (a doubled membrane inside a body, a fin without thickness).
 /// \pre no facet has a repeated vertex.
 void drop_doubled_facets(WorkingSurface& surface, StitchReport& report);
 
-/// Removes facets of exactly zero area (three different vertices on a line) without moving the surface: the middle vertex lies on the long edge, so flipping
-/// that edge hands it to the neighbour, which is split there. Such facets are what fills T-junctions.
+/// Removes facets of exactly zero area (three different vertices on a line) without moving the surface. The middle vertex lies on the long edge, so a flip of
+/// that edge passes the vertex to the neighbour, which is split there. Such facets typically fill T-junctions.
 /// \pre at most two facets at each edge, consistent orientation. \return facets for which no flip was possible.
 std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchReport& report);
 
 struct ThinParts {
   std::vector<char> is_thin;  ///< per facet
-  std::int64_t count = 0;     ///< of the parts
+  std::int64_t count = 0;     ///< number of thin parts
 };
 
-/// Closed parts that are flat or as thin as a line: a thousand millionth of their own length, or of `length` where that is more. That is rounding. None where
-/// those would be all.
+/// Finds closed parts that are flat or as thin as a line: thinner than 1e-9 of their own length, or of `length` if that is more, which is rounding. Returns
+/// none if all parts would be thin.
 ThinParts find_thin_parts(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges, double length = 0.0);
 
-/// Drops them, with a message: they have no inside, so no engine can fill what is around them. What cutting leaves, often four facets in one plane.
-/// \pre no facet has a repeated vertex. \return whether there were any: `edges` are of the surface before
+/// Drops parts without thickness, with a message: they have no inside, so no engine can fill the volume around them. Cutting leaves such parts, often four
+/// facets in one plane.
+/// \pre no facet has a repeated vertex. \return true if there were any: `edges` describe the surface before
 bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edges, StitchReport& report);
 
-/// Whether three points lie on one line; exact.
+/// Returns true if three points lie on one line; exact.
 bool is_collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace sterna::surfmesh

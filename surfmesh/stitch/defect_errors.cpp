@@ -14,11 +14,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// What is tried first (docs/dirty_surfaces.md).
+/// Remedy to try first (docs/dirty_surfaces.md).
 const std::string k_repair_hint = "`sterna repair`, or --auto (auto = true of read_surface), mends it; `sterna inspect` says how";
-/// Boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
+/// Largest number of boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
 constexpr std::size_t k_max_matching = 5000;
-/// Boundary edges match when their ends are nearer than this part of the shortest boundary edge: then a tolerance that closes the gap collapses none of them.
+/// Boundary edges match if their ends are nearer than this fraction of the shortest boundary edge: then a tolerance that closes the gap collapses none of
+/// them.
 constexpr double k_near_match = 0.5;
 
 std::string list_sources(const WorkingSurface& surface) {
@@ -36,7 +37,7 @@ ErrorInfo start_error(ErrorCode code, const WorkingSurface& surface) {
   return info;
 }
 
-/// "facet 12", with several files "facet 12 of wing.stl"; counted from 1 as people and STL viewers do.
+/// Returns "facet 12", with several files "facet 12 of wing.stl"; counted from 1 as in STL viewers.
 std::string facet_name(const WorkingSurface& surface, std::uint32_t facet) {
   const FacetOrigin& origin = surface.origin[facet];
   std::string name = "facet " + std::to_string(origin.facet + 1);
@@ -71,7 +72,7 @@ void add_facet(const WorkingSurface& surface, std::uint32_t facet, TroubleGeomet
 
 double length(const WorkingSurface& surface, const Edge& edge) { return surface.to_metres * distance(surface.points[edge.low], surface.points[edge.high]); }
 
-/// Connected chains of boundary edges: the holes (two that touch count as one).
+/// Counts the connected chains of boundary edges, i.e. the holes (two that touch count as one).
 std::int64_t count_holes(const std::vector<Edge>& boundary, std::size_t n_points) {
   DisjointSets chains(n_points);
   std::int64_t n = 0;
@@ -123,7 +124,7 @@ std::string in_addition(const std::vector<std::string>& others) {
   return text;
 }
 
-/// Counts of the defects beside the one that is reported.
+/// Returns the counts of the defects other than the reported one.
 std::vector<std::string> other_defects(const Defects& defects, const Orientation& orientation, bool boundary, bool pinched, bool conflicts) {
   std::vector<std::string> others;
   if (boundary && !defects.boundary.empty()) others.push_back(count_of(static_cast<std::int64_t>(defects.boundary.size()), "boundary edge", "boundary edges"));
@@ -253,7 +254,7 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
   };
   std::vector<char> is_shown(surface.n_facets(), 0), is_place(surface.n_facets(), 0);
   for (const auto& [a, b] : crossings.pairs) {
-    // The smaller facet is the nearer hint at the place; one place for each, that the list does not stay with one large facet.
+    // The smaller facet indicates the location better. Each facet is listed once, so that one large facet does not fill the list.
     const std::uint32_t smaller = area(a) <= area(b) ? a : b;
     if (info.places.size() < k_max_places && !is_place[smaller] && !is_place[a]) {
       info.places.push_back({center(surface, smaller), facet_name(surface, a) + " and " + facet_name(surface, b)});

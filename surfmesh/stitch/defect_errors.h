@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: what is wrong with a surface, where, and what to try.
+// Private to surfmesh/stitch: errors for surface defects, with locations and remedies.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -10,7 +10,7 @@
 
 namespace sterna::surfmesh {
 
-/// Throws for the first of these that applies; its text names the others:
+/// Throws for the first of these defects that applies; the error text names the others:
 ///   1. crowded edges: non_manifold_surface, places = crowded edges + pinched vertices;
 ///   2. boundary edges (unless open surfaces are allowed): open_surface, places = edges;
 ///   3. pinched vertices: non_manifold_surface, places = vertices;

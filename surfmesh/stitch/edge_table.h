@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: the edges of a facet set with all facets at each, however many, and the defects that follow from their numbers.
+// Private to surfmesh/stitch: the edges of a facet set with all facets at each edge (any number), and the defects that follow from these numbers.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class EdgeTable {
   std::vector<std::uint32_t> halfedge2edge_;
 };
 
-/// Numbers of the parts that are connected over shared edges (any number of facets at an edge), by first facet.
+/// Numbers of the parts that are connected over shared edges (any number of facets at an edge), in the order of their first facets.
 struct Parts {
   std::vector<std::uint32_t> part;  ///< per facet
   std::uint32_t count = 0;
@@ -43,7 +43,7 @@ Parts connected_parts(std::size_t n_facets, const EdgeTable& edges);
 
 struct Defects {
   std::vector<Edge> boundary;          ///< edges with one facet
-  std::vector<Edge> crowded;           ///< edges with more than two
+  std::vector<Edge> crowded;           ///< edges with more than two facets
   std::vector<std::uint32_t> pinched;  ///< vertices with more than one fan of facets (fans are connected over any shared edge)
 };
 Defects find_defects(const std::vector<Facet>& facets, std::size_t n_points, const EdgeTable& edges);

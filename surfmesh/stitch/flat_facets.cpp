@@ -1,5 +1,5 @@
 // Facets of zero area with three different vertices: p, q and r between them. Removing one would open the surface (p-q on one side, p-r-q on the other);
-// flipping p-q to r-d, d the far vertex of the neighbour, keeps the surface as a point set, for r lies on p-q exactly.
+// flipping p-q to r-d, d the far vertex of the neighbour, keeps the surface as a point set, because r lies on p-q exactly.
 //   1. A flip against a neighbour with area leaves one flat facet less.
 //   2. A flip between two flat facets that share their long edge leaves two with a shorter one.
 // So (number of flat facets, sum of edge lengths) decreases and the loop ends.
@@ -45,7 +45,7 @@ class FlatFlipper {
     return is_collinear(c[0], c[1], c[2]);
   }
 
-  /// Flips the long edge of a flat facet if that is allowed now; `with_flat`: the neighbour may be flat, too.
+  /// Flips the long edge of a flat facet if allowed in the current state; `with_flat`: the neighbour may be flat, too.
   bool flip(std::uint32_t facet, bool with_flat) {
     const std::uint32_t h = long_edge(facet);
     const std::uint32_t g = twin_[h];
@@ -81,7 +81,7 @@ class FlatFlipper {
     if (g != k_no_twin) twin_[g] = h;
   }
 
-  /// The half-edge whose ends have the third vertex between them.
+  /// Returns the half-edge whose ends have the third vertex between them.
   std::uint32_t long_edge(std::uint32_t facet) const {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t h = 3 * facet + k;
@@ -90,7 +90,7 @@ class FlatFlipper {
     return 3 * facet;
   }
 
-  /// Whether a facet joins the two vertices; walks the fan of `v` in both senses, as a boundary may cut it.
+  /// Returns true if a facet joins the two vertices; walks the fan of `v` in both senses, as a boundary may interrupt it.
   bool is_edge(std::uint32_t v, std::uint32_t w) const {
     const std::uint32_t start = first_out_[v];
     const auto has_w = [&](std::uint32_t h) { return from(next_halfedge(h)) == w || from(previous_halfedge(h)) == w; };
@@ -138,7 +138,7 @@ std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchRepor
     for (const std::uint32_t t : flat) {
       // An earlier flip of this round may have given the facet an area.
       if (!flipper.is_flat(t)) continue;
-      // Of two flat facets only one is flipped, then the safe kind is tried again.
+      // Only one of two flat facets is flipped, then flips against neighbours with area are tried again.
       if (!(with_flat && has_flipped)) has_flipped |= flipper.flip(t, with_flat);
       if (flipper.is_flat(t)) left.push_back(t);
     }

@@ -12,7 +12,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A winding number is a whole number up to rounding; half-way tells 0 from +-1.
+/// A winding number is an integer up to rounding; half-way separates 0 from +-1.
 constexpr double k_half_turn = 0.5;
 constexpr std::uint32_t k_none = 0xffffffffu;
 
@@ -23,10 +23,10 @@ struct Component {
   double area_as_read = 0.0;  ///< area of facets with the sense of the first facet minus the others'
   bool is_closed = true;
   std::uint32_t depth = 0;        ///< number of closed components around it
-  std::uint32_t parent = k_none;  ///< the innermost of them
+  std::uint32_t parent = k_none;  ///< the innermost of these components
 };
 
-/// Solid angle of a triangle seen from p (van Oosterom & Strackee 1983).
+/// Returns the solid angle of a triangle as seen from p (van Oosterom & Strackee 1983).
 double solid_angle(const Vec3& p, const std::array<Vec3, 3>& corners) {
   const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
@@ -97,7 +97,7 @@ void find_nesting(const WorkingSurface& surface, const Orientation& orientation,
   }
 }
 
-/// The patch that has most of the component's facets.
+/// Returns the patch of most of the component's facets.
 std::string name_of_component(const WorkingSurface& surface, const Component& component, const std::vector<std::string>& names) {
   std::map<std::uint32_t, std::size_t> n;
   for (const std::uint32_t t : component.facets) ++n[surface.patch[t]];
@@ -107,7 +107,7 @@ std::string name_of_component(const WorkingSurface& surface, const Component& co
   return most < names.size() ? names[most] : "surface";
 }
 
-/// Whether a component and the one around it both have their normals outwards in the file, or both inwards.
+/// Returns true if a component and the one around it both have their normals outwards in the file, or both inwards.
 bool is_same_sense(const std::vector<Component>& components, const Orientation& orientation, std::uint32_t i) {
   const auto is_outward = [&](const Component& component) {
     std::int64_t n_flipped = 0;
@@ -166,10 +166,10 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
     std::int64_t n_minority = 0;
     for (const std::uint32_t t : component.facets) n_minority += orientation.is_flipped[t];
     const auto n = static_cast<std::int64_t>(component.facets.size());
-    const bool is_hollow = (component.depth % 2 == 1) != is_fluid_inside;  // the fluid, or what it does not reach, is inside of it
+    const bool is_hollow = (component.depth % 2 == 1) != is_fluid_inside;  // the component encloses the fluid, or a region that the fluid does not reach
     const bool is_inside_out = component.is_closed ? (component.volume > 0.0) == is_hollow : component.area_as_read < 0.0;
     const std::int64_t n_turned = is_inside_out ? n - n_minority : n_minority;
-    // More than half turned: the file's sense was inside out, and the rest was inconsistent.
+    // More than half reversed: the file's sense was inside out, and the rest was inconsistent.
     if (2 * n_turned > n) {
       ++n_inverted;
       n_inverted_facets += n;

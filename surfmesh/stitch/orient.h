@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: one sense for all facets of a component, and normals out of the body.
+// Private to surfmesh/stitch: consistent orientation of all facets of a component, with normals out of the body.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -8,7 +8,7 @@
 
 namespace sterna::surfmesh {
 
-/// Orientation found by flood fill, relative to the file's.
+/// Orientation found by flood fill, relative to that of the file.
 struct Orientation {
   std::vector<std::uint32_t> component;  ///< per facet; connected over edges with two facets, numbered by first facet
   std::uint32_t n_components = 0;

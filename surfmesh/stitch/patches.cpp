@@ -11,7 +11,7 @@ namespace {
 
 bool is_allowed(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-'; }
 
-/// Bytes of the UTF-8 character at a place; 0 where there is none.
+/// Returns the number of bytes of the UTF-8 character at a position; 0 if there is none.
 std::size_t bytes_of_character(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(at);
@@ -25,7 +25,7 @@ std::size_t bytes_of_character(std::string_view text, std::size_t at) {
   return is_overlong || is_surrogate || is_beyond ? 0 : n;
 }
 
-/// The text as it is if it is UTF-8; other bytes are taken for Latin-1.
+/// Returns the string unchanged if it is UTF-8; other bytes are read as Latin-1.
 std::string as_utf8(std::string_view text) {
   bool is_utf8 = true;
   for (std::size_t at = 0, n = 0; is_utf8 && at < text.size(); at += n) {
@@ -42,7 +42,7 @@ std::string as_utf8(std::string_view text) {
   return converted;
 }
 
-/// Control characters, blanks of other widths and marks without a width, of more than one byte.
+/// Returns true for control characters, non-ASCII blanks and zero-width marks of more than one byte.
 bool is_blank_character(std::string_view character) {
   if (character.size() == 2) return character[0] == '\xc2' && static_cast<unsigned char>(character[1]) <= 0xa0;  // U+0080 to U+00A0
   if (character == "\xe3\x80\x80" || character == "\xef\xbb\xbf") return true;                                   // U+3000, U+FEFF
@@ -51,14 +51,14 @@ bool is_blank_character(std::string_view character) {
   return last <= 0x8f || (last >= 0xa8 && last <= 0xaf);  // U+2000 to U+200F, U+2028 to U+202F
 }
 
-/// `name`, or name_2, name_3 ... when that is taken; remembers it.
+/// Returns `name`, or name_2, name_3 ... if it is taken, and adds the result to `taken`.
 std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   std::string candidate = name;
   for (int n = 2; !taken.insert(candidate).second; ++n) candidate = name + "_" + std::to_string(n);
   return candidate;
 }
 
-/// File name without folder, ".gz" and extension.
+/// Returns the file name without folder, ".gz" and extension.
 std::string stem_of(const std::string& source) {
   std::filesystem::path path = std::filesystem::path(source).filename();
   if (path.extension() == ".gz") path = path.stem();

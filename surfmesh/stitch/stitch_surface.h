@@ -1,4 +1,5 @@
-// From triangle soups to a TriMesh that can be meshed: weld, drop duplicate and degenerate facets, orient, name patches; or say what is wrong and where.
+// Converts triangle soups to a TriMesh that can be meshed: welds, drops duplicate and degenerate facets, orients, names patches; or reports defects with
+// locations.
 #pragma once
 
 #include <string>
@@ -15,11 +16,11 @@ struct StitchOptions {
   double unit = 1.0;                    ///< metres per file unit
   double weld_tolerance = k_automatic;  ///< m; exact duplicates are always welded
   double split_angle = k_automatic;     ///< rad; automatic = patches from the file's names, else one patch
-  std::string fluid =
-      "automatic";  ///< side of the outermost surface on which the fluid is; automatic: outside, unless the file is ours and says otherwise (its reader knows)
+  std::string fluid = "automatic";  ///< side of the outermost surface on which the fluid is; automatic: outside, unless sterna wrote the file and its manifest
+                                    ///< states otherwise (the file reader handles this)
   bool allow_open = false;
   bool check_intersections = true;
-  bool take_boundary = false;  ///< of a file with a volume mesh (its reader looks at this); else that is refused
+  bool take_boundary = false;  ///< accept the boundary of a file with a volume mesh (evaluated by the file reader); else such a file is refused
 };
 
 struct StitchReport {
@@ -30,7 +31,7 @@ struct StitchReport {
   std::int64_t n_components = 0;
   bool is_closed = true;
   std::vector<std::string> messages;  ///< one sentence for each repair, as logged
-  std::vector<std::string> warnings;  ///< what changes the meaning of the geometry: parts turned into cavities, contacts opened; the caller logs them
+  std::vector<std::string> warnings;  ///< repairs that change the meaning of the geometry: parts turned into cavities, contacts opened; the caller logs them
 };
 
 struct StitchResult {
@@ -38,17 +39,18 @@ struct StitchResult {
   StitchReport report;
 };
 
-/// Joins the soups to one surface. Repairs, each with a message: welding; unused vertices dropped; facets with a repeated vertex, copies of facets and doubled
-/// sheets without thickness dropped, closed parts without thickness, too; facets of exactly zero area flipped away (the surface stays the same set of points);
-/// inconsistent or inverted orientation. Closed components are oriented by signed volume and nesting (winding numbers): a body outwards, a shell inside a
-/// body's solid as a cavity in it whatever its sense in the file (with a message: the outer flow does not reach it), a shell in a cavity as a body again. With
-/// fluid = "inside" the outermost shells enclose the fluid (a tunnel, a complete domain): they are oriented inwards, the shells in them as bodies. Open ones
-/// keep the sense of most of their area. Automatic welding beyond equal coordinates happens only when the surface is open, only between vertices of its
-/// boundary, within 1e-9 of the body length (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making another
-/// defect; so small features survive.
+/// Joins the soups to one surface. Repairs, each with a message: welding; unused vertices dropped; facets with a repeated vertex, copies of facets, doubled
+/// baffles without thickness and closed parts without thickness dropped; facets of exactly zero area flipped away (the surface stays the same set of points);
+/// inconsistent or inverted orientation. Closed components are oriented by signed volume and nesting (winding numbers): a body outwards; a shell inside a
+/// body's solid as a cavity in it, whatever its sense in the file (with a message: the outer flow does not reach it); a shell in a cavity as a body again.
+/// With fluid = "inside" the outermost shells enclose the fluid (a tunnel, a complete domain): they are oriented inwards, the shells in them as bodies. Open
+/// components keep the sense of most of their area. Automatic welding beyond equal coordinates happens only if the surface is open, only between vertices of
+/// its boundary, within 1e-9 of the body length (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making
+/// another defect; so small features survive.
 /// Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle: name_1, name_2 ...
 /// \post closed (unless allow_open), manifold, no self-intersection, normals out of the body; patch names unique; every vertex used.
-/// \throws Error with number of places, coordinates (metres) of the first few, facets by name, geometry, hint. The first that applies, the others in its text:
+/// \throws Error with number of locations, coordinates (metres) of the first few, facets by name, geometry, hint. The first that applies, the others in its
+/// text:
 ///   file_malformed (index out of range, coordinate not finite), empty_surface,
 ///   non_manifold_surface (places = edges with more than two facets + vertices with several fans of one component),
 ///   open_surface (places = edges with one facet), non_manifold_surface (only such vertices), not_orientable (places = components),

@@ -19,11 +19,11 @@ namespace {
 constexpr double k_weld_double = 1e-9;
 /// ... and of files that store single precision, relative to the largest coordinate: two units in the last place, 2^-23 each.
 constexpr double k_weld_single = 2.5e-7;
-/// Largest tolerance a user may give, relative to the body length: beyond it nothing of the surface is left, and the pairs to look at grow beyond memory.
+/// Largest tolerance a user may give, relative to the body length: beyond it no surface would remain, and the candidate pairs would exceed the memory.
 constexpr double k_max_weld = 0.02;
 constexpr std::uint32_t k_no_point = 0xffffffffu;
 
-/// Numbers points by value: open addressing, first come first numbered, hence independent of anything but the input order.
+/// Numbers points by value: open addressing, first come first numbered, hence dependent on the input order only.
 class PointIndex {
  public:
   explicit PointIndex(std::size_t n) : slots_(std::bit_ceil(2 * n + 2), k_no_point) {}
@@ -61,7 +61,7 @@ class PointIndex {
   throw Error(std::move(info));
 }
 
-/// Automatic tolerance in the file's unit.
+/// Returns the automatic tolerance in the file's unit.
 double automatic_tolerance(const WorkingSurface& surface) {
   const Box box = surface.box();
   double tolerance = k_weld_double * box.longest_side();
@@ -73,7 +73,7 @@ double automatic_tolerance(const WorkingSurface& surface) {
   return tolerance;
 }
 
-/// \throws Error(bad_argument) when the given tolerance is too large for the body.
+/// \throws Error(bad_argument) if the given tolerance is too large for the body.
 void check_tolerance(const WorkingSurface& surface, double tolerance) {
   const double length = surface.to_metres * surface.box().longest_side();
   if (tolerance <= k_max_weld * length) return;
@@ -86,7 +86,7 @@ void check_tolerance(const WorkingSurface& surface, double tolerance) {
   throw Error(std::move(info));
 }
 
-/// For every point the lowest one of its chain of candidates within the tolerance (itself when alone).
+/// Returns for every point the lowest one of its chain of candidates within the tolerance (itself if alone).
 std::vector<std::uint32_t> near_representatives(const WorkingSurface& surface, const std::vector<std::uint32_t>& candidates, double tolerance,
                                                 const RunContext& context) {
   std::vector<Box> boxes(candidates.size());
@@ -103,7 +103,7 @@ std::vector<std::uint32_t> near_representatives(const WorkingSurface& surface, c
   return std::move(welded).roots();
 }
 
-/// Vertices in use, or only those of boundary edges, ascending.
+/// Returns the vertices in use, or only those of boundary edges, ascending.
 std::vector<std::uint32_t> weld_candidates(const WorkingSurface& surface, const Defects* defects) {
   std::vector<char> is_candidate(surface.points.size(), 0);
   if (defects) {

@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: one vertex where the files wrote several.
+// Private to surfmesh/stitch: merges vertices that the files store several times.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -11,17 +11,17 @@ namespace sterna::surfmesh {
 /// \throws Error(file_malformed) for an index out of range or a coordinate that is not finite, Error(empty_surface) when there is no facet.
 WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOptions& options, StitchReport& report);
 
-/// Welds near vertices. With a tolerance given: all vertices within it, always. Automatic: only when the surface is open, only vertices of its boundary, within
-/// the rounding of the file's own numbers, and only if that closes edges and adds no crowded edge and no pinched vertex; so small features survive. A chain of
-/// near vertices becomes one, at the place of the first.
+/// Welds near vertices. With a given tolerance: all vertices within it, always. Automatic: only if the surface is open, only vertices of its boundary, within
+/// the rounding of the file's own numbers, and only if that closes edges and adds no crowded edge and no pinched vertex; so small features survive. A chain
+/// of near vertices becomes one vertex, at the location of the first.
 /// \throws Error(bad_argument) for a tolerance above 2 % of the body length.
 /// \post no facet has a repeated vertex or a copy.
 void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context);
 
-/// The tolerance that weld_near works with, metres.
+/// Returns the tolerance used by weld_near, metres.
 double weld_tolerance_in_use(const WorkingSurface& surface, const StitchOptions& options);
 
-/// Gives each edge-connected part its own copy of the vertices in which parts merely touch, so that touching is seen as the crossing that it is.
+/// Gives each edge-connected part its own copy of the vertices in which parts merely touch, so that contact is detected as a crossing.
 void separate_parts(WorkingSurface& surface);
 
 }  // namespace sterna::surfmesh

@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: the surface while it is being repaired; plain indices, coordinates in the file's unit until they are scaled.
+// Private to surfmesh/stitch: the surface during repair; plain indices, coordinates in the file's unit until they are scaled.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace sterna::surfmesh {
 
 using Facet = std::array<std::uint32_t, 3>;
 
-/// Where a facet came from, for messages.
+/// Origin of a facet, for messages.
 struct FacetOrigin {
   std::uint32_t soup = 0;
   std::uint32_t facet = 0;
@@ -31,7 +31,7 @@ struct WorkingSurface {
   std::vector<std::string> sources;        ///< file name of each soup
 
   std::size_t n_facets() const { return facets.size(); }
-  /// Box of the vertices in use.
+  /// Returns the box of the vertices in use.
   Box box() const;
   Vec3 metres(const Vec3& p) const { return to_metres * p; }
   std::array<Vec3, 3> corners(std::size_t facet) const { return {points[facets[facet][0]], points[facets[facet][1]], points[facets[facet][2]]}; }
@@ -39,9 +39,9 @@ struct WorkingSurface {
   void keep(const std::vector<char>& is_kept);
 };
 
-/// "3 facets", "1 facet"
+/// Formats a count: "3 facets", "1 facet".
 std::string count_of(std::int64_t n, const std::string& one, const std::string& many);
-/// 4 significant digits, for lengths in messages.
+/// Formats lengths for messages with 4 significant digits.
 std::string short_number(double value);
 
 }  // namespace sterna::surfmesh

@@ -1,4 +1,4 @@
-// Private to surfmesh/wrap: the wrap brought back onto the input, with the input's sharp edges and patches, and better triangles on the way.
+// Private to surfmesh/wrap: moves the wrap back onto the input, restores the input's sharp edges and patches, and improves the triangles.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct WrapSizes {
   bool is_fluid_inside = false;
 };
 
-/// What of a vertex of the wrap is tied to the input.
+/// Feature of the input to which a vertex of the wrap is tied.
 enum class LineTie : char { none, line, corner };
 
 struct FittedWrap {
@@ -25,7 +25,7 @@ struct FittedWrap {
   std::vector<LineTie> tie;          ///< per vertex
 };
 
-/// The input as something to be near to: its facets, its lines and its corners.
+/// The input for distance queries: its facets, its lines and its corners.
 class InputSurface {
  public:
   InputSurface(const WrapInput& input, const RunContext& context);
@@ -33,10 +33,10 @@ class InputSurface {
   const WrapInput& input() const { return input_; }
   const TriangleTree& facets() const { return facets_; }
   NearestHit nearest(const Vec3& p, double limit = std::numeric_limits<double>::infinity()) const { return facets_.nearest(p, limit); }
-  /// Nearest point of a sharp edge or a patch border.
+  /// Returns the nearest point of a sharp edge or a patch border.
   NearestHit nearest_line(const Vec3& p, double limit) const;
   NearestHit nearest_corner(const Vec3& p, double limit) const;
-  /// Whether the hit lies on a border of the input: what is there is an opening's rim.
+  /// Returns true if the hit lies on a border of the input, which bounds an opening.
   bool is_on_border(const NearestHit& hit) const;
   Vec3 normal(TriangleId facet) const;
 
@@ -45,10 +45,10 @@ class InputSurface {
   TriangleTree facets_, lines_, corners_;
 };
 
-/// \pre `wrap` is closed, manifold and clear of itself. \post so is the result
+/// \pre `wrap` is closed, manifold and without self-intersection. \post so is the result
 FittedWrap fit_wrap(const WrapSurface& wrap, const InputSurface& surface, const WrapSizes& sizes, double feature_angle, const RunContext& context);
 
-/// Per triangle the patch of the nearest facet; connected regions, small ones given to their neighbours.
+/// Returns for each triangle the patch of the nearest facet. Patches become connected regions; small regions are merged into their neighbours.
 std::vector<std::uint32_t> patches_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles, const InputSurface& surface,
                                       const WrapSizes& sizes, const RunContext& context);
 

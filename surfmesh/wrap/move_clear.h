@@ -1,4 +1,4 @@
-// Private to surfmesh/wrap: many vertices moved at once, each as far as the surface stays clear of itself.
+// Private to surfmesh/wrap: moves many vertices at once, each as far as the surface does not intersect itself.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace sterna::surfmesh {
 
 struct ClearMoveLimits {
   double max_turn = 1.2;      ///< rad; no triangle turns by more
-  double least_angle = 0.05;  ///< rad; no triangle gets a smaller one, unless it had half of one
-  bool is_whole = false;      ///< a vertex goes all the way or not at all; else half of it, a quarter ...
+  double least_angle = 0.05;  ///< rad; no triangle gets a smaller angle, unless it had less than half of it before
+  bool is_whole = false;      ///< a vertex moves to its target or not at all; else to half of the distance, a quarter ...
 };
 
 struct ClearMove {
@@ -21,9 +21,10 @@ struct ClearMove {
   std::vector<char> has_arrived;  ///< per vertex: is at its target
 };
 
-/// Rounds: triangles that turn or get thin take back the vertex of theirs that goes farthest; when there are none, pairs that cross take back all of theirs.
-/// Ends, because every round takes back something, and nobody's moving is where it began. Parallel, the same for any number of threads.
-/// \pre clear of itself; one target for each point
+/// Moves vertices in rounds. In each round, triangles that turn or become thin reset the vertex that moves farthest. Once there are none, crossing pairs
+/// reset all of their vertices. Terminates, because every round resets at least one vertex, and the initial state is valid. Parallel; the result does not
+/// depend on the number of threads.
+/// \pre no self-intersection; one target for each point
 ClearMove move_clear(std::vector<Vec3> points, const std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<Vec3>& targets,
                      const ClearMoveLimits& limits, const RunContext& context);
 

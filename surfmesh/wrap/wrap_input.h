@@ -12,7 +12,7 @@
 namespace sterna::surfmesh {
 
 struct WrapInput {
-  TriMesh mesh;                     ///< facets of one edge-connected part have one sense; nothing else is assumed
+  TriMesh mesh;                     ///< the facets of one edge-connected part are consistently oriented; no other requirement
   std::vector<std::uint32_t> part;  ///< per facet
   std::uint32_t n_parts = 0;
   std::vector<std::array<char, 3>> is_border;  ///< per facet and side: no other facet there
@@ -23,23 +23,23 @@ struct WrapInput {
   double area = 0.0;                           ///< m^2
   std::string half_axis;                       ///< the mesh holds both halves
   double half_at = 0.0;
-  bool is_half_above = true;  ///< of the given half
+  bool is_half_above = true;  ///< side of the given half
   double half_moved = 0.0;
 };
 
 /// \throws Error as wrap_surface
 WrapInput read_wrap_input(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, WrapReport& report, const RunContext& context);
 
-/// Recognises a half model and mirrors it. `gap` (m): openings up to this are not halves.
+/// Recognises a half model and mirrors it. `gap` (m): models with openings up to this size are not halves.
 void mirror_half(WrapInput& input, double gap, WrapReport& report, const RunContext& context);
 
 /// Fills borders, lines and corners from the mesh. `angle`, rad.
 void find_lines(WrapInput& input, double angle);
 
-/// Turns the parts so that their normals agree with the surface around them; parts that it does not decide by their volume.
+/// Orients the parts so that their normals agree with the surface around them; parts for which that is not decisive are oriented by their volume.
 void turn_parts(WrapInput& input, const TriMesh& around, double reach, const RunContext& context);
 
-/// 1e-6 m -> "1e-06"
+/// Formats a number: 1e-6 m -> "1e-06"
 std::string wrap_number(double value);
 
 }  // namespace sterna::surfmesh

@@ -15,17 +15,17 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_fair_angle = 0.2618;  ///< rad, 15 degrees
-/// Winding number of the input beyond which a place is inside of it: above the half on its surface.
+/// Winding number of the input above which a location is inside: above the value of one half on its surface.
 constexpr double k_inside = 0.55;
-/// Of the edge: in front of the wrap by so much, a leak is looked for.
+/// Relative to the edge: distance in front of the wrap at which leaks are tested.
 constexpr double k_leak_probe = 0.25;
-/// Of the edge squared: leaks smaller than this are folds of the surface.
+/// Relative to the edge squared: leaks with less area are folds of the surface.
 constexpr double k_leak_area = 20.0;
 
 struct TriangleFinding {
   double distance = 0.0;  ///< m, of the farthest sample
   Vec3 sample;
-  bool is_over_border = false;  ///< what is nearest there is a border of the input
+  bool is_over_border = false;  ///< the nearest location there is on a border of the input
   bool is_leak = false;
 };
 
@@ -36,7 +36,7 @@ struct InputFinding {
 
 std::string places(std::int64_t n) { return n == 1 ? "1 place" : std::to_string(n) + " places"; }
 
-/// Triangles with the flag, in groups that hang together over edges; by first triangle.
+/// Returns the triangles with the flag in edge-connected groups, ordered by first triangle.
 std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<char>& flag, const Topology& topology) {
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<char> is_done(flag.size(), 0);
@@ -107,7 +107,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
       },
       128);
 
-  // Closures: what is beyond the tolerance, in groups; openings where the nearest is a border of the input.
+  // Closures: triangles beyond the tolerance, in groups; openings if the nearest location is on a border of the input.
   std::vector<char> is_far(n, 0), is_closure(n, 0), is_leak(n, 0);
   for (std::size_t t = 0; t < n; ++t) {
     is_far[t] = found[t].distance > sizes.tolerance;
@@ -127,7 +127,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
     closure.is_opening = 2 * n_over_border >= group.size();
     closure.position = box.center();
     closure.size = box.longest_side();
-    // A groove this deep was closed; shallower ones are a rough fit and count as such.
+    // A groove of at least this depth was closed; shallower ones are a rough fit and count as such.
     if (!closure.is_opening && closure.distance < 0.5 * sizes.edge) continue;
     for (const std::uint32_t t : group) is_closure[t] = 1;
     ++report.n_closures;
@@ -165,7 +165,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
   draw_closures(mesh, surface.input(), is_closure, is_leak, report.drawing);
   std::stable_sort(report.leaks.begin(), report.leaks.end(), [](const WrapLeak& a, const WrapLeak& b) { return a.area > b.area; });
 
-  // The input, seen from the wrap.
+  // Distances from the input to the wrap.
   const TriMesh& input = surface.input().mesh;
   std::vector<InputFinding> inputs(input.n_triangles());
   parallel_for(

@@ -1,5 +1,5 @@
 // The driver: the soup in metres (read_wrap_input), a half model mirrored, sizes and the estimate, openings between edge and gap closed by a coarser wrap
-// (close_openings), the wrap, its way back onto the input (fit_wrap), what was changed (measure_wrap), patches, the half cut out, the proof.
+// (close_openings), the wrap, its fit to the input (fit_wrap), measured changes (measure_wrap), patches, the half cut out, the proof.
 #include "surfmesh/wrap/wrap_surface.h"
 
 #include <algorithm>
@@ -23,28 +23,29 @@ namespace {
 /// Triangles of an alpha wrap on a plane, per area over alpha^2: measured.
 constexpr double k_triangles_per_area = 2.6;
 constexpr double k_automatic_triangles = 60'000.0;
-constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< of the body length
-constexpr double k_automatic_gap = 0.02;                                     ///< of the body length
-/// A gap beyond this multiple of the edge needs a wrap of its own: a ball of the edge's radius passes through wider openings.
+constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< relative to the body length
+constexpr double k_automatic_gap = 0.02;                                     ///< relative to the body length
+/// A gap beyond this multiple of the edge needs a separate wrap: a ball of the edge's radius passes through wider openings.
 constexpr double k_gap_of_edge = 2.0;
-/// Winding number of the input, on what closes its openings: about a half there, less where many are, zero in front of grooves.
+/// Smallest winding number of the input on closures of its openings: about a half there, less where there are many openings, zero in front of grooves.
 constexpr double k_closing = 0.15;
-/// Of the edge: between samples of what may close an opening; and at most so many along a side.
+/// Relative to the edge: distance between samples of potential closures; and largest number of samples along a side.
 constexpr double k_sample_step = 0.7;
 constexpr int k_most_samples = 12;
-/// Winding number beyond which a place is inside of the input; share of the wrap that lies before such places when it leaks, not just folds; and from where on
-/// (of the body length) an automatic gap is not doubled any more.
+/// Winding number above which a location is inside the input; fraction of the wrap in front of such locations from which the wrap leaks and not just folds;
+/// and the limit (relative to the body length) from which on an automatic gap is not doubled any more.
 constexpr double k_inside_input = 0.55, k_leaking_share = 0.05, k_widest_gap = 0.08;
-/// Of its ball: the offset of a coarser wrap. Of the edge: the ball that looks whether closings are enough before the edge's own.
+/// Relative to its ball: the offset of a coarser wrap. Relative to the edge: the ball of a preliminary wrap that tests if closures suffice before the wrap
+/// with the edge's own ball.
 constexpr double k_coarse_offset = 0.05, k_glance_ball = 4.0;
-/// Of the area of the input: a wrap with more than so much goes round both sides of sheets, and its edge is chosen by its own area.
+/// Relative to the area of the input: a wrap with a larger area covers both sides of baffles, and its edge is chosen by its own area.
 constexpr double k_both_sides = 1.25;
-/// us, of one point of the alpha wrap with all that follows; for the estimate in the log.
+/// s, time of one point of the alpha wrap with all later steps; for the estimate in messages.
 constexpr double k_seconds_per_triangle = 1.5e-4;
-/// Of the tolerance: cuts beside the plane of a half model that are tried.
+/// Relative to the tolerance: offsets of cuts beside the plane of a half model that are tried.
 constexpr std::array k_half_shifts{0.0, 0.2, 0.5, 1.0, 2.0};
-constexpr std::size_t k_seed_cells = 24;  ///< along each axis, of the grid on which a place within a tunnel is looked for
-constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;  ///< shares of the progress
+constexpr std::size_t k_seed_cells = 24;  ///< along each axis, of the grid on which a location within a tunnel is searched
+constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;  ///< fractions of the progress
 
 std::int64_t expected_triangles(double area, double edge) { return std::llround(k_triangles_per_area * area / (edge * edge)); }
 
@@ -90,7 +91,7 @@ AlphaWrapInput alpha_input(const WrapInput& input) {
   return soup;
 }
 
-/// Share of the wrap's area that has the inside of the input before it.
+/// Returns the fraction of the wrap's area that is in front of the inside of the input.
 double leaking_share(const WrapInput& input, const WrapSurface& wrap, double probe, const RunContext& context) {
   const TriangleTree tree(input.mesh, context);
   const TriMesh mesh = wrap_mesh(wrap.points, wrap.triangles);
@@ -118,18 +119,18 @@ double area_of(const WrapSurface& wrap) {
   return area.value();
 }
 
-/// A wrap that was made to see whether its gap closes the input's openings.
+/// A wrap made to test if its gap closes the input's openings.
 struct GapTrial {
   double gap = 0.0, alpha = 0.0;  ///< m
   WrapSurface wrap;
   double leaking = 0.0;  ///< leaking_share
 };
 
-/// Of `leaking` shares: from here on a gap leaks.
+/// Returns the limit of the `leaking` fraction above which a gap leaks.
 double leaking_limit(double least) { return least < k_leaking_share ? k_leaking_share : least + k_leaking_share; }
 
-/// The least gap that does not leak; where all do, the least that leaks no more than the best one, give or take: where openings are as wide as the surface
-/// itself, a wider gap is of no use.
+/// Returns the smallest gap that does not leak. If all gaps leak, returns the smallest one that leaks about as little as the best one: where openings are as
+/// wide as the surface itself, a wider gap is of no use.
 std::size_t least_gap(const std::vector<GapTrial>& trials) {
   double least = trials.front().leaking;
   for (const GapTrial& trial : trials) least = std::min(least, trial.leaking);
@@ -138,7 +139,7 @@ std::size_t least_gap(const std::vector<GapTrial>& trials) {
   return chosen;
 }
 
-/// m; diagonal of the box of the widest opening: borders that hang together.
+/// Returns the diagonal (m) of the box of the widest opening, i.e. of connected borders.
 double widest_opening(const WrapInput& input) {
   DisjointSets openings(input.mesh.n_vertices());
   for (const TriangleId t : input.mesh.triangles.ids())
@@ -161,7 +162,7 @@ void tell_gap(const std::vector<GapTrial>& trials, std::size_t chosen, double le
                             short_number(trials[chosen].gap) + " m");
 }
 
-/// A place within the input, as far from it as can be found on a grid.
+/// Returns a location within the input, as far from it as can be found on a grid.
 Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) {
   const TriangleTree tree(input.mesh, context);
   const Box box = bounding_box(input.mesh);
@@ -186,8 +187,8 @@ Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) 
 
 double coarse_offset(const WrapSizes& sizes) { return std::min(k_coarse_offset * 0.5 * sizes.gap, sizes.edge); }
 
-/// What closes the openings wider than the edge's ball, from a wrap with a ball of half the gap: facets off the input that the input nearly encloses.
-/// \return what was done, for people; empty: nothing
+/// Closes the openings wider than the edge's ball with facets from a wrap with a ball of half the gap: facets off the input that the input nearly encloses.
+/// \return a human-readable description; empty: no change
 std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSurface& coarse, double least_winding, AlphaWrapInput& soup,
                            const RunContext& context) {
   const TriMesh mesh = wrap_mesh(coarse.points, coarse.triangles);
@@ -199,7 +200,7 @@ std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const
       [&](std::size_t t) {
         const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
         const Vec3 normal = normalized(area_vector(c[0], c[1], c[2]));
-        // As densely as openings can be narrow that the finer ball passes through.
+        // Sampled densely enough for the narrowest openings through which the finer ball passes.
         const double longest = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
         const int n = std::clamp(static_cast<int>(std::ceil(longest / (k_sample_step * sizes.edge))), 2, k_most_samples);
         for (int i = 0; i <= n && !is_closing[t]; ++i)
@@ -224,8 +225,8 @@ std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const
   return "openings between the edge and the gap closed by " + std::to_string(n) + " triangles of a wrap with a ball of " + short_number(alpha) + " m radius";
 }
 
-/// The given half, its rim in the plane. Where the wrap touches itself or the plane along the cut, the cut is made a little further in, and the half shifted
-/// back.
+/// Returns the given half, with its open boundary in the plane. If the wrap touches itself or the plane along the cut, the cut is made slightly further in,
+/// and the half is shifted back.
 TriMesh cut_half(const TriMesh& mesh, const WrapInput& input, const WrapSizes& sizes, WrapReport& report, const RunContext& context) {
   const std::size_t axis = input.half_axis == "x" ? 0 : input.half_axis == "y" ? 1 : 2;
   std::optional<Error> first;
@@ -328,8 +329,8 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
     if (gaps.size() > 1) trials.back().leaking = leaking_share(input, trials.back().wrap, 0.25 * alpha, context);
     return trials.back().leaking;
   };
-  // Each wrap costs four times as much as that for the next wider gap. So where there are openings wider than the first gap, from the widest down until it
-  // leaks; else from the first up while it leaks.
+  // Each wrap costs four times as much as that for the next wider gap. So if there are openings wider than the first gap, gaps are tried from the widest down
+  // until one leaks; else from the first up while they leak.
   if (gaps.size() > 1 && widest_opening(input) > gaps.front()) {
     double least = std::numeric_limits<double>::infinity();
     for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
@@ -360,7 +361,8 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
                               " of the input: the edge is " + short_number(sizes.edge) + " m");
   }
   if (trial.alpha > sizes.edge) {
-    // First what the input nearly encloses, so that grooves keep their depth; if more leaks than did with a ball of half the gap, all that this one closed.
+    // First the facets that the input nearly encloses, so that grooves keep their depth. If the leaking fraction is larger than with a ball of half the gap,
+    // all facets closed by that ball.
     const double most = std::max(k_leaking_share, trial.leaking + k_leaking_share);
     const double glance = k_glance_ball * sizes.edge;
     std::string closed;
@@ -368,7 +370,7 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
       soup = alpha_input(input);
       closed = close_openings(input, sizes, trial.wrap, least_winding, soup, context);
       const bool is_first = least_winding == k_closing;
-      // What is left open and wider than the larger ball is seen with a sixteenth of the points.
+      // Openings that remain and are wider than the larger ball are detected with a sixteenth of the points.
       if (is_first && glance < trial.alpha) {
         wrap_with(glance, k_coarse_offset * glance, close_part);
         if (leaking_share(input, wrap, 0.25 * glance, context) >= most) continue;
