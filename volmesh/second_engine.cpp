@@ -18,8 +18,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_recovery_failure =
-    "recovery of the boundary";  ///< message of the built-in engine, which continues with the boundary recovery of another engine
+constexpr const char* k_recovery_failure = "recovery of the boundary";  ///< sterna's own engine; continues with the recovery of another engine
 
 struct SmallFace {
   std::array<std::uint32_t, 3> corners;  ///< ascending

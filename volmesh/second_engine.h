@@ -36,9 +36,9 @@ struct HardMisses {
 /// Counts the tetrahedra beyond the hard limits. \pre verify_tetrahedra() passes. Parallel, O(n).
 HardMisses hard_misses(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 
-/// Fills the boundary with the other engine (HXT after the built-in engine, otherwise the built-in engine) and improves that mesh. This happens only if
-/// improved tetrahedra miss hard limits, `automatic` has chosen the engine, and its first attempt succeeded. Keeps the mesh with fewer misses; if equal, the
-/// mesh with the larger least angle, then the first.
+/// Fills the boundary with the other engine (HXT after sterna's own engine, otherwise sterna's own) and improves that mesh. This happens only if improved
+/// tetrahedra miss hard limits, `automatic` has chosen the engine, and its first attempt succeeded. Keeps the mesh with fewer misses; if equal, the mesh with
+/// the larger least angle, then the first.
 /// \p boundary: as for improve_tetrahedra(). \p failures: of the attempts before `tets`
 /// \post `tets` and `report` are those of the mesh that is kept
 /// \return description of the comparison and the choice, for log and manifest; empty if no comparison was necessary

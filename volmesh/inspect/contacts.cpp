@@ -7,7 +7,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Least cosine between a triangle's normal and the direction to the vertex; triangles below it are behind the wall.
+/// Largest cosine between the normals of vertex and triangle: triangles above it do not face the vertex across the fluid, but are behind the wall.
 constexpr double k_facing_cosine = 0.0;
 
 struct Contact {
