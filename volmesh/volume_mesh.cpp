@@ -39,7 +39,7 @@ struct StepEnds {
 StepEnds step_ends(int threads) {
   constexpr double k_envelope = 6.0, k_lay_out = 1.4, k_sizes = 3.3;
   constexpr double k_engine_alone = 1.0, k_engine = 2.7, k_improve_alone = 1.2, k_improve = 4.3, k_check_alone = 1.1, k_check = 2.4;
-  const double n = std::min(threads, 8);  // the serial part dominates beyond
+  const double n = std::min(threads, 8);  // the serial part dominates beyond that
   const double envelope = k_envelope / n, prisms = envelope + k_lay_out / n,
                tetrahedra = prisms + (n == 1.0 ? k_sizes : 0.5 * k_sizes / n) + k_engine_alone + k_engine / n,
                improve = tetrahedra + k_improve_alone + k_improve / n, all = improve + k_check_alone + k_check / n;

@@ -19,10 +19,9 @@ double geometric_sum(double q, int n) {
   return std::expm1(n * std::log1p(q)) / q;
 }
 
-constexpr int k_bend_steps = 100;          ///< Newton or bisection steps
-constexpr double k_sum_tolerance = 1e-13;  ///< relative to the total height
-constexpr double k_unbent =
-    1.0 / 3.0;  ///< share of the least total height that keeps the first height; growth lines this low or lower have the bend of full-height lines
+constexpr int k_bend_steps = 100;            ///< Newton or bisection steps
+constexpr double k_sum_tolerance = 1e-13;    ///< relative to the total height
+constexpr double k_unbent = 1.0 / 3.0;       ///< share of the least height for the first cell; growth lines this low have the bend of full-height lines
 constexpr double k_compressed = 1.0 + 1e-9;  ///< relative to n h0
 constexpr double k_largest_bend = 1e200;     ///< larger than any bend required by a height above n h0
 constexpr double k_least_edge_share = 0.4;   ///< lower limit of the edge length at which the bend of a low growth line acts, as a share of the line's edge

@@ -48,14 +48,13 @@ struct MeshFacts {
   std::shared_ptr<const FirstHeights> first_heights;
   std::vector<PatchRule> patches;                   ///< patch-specific settings; of several matching rules the last counts (sort_by_pattern)
   std::shared_ptr<const TriMesh> farfield_surface;  ///< for the farfield shape "surface"
-  std::vector<SizeSource> sources;                  ///< of the size field
+  std::vector<SizeSource> sources;                  ///< sources of the size field
   std::vector<ActuatorDisc> discs;                  ///< in the fluid
   std::vector<WakeSheet> wakes;                     ///< behind trailing edges of the walls
   std::vector<PeriodicNames> periodic;              ///< pairs of patches, including added patches, that must match node by node and face by face
   /// rad: largest dihedral turn in the smooth part of the wall, if the surface mesher provides it; sets the default feature angle.
   double smooth_angle = k_automatic;
-  std::vector<PlacedPart>
-      parts;  ///< parts of the wall that were meshed elsewhere and moved; their envelopes are made in the original frame and moved, too (joint_envelope.h)
+  std::vector<PlacedPart> parts;  ///< parts of the wall meshed elsewhere and moved; their envelopes are made there, too, and moved (joint_envelope.h)
 };
 
 /// The complete request. It must have no members of its own: they would be in no option list.

@@ -21,7 +21,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_completing_attempt = "completing the boundary";
-constexpr double k_shape_snap = 0.3;  ///< factor on HalfOptions: keeping the shape's own triangles matters less than good triangles at its open boundary
+constexpr double k_shape_snap = 0.3;  ///< HalfOptions::snap: keeping the shape's own triangles matters less than good triangles at its open boundary
 
 bool is_changed(const FarfieldOptions& options) {
   FarfieldOptions defaults, copy = options;

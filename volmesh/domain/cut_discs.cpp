@@ -17,8 +17,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_snap_share =
-    0.3;  ///< snap distance as a share of an edge: if the cut is nearer to an end of the edge, this end moves; triangles keep about a third of their height
+constexpr double k_snap_share = 0.3;         ///< share of an edge: cut nearer to its end, the end moves; triangles keep about a third of their height
 constexpr double k_on_plane = 1e-12;         ///< tolerance for vertices in the plane, as a share of the largest coordinate and the radius (rounding)
 constexpr double k_least_turn_cosine = 0.8;  ///< least cosine between the normals of a triangle before and after one of its vertices moves
 constexpr double k_least_area_share = 0.2;   ///< least share of its area that a triangle keeps when a vertex moves

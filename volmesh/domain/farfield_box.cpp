@@ -135,7 +135,7 @@ class BoxMesh {
 
   const BoxSize& size_;
   TriMesh mesh_;
-  std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< by axis and lower corner
+  std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< indexed by axis and lower corner
 };
 
 TriMesh mesh_of_box(const BoxSize& size, const RunContext& context) {

@@ -19,7 +19,7 @@ struct FlatFit {
   double distance = 0.0;  ///< m, of the farthest vertex
 };
 
-/// Vertices of a patch, ascending. The mesh must outlive it.
+/// The vertices of a patch, ascending. The mesh must outlive this object.
 class PatchVertices {
  public:
   PatchVertices(const TriMesh& mesh, PatchId patch) : mesh_(mesh) {

@@ -21,8 +21,7 @@ struct PeriodicPatches {
 /// All pairs of a boundary.
 struct JoinedSides {
   std::vector<PeriodicPatches> pairs;
-  Column<TriangleId, TriangleId>
-      sources;  ///< for each triangle of the boundary: its previous number; for triangles that a second side receives: that of its image. Empty if all stayed
+  Column<TriangleId, TriangleId> sources;  ///< previous number of each triangle; for copied ones on a second side, of the image. Empty if all stayed
 };
 
 /// Share of the boundary's box by which vertices may be off their plane and off their image: files keep 6 to 7 digits.

@@ -18,11 +18,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_flip_gain = 0.95;  ///< a flip reduces the worst cotangent of a pair at least to this share: this prevents flipping back and forth
-constexpr double k_flip_drift =
-    0.3;  ///< share of flip_angle (rad) times the shorter diagonal: a square that is folded by the angle along one diagonal moves by a quarter
-constexpr double k_hairline =
-    1e-6;  ///< share of the diagonal: normals of such thin triangles are rounding errors, so only the distance of the diagonals counts
+constexpr double k_flip_gain = 0.95;     ///< a flip reduces the worst cotangent of a pair at least to this share: this prevents flipping back and forth
+constexpr double k_flip_drift = 0.3;     ///< share of flip_angle (rad) times the shorter diagonal: a square folded by the angle moves by a quarter
+constexpr double k_hairline = 1e-6;      ///< share of the diagonal: thinner triangles have normals of rounding, only the diagonals' distance counts
 constexpr double k_needle_reach = 32.0;  ///< pieces of a long edge; slivers that would need more are left, as the pieces in between would be slivers too
 constexpr double k_least_piece = 0.45;   ///< share of the piece length at which a given triangle's longest edge makes no sliver: halves may fall below it once
 constexpr double k_crease_share = 2.0 / 3.0;  ///< share of a triangle's longest edge: creases this long are bisected before it, because only they need it

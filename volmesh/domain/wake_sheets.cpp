@@ -34,8 +34,7 @@ constexpr double k_longest = 2.5;               ///< largest ratio of an edge al
 constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< the same ratio where edges across are shorter than this share of the chord
 constexpr double k_spread = 0.3;                                ///< chords over which streamwise lines become equidistant
 constexpr double k_spread_slope = 0.7;  ///< largest sideways shift for that, as a share of the distance along the line: otherwise cells would lean and cross
-constexpr double k_clear_angle =
-    0.3;  ///< share of the distance from the trailing edge: walls nearer than this block the sheet, unless they are farther than an edge
+constexpr double k_clear_angle = 0.3;   ///< share of the distance from the trailing edge: nearer walls block the sheet, unless farther than an edge
 constexpr double k_start_share = 0.01;  ///< share of the first edge: ray hits nearer than this are the wall at the start
 constexpr std::size_t k_most_stations = 1000;
 constexpr int k_shape_sweeps = 3;       ///< smoothing sweeps of chords along the edge
@@ -497,7 +496,7 @@ class SheetMaker {
   const Vec3 stream_;
   double raise_;  ///< m
   const TrailingEdge& chain_;
-  const Column<VertexId, VertexId>& partner_;  ///< of the wall's given vertices, or empty
+  const Column<VertexId, VertexId>& partner_;  ///< partners of the wall's given vertices, or empty
   SheetsOnWall& made_;
   TriMesh& wall_;
   const RunContext& context_;

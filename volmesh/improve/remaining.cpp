@@ -52,7 +52,7 @@ class Surroundings {
     const auto found = triangle_.find({a, b});
     return found == triangle_.end() ? k_unforced : found->second;
   }
-  /// Boundary triangles that are faces of a tetrahedron.
+  /// Returns the boundary triangles that are faces of a tetrahedron.
   std::vector<std::uint32_t> faces(const Corners& c) const {
     constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     std::vector<std::uint32_t> result;
@@ -62,7 +62,7 @@ class Surroundings {
     }
     return result;
   }
-  /// Smallest angle between boundary triangles, through the domain, at an edge of the tetrahedron.
+  /// Returns the smallest angle between boundary triangles, through the domain, at an edge of the tetrahedron.
   double smallest_between(const Corners& tet) const {
     double smallest = k_none;
     for (const std::uint32_t a : tet)

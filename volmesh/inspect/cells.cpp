@@ -19,7 +19,7 @@ constexpr double k_y_plus_factor = 2.0;  ///< factor on the target y+ within whi
 
 /// Requested layer cells at a vertex by eq. (1) and the caps, before any reduction.
 struct Cells {
-  double first = 0.0, last = 0.0;  ///< m
+  double first = 0.0, last = 0.0;  ///< first and last height, m
   double edge = 0.0;               ///< m
   double top_ratio() const { return last / (k_regular_height * edge); }
 };

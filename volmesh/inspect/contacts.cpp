@@ -13,7 +13,7 @@ constexpr double k_facing_cosine = 0.0;
 struct Contact {
   VertexId vertex;
   TriangleId opposite;
-  double share = 0.0;  ///< distance over the mean edge at the vertex
+  double share = 0.0;  ///< distance as a share of the mean edge at the vertex
   friend bool operator<(const Contact& a, const Contact& b) { return a.share != b.share ? a.share < b.share : a.vertex < b.vertex; }
 };
 

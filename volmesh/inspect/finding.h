@@ -59,7 +59,7 @@ std::string_view to_string(FindingKind kind);
 struct FindingPlace {
   Point position;
   std::string patch;
-  double value = 0.0;  ///< in the finding's unit
+  double value = 0.0;  ///< in the unit of the finding
   std::string what;    ///< "triangle 12 crosses triangle 840"
 };
 

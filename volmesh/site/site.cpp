@@ -124,7 +124,7 @@ Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const
   return has_layer;
 }
 
-/// Checks a boundary on which no layer grows: inviscid flow on walls that have none. \throws if there is no wall for the requested layers
+/// Checks a boundary without layers: inviscid flow if walls are meant to have none. \throws if there is no wall for the requested layers
 void require_no_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
   const bool has_walls = std::ranges::any_of(boundary.patches, [](const Patch& patch) { return patch.kind == PatchKind::wall; });
   if (options.envelope.layers > 0 && !has_walls)

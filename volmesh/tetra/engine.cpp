@@ -106,7 +106,7 @@ class Request {
   std::size_t n_points_ = 0;
 };
 
-/// Names of TetGen's codes as in terminatetetgen() of tetgen.h; the other engines have no codes.
+/// Returns the name of TetGen's code as in terminatetetgen() of tetgen.h; the other engines have no codes.
 std::string text_of_code(EngineKind kind, int code) {
   if (kind != EngineKind::tetgen) return "failed";
   const std::string number = " (code " + std::to_string(code) + ")";

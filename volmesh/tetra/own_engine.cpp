@@ -20,9 +20,9 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Expected tetrahedra per leaf of the size field: a third more than the mean (docs/tetrahedra.md). Unused capacity costs no memory.
 // Shares of the time: sizes are made before the recovery, on one thread and not in parallel with other steps.
 constexpr double k_begins = 0.15, k_begins_alone = 0.45, k_recovery = 0.12, k_refinement_ends = 0.97;
+/// Expected tetrahedra per leaf of the size field: a third more than the mean (docs/tetrahedra.md). Unused capacity costs no memory.
 constexpr double k_places_per_leaf = 40.0;
 constexpr double k_most_places = 5e7;  ///< initial limit
 
