@@ -26,14 +26,13 @@ void layer_parameters(double h0, double height, int n, double* t);
 /// 1e4.
 ///
 /// Common growth: ratio_j = g / (1 + b min(1, (100 h_j / e)^2)), at least 1, with one g for all growth lines and a bend b that follows from the total height of
-/// the line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines. Where the bends of neighbours differ by a small d, faces lean by at most atan(25
-/// d).
+/// the line (b < 0: g (1 - b min(...))). Flat cells grow by g on all lines. If the bends of neighbours differ by a small d, faces lean by at most atan(25 d).
 ///
 /// Growth lines far below their target height would end with cells too low for the tetrahedra on top. The bend is therefore limited so that the ratio at the
 /// top is at least 1 + 0.6 (r - 1), where r is the top ratio of a line of target height. Still lower lines have lower cells, all by one share, down to a share
 /// of 0.4. Below that, the first cells get lower, and the bend acts where cells have 0.4 of the height at which it acts on full-height lines: otherwise lines
-/// of a thousandth of their height would bend while they are flat. Lines a third lower than the least height for the first cell have the bend of a line of
-/// target height.
+/// of a thousandth of their height would bend while they are flat. At and below a third of the least height for the first cell, lines have the bend of a line
+/// of target height.
 struct LineGrowth {
   double h0 = 0.0;      ///< m, first height
   double common = 0.0;  ///< g; 0: local growth

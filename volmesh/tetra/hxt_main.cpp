@@ -3,14 +3,14 @@
 // Reasons for the process: HXT's crashes on unsuitable input, its memory, its global state, its output, and symbols that libgmsh shares with TetGen.
 // Known properties of HXT as built by Debian (Gmsh 4.8.4; all measured):
 // - It identifies the region of a tetrahedron by the set of surfaces around it, so every closed component of the boundary must be a separate surface: with a
-// single surface it cannot distinguish the domain from the inside of a body, and fails.
+//   single surface it cannot distinguish the domain from the inside of a body, and fails.
 // - Its improvement does not give up on tetrahedra that the boundary forces: pygeo_bwb takes 0.2 s without and 20 s with Gmsh's threshold of 0.3; NACA0012 with
-// strips of 1 m by 0.5 mm 25 s without, and more than four minutes even with 0.02. So it is off by default.
+//   strips of 1 m by 0.5 mm 25 s without, and more than four minutes even with 0.02. So it is off by default.
 // - It does not report that it ran out of memory; a crash is also possible then.
 // - With more than one thread its result differs from run to run.
 // - It reads uninitialised memory: with other heap contents pygeo_bwb gets other tetrahedra. So all memory is initialised to zero.
 // - It reads freed memory, where glibc's per-thread cache stores a random key: one run in five of pygeo_bwb with ten layers differed. So this cache is
-// disabled.
+//   disabled.
 
 #include <gmsh.h>
 #include <malloc.h>

@@ -5,17 +5,17 @@
 //
 // Known properties of TetGen 1.5.0 as built by Debian (all measured):
 // - Its vertices must be farther apart than -T (default 1e-8) of the longest side of the box, which the farfield makes long; closer vertices are merged, and
-// then it crashes. -M disables the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
+//   then it crashes. -M disables the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
 // - With -Y the boundary stays unchanged, triangle for triangle, on nearly everything tried so far. Around slivers and folds, some of the points that it
-// temporarily inserts on edges may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the faces of the result show where.
+//   temporarily inserts on edges may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the faces of the result show where.
 // - Self-intersecting, duplicate or degenerate facets make it crash, or return a result with facets missing; it rarely reports them.
 // - An open boundary gives 0 tetrahedra and no error; an index out of range is read without a check.
 // - Points that it adds and removes again during boundary recovery are omitted from the result, but not with -J (pygeo_bwb).
 // - A tetunsuitable callback is called for every tetrahedron, and its result is used; its volume argument is meaningless.
 // - Without -Y it splits boundary triangles; each face of the result has the marker of its source facet. Even without -q it splits thousands on an envelope of
-// bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y, points in the volume ensure this.
+//   bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y, points in the volume ensure this.
 // - -q with -Y next to strips of triangles that are 2000 times longer than wide does not terminate: every new point's cavity holds thousands of points, and the
-// point is rejected because it encroaches upon the boundary (NACA0012).
+//   point is rejected because it encroaches upon the boundary (NACA0012).
 // - Its tetrahedra are positive in CGNS order; two runs are bit-identical.
 
 #include <tetgen.h>
