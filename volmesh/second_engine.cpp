@@ -18,7 +18,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_recovery_failure = "recovery of the boundary";  ///< sterna's own engine; continues with the recovery of another engine
+constexpr const char* k_recovery_failure = "recovery of the boundary";  ///< sterna's own engine: another engine took over the recovery
 
 struct SmallFace {
   std::array<std::uint32_t, 3> corners;  ///< ascending
