@@ -11,16 +11,16 @@
 namespace sterna::volmesh {
 namespace {
 
-// Peaks of whole runs (docs/performance.md): an airliner's wing and body, the CRM, the Cessna, the DLR-F6 with 184 k and 613 k triangles.
+// Peak memory of complete runs (docs/performance.md): an airliner's wing and body, the CRM, the Cessna, the DLR-F6 with 184 k and 613 k triangles.
 constexpr double k_bytes_alone = 60e6, k_bytes_of_prism = 45.0, k_bytes_of_tetrahedron = 215.0;
-/// The fewest that were seen on walls of good triangles, where sizes grow as they do by default.
+/// Smallest ratio observed on walls of well-shaped triangles with default size growth.
 constexpr double k_least_tetrahedra_of_triangle = 5.0;
-// Seconds of the same runs on two threads; they end 1.8 times as fast as on one.
+// Seconds of the same runs on two threads; they finish 1.8 times as fast as on one.
 constexpr double k_seconds_of_triangle = 6e-5, k_seconds_of_tetrahedron = 0.8e-6, k_threads_power = 0.85;
 constexpr double k_long = 600.0;
-/// Of a regular tetrahedron by the cube of its edge is 6^-1 2^-1/2; those around sizes that grow are smaller by some.
+/// For a regular tetrahedron, volume over cubed edge is 6^-1 2^-1/2; tetrahedra in growing size fields are somewhat smaller.
 constexpr double k_volume_over_cube = 0.118 * 0.9;
-/// Leaves within bodies count in the integral, and no tetrahedra stand there.
+/// The integral includes leaves inside bodies, where there are no tetrahedra.
 constexpr double k_share_in_fluid = 0.75;
 
 std::string millions(double n) { return n < 1e6 ? number_text(std::round(1e-3 * n), 3) + " k" : number_text(1e-6 * n, 3) + " M"; }
@@ -53,7 +53,7 @@ double expected_tetrahedra(const SizeField& sizes) { return k_share_in_fluid * s
 
 void require_room(const Forecast& forecast, const LimitOptions& limits, const RunContext& context) {
   const bool is_given = !is_automatic(limits.max_memory);
-  // The forecast is of the whole process, and so holds what that has already.
+  // The forecast covers the whole process, and so includes the memory that the process already uses.
   const double allowed = is_given ? limits.max_memory : available_memory() + resident_memory();
   const double seconds = forecast.seconds(context.threads());
   if (forecast.bytes() > allowed) {

@@ -1,4 +1,4 @@
-// What a mesh will have and need, before it is made; more than the machine has is an error at once.
+// Forecast of the size and cost of a mesh before it is made; a mesh that exceeds the machine's memory is an error at once.
 #pragma once
 
 #include <cstddef>
@@ -10,23 +10,23 @@
 
 namespace sterna::volmesh {
 
-/// Figures of the machine that docs/performance.md was measured on; memory within a quarter there, time within a factor of two.
+/// Forecast for the machine that docs/performance.md was measured on; memory is accurate to a quarter there, time to a factor of two.
 struct Forecast {
-  double n_triangles = 0.0;   ///< of the walls with layers
+  double n_triangles = 0.0;   ///< triangles of the walls with layers
   double n_prisms = 0.0;      ///< cells of the layer
-  double n_tetrahedra = 0.0;  ///< as good as sizes and boundary tell
-  double bytes() const;       ///< at the peak, the whole process
+  double n_tetrahedra = 0.0;  ///< estimate from sizes and boundary
+  double bytes() const;       ///< peak memory of the whole process
   double seconds(int threads) const;
 };
 
-/// Before the envelope: cells of the layer as asked for, and the fewest tetrahedra that walls of so many triangles have.
+/// Returns the forecast before the envelope: cells of the requested layer, and the least number of tetrahedra for walls with so many triangles.
 /// \pre options of the site validated
 Forecast forecast_of(const MeshingSite& site);
-/// Tetrahedra that a size field asks for, by its leaves; the boundary's own are among them.
+/// Returns the number of tetrahedra that a size field requires, from its leaves; tetrahedra at the boundary are included.
 double expected_tetrahedra(const SizeField& sizes);
 
-/// Tells a long run.
-/// \throws Error(overflow) with the figures and what to change where the forecast is above what is allowed; with `force` a warning
+/// Checks the forecast against the limits, and logs a long run.
+/// \throws Error(overflow) with the figures and the remedy if the forecast exceeds the allowed value; with `force` a warning
 void require_room(const Forecast& forecast, const LimitOptions& limits, const RunContext& context);
 
 }  // namespace sterna::volmesh

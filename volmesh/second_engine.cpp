@@ -18,11 +18,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_recovery_failure = "recovery of the boundary";  ///< of our own engine, which goes on with the recovery of another one
+constexpr const char* k_recovery_failure = "recovery of the boundary";  ///< sterna's own engine: another engine took over the recovery
 
 struct SmallFace {
   std::array<std::uint32_t, 3> corners;  ///< ascending
-  double volume = 0.0;                   ///< of its tetrahedron, m^3
+  double volume = 0.0;                   ///< volume of the face's tetrahedron, m^3
 };
 
 std::array<std::uint32_t, 3> face_of(const std::array<std::uint32_t, 4>& tet, std::size_t opposite) {
@@ -33,7 +33,8 @@ std::array<std::uint32_t, 3> face_of(const std::array<std::uint32_t, 4>& tet, st
   return corners;
 }
 
-/// Few faces have a tetrahedron at each of their corners that is so much larger; only these are compared with what lies behind them.
+/// Counts volume ratios beyond the limit. Few faces have a tetrahedron at each of their corners that is so much larger; only these faces are compared with the
+/// tetrahedra behind them.
 void count_growth(std::span<const Vec3> boundary, const TetraResult& tets, double limit, HardMisses& misses, const RunContext& context) {
   const auto& cells = tets.tetrahedra;
   const auto place = [&](std::uint32_t v) { return v < boundary.size() ? boundary[v] : tets.new_points[v - boundary.size()]; };
@@ -83,7 +84,7 @@ bool may_ask(const SecondEngine& second, const TetraResult& tets, const std::vec
          std::ranges::all_of(failures, [](const std::string& failure) { return failure.starts_with(k_recovery_failure); });
 }
 
-/// Tetrahedra of the other engine, or why there are none.
+/// Returns the tetrahedra of the other engine; nothing if it fails.
 std::optional<TetraResult> fill_again(const FillBoundary& boundary, const SecondEngine& second, const std::string& engine, bool& is_reproducible,
                                       const RunContext& context) {
   const StageTimer timer(context, "improve/second_engine");
@@ -104,7 +105,7 @@ std::optional<TetraResult> fill_again(const FillBoundary& boundary, const Second
     return fill(domain, sizes, options, context);
   } catch (const FillError& error) {
     is_reproducible &= error.is_repeatable();
-    return std::nullopt;  // the ladder has warned
+    return std::nullopt;  // the engine selection has warned already
   }
 }
 

@@ -1,4 +1,4 @@
-// A second engine for the tetrahedra where the first one's mesh misses hard limits that the boundary does not force.
+// Runs a second engine for the tetrahedra if the first engine's mesh misses hard limits that the boundary does not force.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace sterna::volmesh {
 
-/// What another engine needs to fill the same boundary.
+/// Input that another engine needs to fill the same boundary.
 struct SecondEngine {
   TetraOptions tetrahedra;
   std::vector<SizeSource> sources;
@@ -25,22 +25,23 @@ struct SecondEngine {
 
 /// Tetrahedra beyond the hard limits of gates G14 and G15.
 struct HardMisses {
-  std::int64_t n_angles = 0;  ///< tetrahedra with a dihedral angle beyond the limits of G14 that the boundary is not proven to force (remaining.h)
-  std::int64_t n_growth = 0;  ///< faces with volumes beside them beyond the limit of G15
-  double smallest = 0.0;      ///< dihedral angle of all tetrahedra, rad
-  double largest = 0.0;       ///< rad
-  double growth = 1.0;        ///< largest ratio of volumes at a face that is beyond the limit of G15; 1 where none is
+  std::int64_t n_angles = 0;  ///< tetrahedra with a dihedral angle beyond the limits of G14, except those that the boundary provably forces (remaining.h)
+  std::int64_t n_growth = 0;  ///< faces between volumes whose ratio is beyond the limit of G15
+  double smallest = 0.0;      ///< smallest dihedral angle of all tetrahedra, rad
+  double largest = 0.0;       ///< largest dihedral angle, rad
+  double growth = 1.0;        ///< largest ratio of volumes at a face that is beyond the limit of G15; 1 if there is none
 
   std::int64_t n() const { return n_angles + n_growth; }
 };
-/// \pre verify_tetrahedra() passes. Parallel, O(n).
+/// Counts the tetrahedra beyond the hard limits. \pre verify_tetrahedra() passes. Parallel, O(n).
 HardMisses hard_misses(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 
-/// Where improved tetrahedra miss hard limits, `automatic` has chosen the engine and its first attempt had an answer: fills the boundary with the other engine
-/// (HXT after our own, else our own), improves that mesh, and keeps the one with fewer misses; of equals the one with the larger least angle, then the first.
+/// Fills the boundary with the other engine (HXT after sterna's own engine, otherwise sterna's own) and improves that mesh. This happens only if improved
+/// tetrahedra miss hard limits, `automatic` has chosen the engine, and its first attempt succeeded. Keeps the mesh with fewer misses; if equal, the mesh with
+/// the larger least angle, then the first.
 /// \p boundary: as for improve_tetrahedra(). \p failures: of the attempts before `tets`
 /// \post `tets` and `report` are those of the mesh that is kept
-/// \return what was compared and chosen, for log and manifest; empty where nothing had to be
+/// \return description of the comparison and the choice, for log and manifest; empty if no comparison was necessary
 std::string choose_engine(const FillBoundary& boundary, const SecondEngine& second, const ImproveOptions& options, const std::vector<std::string>& failures,
                           TetraResult& tets, ImproveReport& report, const RunContext& context);
 

@@ -1,5 +1,5 @@
-// The steps of volume_mesh() by hand: the value of each holds all that the rest needs, so that a run can be stopped behind any of them, written, and continued
-// to the same mesh, to the bit.
+// The steps of volume_mesh() as separate functions. The result of each step holds all data that later steps need, so that a run can be stopped after any step,
+// written, and continued to a bit-identical mesh.
 #pragma once
 
 #include <array>
@@ -18,77 +18,77 @@
 
 namespace sterna::volmesh {
 
-/// Fans of opened ridges that had no valid cells (close_fans.h), and stay closed.
+/// Multi-normal fans of opened ridges that had no valid cells (close_fans.h), and stay closed.
 struct ClosedFans {
-  std::vector<VertexId> feet;  ///< of the wall with layers, as it is before its ridges are opened
-  int n_rounds = 0;            ///< how often fans had to be closed; after k_fan_rounds all are
+  std::vector<VertexId> feet;  ///< ridge base vertices, numbered in the wall with layers before its ridges are opened
+  int n_rounds = 0;            ///< number of rounds in which fans had to be closed; after k_fan_rounds all are
 };
 inline constexpr int k_fan_rounds = 5;
 
 /// The envelope of a wall.
 struct EnvelopeStage {
   Envelope envelope;
-  double feature_angle = 0.0;  ///< rad, the user's or the one found
-  ClosedFans closed = {};      ///< on the wall that it is of
+  double feature_angle = 0.0;  ///< rad, given by the user or determined automatically
+  ClosedFans closed = {};      ///< numbers in the wall of the envelope
 };
 
-/// The layer under the envelope, and the tetrahedra that an engine has made around it.
+/// The layer under the envelope, and the tetrahedra that an engine made around it.
 struct FilledStage {
-  std::optional<TriMesh> split_wall;  ///< nullopt: the wall as it was given, but for its needles
-  EnvelopeStage envelope;             ///< of that wall, as the layer ends now
-  HybridMesh layers;                  ///< of assemble_layers(): lines of the layer, then the outer boundary; no tetrahedra. Columns, on opened walls, too
-  TetraResult tets;                   ///< fill boundary_of(layers); not improved, without splits
+  std::optional<TriMesh> split_wall;  ///< nullopt: the wall as given, apart from sliver splitting
+  EnvelopeStage envelope;             ///< envelope of that wall, at the current layer heights
+  HybridMesh layers;  ///< result of assemble_layers(): growth lines of the layer, then the outer boundary; no tetrahedra. Columns, also on opened walls
+  TetraResult tets;   ///< tetrahedra that fill boundary_of(layers); not improved, without splits
   std::vector<std::string> tetra_failures;
   std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
   std::int64_t n_split_triangles = 0;
-  NeedleReport needles;    ///< of the wall, before all this
-  bool is_opened = false;  ///< ridges are opened or wakes have sheets: finish_mesh() makes the given wall's cells of `layers`
+  NeedleReport needles;    ///< sliver report of the wall, before all other steps
+  bool is_opened = false;  ///< ridges are opened or wakes have sheets: finish_mesh() converts `layers` to cells of the given wall
 };
 
-/// Called when a step of volume_mesh() has ended; any may be empty.
+/// Observer callbacks at the ends of the steps of volume_mesh(); any may be empty.
 struct StageWatch {
-  /// Makes the envelope by calling its argument, or has it from elsewhere: that of this wall and these options. It is proved like any other.
+  /// Supplies the envelope, computed by the argument or loaded from elsewhere, for this wall and these options. It is verified like any other.
   std::function<EnvelopeStage(const std::function<EnvelopeStage()>&)> envelope;
   std::function<void(const EnvelopeStage&)> enveloped;
   std::function<void(const FilledStage&)> filled;
 };
 
-/// volume_mesh() with someone who looks on.
+/// volume_mesh() with observer callbacks.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
 
-/// The first step.
+/// Runs the first step.
 /// \pre,
 /// \throws as volume_mesh()
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// The second. Everything that the envelope is made of is proved again. Where fans have no valid cells, they are closed and the first step is done again.
+/// Runs the second step. All data of the envelope is verified again. If multi-normal fans have no valid cells, they are closed and the first step is repeated.
 /// \pre `envelope` of make_envelope() on this wall
-/// \throws Error(bad_argument) for an envelope of another size, else of the stages
+/// \throws Error(bad_argument) for an envelope of another size, otherwise as the stages
 FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report, and for the tetrahedra
-/// of a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong together, else of the stages
+/// Runs the last step: improves, joins, checks. The data of the stage is verified again; options of earlier steps affect only the report, and the tetrahedra of
+/// a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong together, otherwise as the stages
 VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const MeshCase& options, const RunContext& context);
 
-// ---- The same for a driver that does not want to prove anything twice ---------------------------------------------------------------------
+// ---- The same steps for a driver that avoids repeated verification ------------------------------------------------------------------------
 
-/// What is known of a layer beside its mesh.
+/// Data about a layer that its mesh does not contain.
 struct LayerKnowledge {
   LayerReport report;
   EnvelopeCertificate certificate;
   std::optional<LayerCheck> check;
-  std::optional<HybridMesh> closed;         ///< the given wall's cells of a layer on an opened one
-  FillBoundary boundary;                    ///< that the tetrahedra fill around `closed`
-  std::optional<SecondEngine> second = {};  ///< where another engine may fill the boundary, too
+  std::optional<HybridMesh> closed;         ///< cells of the given wall for a layer on an opened wall
+  FillBoundary boundary;                    ///< boundary that the tetrahedra fill around `closed`
+  std::optional<SecondEngine> second = {};  ///< if another engine may fill the boundary, too
 };
 
-/// The first two steps, from an envelope on where there is one.
+/// Runs the first two steps; starts from the given envelope, if there is one.
 FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, std::optional<EnvelopeStage> envelope,
                         LayerKnowledge& knowledge, const RunContext& context);
-/// The case with what is known of its ridges: when so many rounds were in vain, none is opened.
+/// Returns the case with the known state of its ridges: after the largest number of failed rounds, no ridge is opened.
 MeshCase with_closed_fans(MeshCase options, const ClosedFans& closed);
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context);
-/// The layer under the envelope, which may get lower, and the tetrahedra around it. \throws Error(bad_argument) for an envelope of another size
+/// Makes the layer under the envelope, which may be lowered, and the tetrahedra around it. \throws Error(bad_argument) for an envelope of another size
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
-/// \throws Error(bad_argument) where an envelope has not one height for each vertex
+/// \throws Error(bad_argument) if an envelope does not have exactly one height for each vertex
 void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage);
 SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, bool has_wakes);
 VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context);

@@ -29,24 +29,24 @@ namespace {
 
 constexpr int k_max_boundary_repairs = 3;
 
-/// Shares of the time at which steps end.
+/// Shares of the total time at which steps end.
 struct StepEnds {
   double envelope, prisms, tetrahedra, improve;
 };
 
-/// From seconds of the steps of DLR-F6, 184 k triangles, 30 layers, with our own engine on one and on two threads: a + b / threads. On one thread sizes and the
-/// layer's proof are not beside anything.
+/// Fit to seconds of the steps of DLR-F6, 184 k triangles, 30 layers, with sterna's own engine on one and on two threads: a + b / threads. On one thread, sizes
+/// and the layer's verification do not run in parallel to other steps.
 StepEnds step_ends(int threads) {
   constexpr double k_envelope = 6.0, k_lay_out = 1.4, k_sizes = 3.3;
   constexpr double k_engine_alone = 1.0, k_engine = 2.7, k_improve_alone = 1.2, k_improve = 4.3, k_check_alone = 1.1, k_check = 2.4;
-  const double n = std::min(threads, 8);  // what is left on one thread tells beyond
+  const double n = std::min(threads, 8);  // the serial part dominates beyond that
   const double envelope = k_envelope / n, prisms = envelope + k_lay_out / n,
                tetrahedra = prisms + (n == 1.0 ? k_sizes : 0.5 * k_sizes / n) + k_engine_alone + k_engine / n,
                improve = tetrahedra + k_improve_alone + k_improve / n, all = improve + k_check_alone + k_check / n;
   return {envelope / all, prisms / all, tetrahedra / all, improve / all};
 }
 
-/// The user's own true surface, asked with triangles of the wall.
+/// Adapts the user's true surface to triangles of the wall.
 TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
   if (!of_surface) return {};
   return [of_surface, &domain](const Point& p, TriangleId t, const std::array<double, 3>& weights) {
@@ -70,20 +70,20 @@ void tell_needles(const NeedleReport& needles, const NeedleOptions& options, con
                "); the first is at " + format_point(needles.first_left) + hint);
 }
 
-/// \p is_clear: proved already; not where patches were triangulated anew.
+/// Returns the boundary for engines. \p is_clear: already verified; false if patches were re-meshed.
 TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, bool may_split) {
   return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, may_split};
 }
 
-/// What one attempt at the tetrahedra has made.
+/// Result of one attempt at the tetrahedra.
 struct Filling {
   TetraResult tets;
-  std::optional<SplitLayer> split;  ///< where the engine has split triangles: the layer that has them too
-  std::optional<LayerProof> proof;  ///< of the layer that the tetrahedra are around
+  std::optional<SplitLayer> split;  ///< if the engine has split triangles: the layer with the same splits
+  std::optional<LayerProof> proof;  ///< verification of the layer that the tetrahedra surround
   std::vector<Point> holes;
 };
 
-/// Where the layer had to be lower with the splits, the volume inside the split boundary, kept now, is filled anew.
+/// Fills the volume inside the split boundary, which is now kept, again after the layer had to be lowered for the splits.
 void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets, const RunContext& context) {
   TetraOptions keeping = options.tetrahedra;
   keeping.boundary_splits = "never";
@@ -93,7 +93,7 @@ void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets,
   tets = fill(domain, sizes, keeping, context);
 }
 
-/// The first candidate of the engines whose splits the layer can follow.
+/// Takes the first candidate of the engines whose splits the layer can adopt.
 void climb(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraLadder& ladder, Filling& filling, const RunContext& context) {
   const TrueSurface true_surface = true_surface_of(makers.true_surface, site.domain);
   for (;;) {
@@ -110,11 +110,11 @@ void climb(const MeshingSite& site, const Envelope& envelope, const Makers& make
   }
 }
 
-/// The tetrahedra around a layer, and meanwhile the layer's proof. \throws FillError
+/// Makes the tetrahedra around a layer, and verifies the layer in parallel. \throws FillError
 Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
-  // Where layers end on other patches, sides are periodic, ridges are opened and wakes have sheets, the boundary stays as it is.
+  // The boundary stays unchanged if layers end on other patches, sides are periodic, ridges are opened or wakes have sheets.
   const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
   filling.holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, !site.domain.has_rims(), may_split);
@@ -137,7 +137,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   return filling;
 }
 
-/// A calmer envelope after engines have failed. False where there is nothing to repair, or no more leave to.
+/// Lowers and smooths the envelope after an engine failure. Returns false if nothing can be repaired or the retry limit is reached.
 bool repair_for_engines(MeshingSite& site, Envelope& envelope, const LaidLayer& layer, const FillError& error, const RunContext& context) {
   if (!site.options.tetrahedra.repair_boundary || !error.is_repeatable()) return false;
   const bool has_sheets = !site.options.discs.empty();
@@ -147,7 +147,7 @@ bool repair_for_engines(MeshingSite& site, Envelope& envelope, const LaidLayer& 
   return true;
 }
 
-/// The split layer instead of the one that it came from.
+/// Replaces the layer by its split version.
 LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOptions& options, const RunContext& context) {
   context.info("boundary splits: " + std::to_string(split.boundary.points.size() - unsplit.boundary.points.size()) + " new points, " +
                std::to_string(split.boundary.triangles.size() - unsplit.boundary.triangles.size()) + " more triangles");
@@ -164,8 +164,8 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 constexpr int k_slide_rounds = 4;
 constexpr double k_slides_begin = 0.75;  ///< share of the time
 
-/// Improvement within the boundary, \p improved: begun before; then, where the boundary is at fault, lines of the layer slide, and improvement once more around
-/// them. \p slid gets these lines, ascending.
+/// Improves tetrahedra within the boundary, \p improved: already started. Then, where the boundary is the cause of bad tetrahedra, growth lines of the layer
+/// slide, and the tetrahedra around them are improved again. \p slid receives these lines, ascending.
 void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, ImproveReport& report,
                        std::vector<std::uint32_t>& slid, const RunContext& context) {
   const auto domain = [&] {
@@ -179,14 +179,14 @@ void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& 
     slid.insert(slid.end(), moved.begin(), moved.end());
     if (round + 1 < k_slide_rounds)
       improve_around(domain(), moved, tets, options, report,
-                     context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides have the last word
+                     context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides come last
   }
   if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
   sort_unique(slid);
   report.n_slid = static_cast<std::int64_t>(slid.size());
 }
 
-/// Some feet, and those that are up to so many edges away along their ridges; ascending.
+/// Returns some ridge base vertices, and those up to n_edges away along their ridges; ascending.
 std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<VertexId> feet, int n_edges) {
   sort_unique(feet);
   for (int i = 0; i < n_edges; ++i) {
@@ -202,7 +202,7 @@ std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<V
   return feet;
 }
 
-/// Patches of the same name and kind become one: parts of a patch that was split at its corners (split_at_corners).
+/// Merges patches of the same name and kind: parts of a patch that was split at its corners (split_at_corners).
 void merge_equal_patches(HybridMesh& mesh) {
   Column<PatchId, Patch> patches;
   Column<PatchId, PatchId> merged;
@@ -266,7 +266,7 @@ FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Make
     try {
       const auto make = [&] { return make_envelope(site, makers, context); };
       EnvelopeStage envelope = made ? std::move(*made) : watch.envelope && closed.n_rounds == 0 ? watch.envelope(make) : make();
-      made.reset();  // of this round's wall
+      made.reset();  // wall of this round
       envelope.closed = closed;
       if (watch.enveloped) watch.enveloped(envelope);
       return make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
@@ -288,7 +288,7 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
   tell_needles(site.domain.needles, site.options.needles, context);
   const std::vector<WholePart> parts = site.domain.slits.empty() && !site.domain.is_opened()
                                            ? whole_parts(site.domain, site.options.parts, context)
-                                           : std::vector<WholePart>{};  // cut and opened walls are no parts' any more
+                                           : std::vector<WholePart>{};  // cut and opened walls no longer belong to placed parts
   const auto of_wall = [&] {
     const WallEnvelopeMaker& make = makers.wall_envelope;
     return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
@@ -329,7 +329,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
     filled.split_wall = *filling.split->wall;
     stage.envelope = std::move(filling.split->envelope);
   }
-  tell_warnings();  // of a layer that is not the first one any more
+  tell_warnings();  // warnings of a layer that is not the first any more
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};

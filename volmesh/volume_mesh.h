@@ -1,4 +1,4 @@
-// The driver: from a wall to a hybrid mesh. A list of steps, nothing else.
+// The driver: from a wall to a hybrid mesh, as a list of steps.
 #pragma once
 
 #include <string>
@@ -24,20 +24,21 @@ struct VolumeMeshResult {
   CheckReport check;
   ImproveReport improvement;
   std::string tetra_engine;                 ///< "tetgen", "tetgen in two passes", "hxt" or "sterna"
-  std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
-  std::string tetra_choice;                 ///< what choose_engine() compared and chose; empty where it did not have to
-  std::int64_t n_split_triangles = 0;       ///< of wall and outer boundary, by which the mesh has more than were given
-  NeedleReport needles;                     ///< what was done about them before
-  bool is_reproducible = true;              ///< false when a time or memory limit decided what was done
-  double tetra_engine_seconds = 0.0;        ///< inside the engine alone; log only
+  std::vector<std::string> tetra_failures;  ///< failures of the previous attempts, in order
+  std::string tetra_choice;                 ///< comparison and choice of choose_engine(); empty if it was not necessary
+  std::int64_t n_split_triangles = 0;       ///< additional triangles of wall and outer boundary, compared with the input
+  NeedleReport needles;                     ///< sliver splitting before the mesh was made
+  bool is_reproducible = true;              ///< false if a time or memory limit affected the result
+  double tetra_engine_seconds = 0.0;        ///< time inside the engine alone; log only
   double tetra_engine_peak_bytes = 0.0;     ///< log only
 };
 
-/// Steps: farfield, needles of the wall (split_needles.h), envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check.
-/// Where the tetrahedra's engine was to split triangles of its boundary (tetra.h), wall, envelope and farfield of the mesh are split with them (split_layer.h);
-/// where all engines fail, the envelope is repaired and everything from the extrusion on is done again (repair_envelope.h), 3 times at most.
+/// Makes a volume mesh. Steps: farfield, sliver triangles of the wall (split_needles.h), envelope (build_envelope.h), extrude and repair, certificate,
+/// tetrahedra, improve, assemble, check. If the tet engine had to split boundary triangles (tetra.h), wall, envelope and farfield of the mesh are split in the
+/// same way (split_layer.h). If all engines fail, the envelope is repaired and all steps from the extrusion on are repeated (repair_envelope.h), 3 times at
+/// most.
 /// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
-/// \throws Error of the stages; mesh_invalid when the final check finds violations.
+/// \throws Error of the stages; mesh_invalid if the final check finds violations.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// What a body leaves behind: whether anything refines it, and the source that does.
+// Wake of a body: detection of bodies without wake refinement, and the size source that refines the wake.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -8,24 +8,24 @@
 
 namespace sterna::volmesh {
 
-/// What wake{ wall, ... } and --wake take.
+/// Arguments of wake{ wall, ... } and --wake.
 struct BodyWake {
   double length = 2.0;
   double size = k_automatic;
   double size_end = k_automatic;
   double spread = 0.05;
 };
-/// Short edges in what the body leaves behind: as wide and as high as the body, from its middle on to `length` body lengths behind its end. In a surface that
-/// encloses its fluid (a tunnel with a model) the body is what is no outer wall, and the wake ends where the fluid does.
-/// \throws Error(bad_argument) for a surface without walls, and for one that encloses its fluid and has no other walls than outer ones
+/// Returns a size source with short edges in the wake of the body: as wide and as high as the body, from the body's middle to `length` body lengths behind its
+/// end. In a surface that encloses its fluid (a tunnel with a model), the body is all walls except the outer walls, and the wake ends where the fluid ends.
+/// \throws Error(bad_argument) for a surface without walls, and for a surface that encloses its fluid and has only outer walls
 SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction);
 
-/// A body in a farfield of our own without any source or wake sheet, its own or the family's: nothing but the growth of tetrahedra resolves its wake. Not of
-/// tunnels and of bodies with engines, whose flow is not around them, and of what is no body.
+/// Returns true for a body in a generated farfield without any size source or wake sheet, its own or the family's: its wake is resolved only by the growth of
+/// tetrahedra. Returns false for tunnels, for bodies with engines (their flow is not only around them), and for surfaces that are no body.
 bool has_bare_wake(const TriMesh& surface, const MeshCase& options);
 
-/// Members of a family get wake{ wall }, along x, where nothing else refines the wake (family_wake): their sources with it, in edges of the medium member. Told
-/// in the log. \pre not refined() yet
+/// Adds the source wake{ wall }, along x, to members of a mesh family if nothing else refines the wake (family_wake). Edge lengths are those of the medium
+/// member. The log reports the addition. \pre not refined() yet
 MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunContext& context);
 
 }  // namespace sterna::volmesh

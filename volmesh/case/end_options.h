@@ -1,4 +1,4 @@
-// Options of the triangles on patches where layers end (rims/end_surface.h).
+// Options of the triangulation of adjacent patches, where layers end (rims/end_surface.h).
 #pragma once
 
 #include <numbers>
@@ -10,7 +10,7 @@ namespace sterna::volmesh {
 
 struct EndOptions {
   double size_growth = 1.3;                            ///< ratio of the edges of neighbouring triangles away from the loops
-  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: goal; smaller ones stay where loops force them
+  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: target; smaller angles remain where the loops force them
   int max_triangles = 20'000'000;
 };
 

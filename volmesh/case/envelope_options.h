@@ -1,4 +1,4 @@
-// Options of the envelope: what the user asks of the prismatic layer.
+// Options of the envelope: user requirements for the prismatic layer.
 #pragma once
 
 #include <string>
@@ -34,7 +34,7 @@ struct EnvelopeOptions {
   double barrier_weight = 0.02;
 };
 
-/// Whether flat cells grow by the same ratio on all lines (growth_law.h).
+/// Returns true if flat cells grow by the same ratio on all growth lines (growth_law.h).
 inline bool has_common_growth(const EnvelopeOptions& options) { return options.growth == "uniform"; }
 
 }  // namespace sterna::volmesh

@@ -8,7 +8,8 @@
 
 namespace sterna::volmesh {
 
-/// Ratios of edge lengths of neighbours in a family, and their names: 1.5 per direction, 3.4 times the nodes, as in the workshops since DPW-4.
+/// Names of the family members and their refinement; consecutive members differ by 1.5 in edge length per direction, 3.4 times the nodes, as in the workshops
+/// since DPW-4.
 inline constexpr std::string_view k_family_names = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25";
 
 struct FamilyOptions {

@@ -1,4 +1,4 @@
-// What ends the fluid far from the bodies: a sphere, a box, a cylinder, a surface of the user's, or nothing.
+// Options of the outer boundary: a sphere, a box, a cylinder, a user-supplied surface, or none.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace sterna::volmesh {
 struct FarfieldOptions {
   std::string farfield_shape = "automatic";
   double farfield_radius = k_automatic;
-  double farfield_edge = k_automatic;  ///< below zero, which no user can give: that share of the automatic edge
+  double farfield_edge = k_automatic;  ///< a negative value, which users cannot enter, is a share of the automatic edge
   double farfield_center_x = k_automatic;
   double farfield_center_y = k_automatic;
   double farfield_center_z = k_automatic;
@@ -28,24 +28,24 @@ struct FarfieldOptions {
   std::string farfield_surface;
 };
 
-/// What the user says of one side of the outer shape: of a box x_min .. z_max, of a cylinder start, end, side, of other shapes the names of their patches; and
-/// of the planes that bodies end on: symmetry, or where there are several symmetry_y, symmetry_z, symmetry_y_min ...
+/// User settings for one side of the outer shape. Sides are x_min .. z_max for a box; start, end and side for a cylinder; patch names for other shapes. Planes
+/// that bodies end on are also sides: symmetry, or with several planes symmetry_y, symmetry_z, symmetry_y_min ...
 struct SideRule {
   std::string side;
-  std::string name;  ///< of its patch; empty: the kind's
+  std::string name;  ///< name of the side's patch; empty: the name of the kind
   PatchKind kind = PatchKind::farfield;
   bool has_kind = false;      ///< false: `kind` was not given
   double edge = k_automatic;  ///< m
 };
 
 /// Reads "x_min=inflow x_max=outflow,name:exit,edge:0.5 z_min=slip".
-/// \throws Error(bad_argument) with the entry that is wrong
+/// \throws Error(bad_argument) with the invalid entry
 std::vector<SideRule> parse_sides(const std::string& text);
-/// The same text from rules; parse_sides() gives them back.
+/// Returns the string form of the rules; parse_sides() restores them.
 std::string sides_text(const std::vector<SideRule>& rules);
 
-/// Kind by its name.
-/// \throws Error(bad_argument) that lists them
+/// Returns the patch kind of this name.
+/// \throws Error(bad_argument) with the list of kinds
 PatchKind patch_kind_of(const std::string& name, const std::string& attempted);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// First heights that differ from place to place: values of a function at the vertices of a surface, and between them.
+// First heights that vary over the surface: values of a function at the vertices, interpolated between them.
 #pragma once
 
 #include <memory>
@@ -14,22 +14,22 @@ class TriangleTree;  // geom/mesh/bvh.h
 
 namespace sterna::volmesh {
 
-/// Immutable; may be asked from many threads.
+/// Immutable; at() is thread-safe.
 class FirstHeights {
  public:
   /// One height per vertex, metres.
-  /// \throws Error(bad_argument) with the place of a height that is not a length of at least k_least_first_height
+  /// \throws Error(bad_argument) with the location of a height that is not a length of at least k_least_first_height
   FirstHeights(const TriMesh& surface, std::vector<double> heights, const RunContext& context);
   ~FirstHeights();
   FirstHeights(const FirstHeights&) = delete;
   FirstHeights& operator=(const FirstHeights&) = delete;
 
-  /// At a vertex its height, to the bit; else that of the nearest point of the surface, interpolated in logarithms over its triangle; m.
+  /// Returns the height at a point, m: bit-exact at a vertex, otherwise at the nearest point of the surface, interpolated in logarithms over its triangle.
   double at(const Point& p) const;
   double least() const { return least_; }
   double greatest() const { return greatest_; }
   std::span<const double> values() const { return heights_; }
-  /// All heights divided by `factor`, of a finer mesh of a family.
+  /// Returns all heights divided by `factor`, for a finer member of a mesh family.
   std::shared_ptr<const FirstHeights> refined(double factor, const RunContext& context) const;
 
  private:
@@ -39,6 +39,6 @@ class FirstHeights {
   std::unique_ptr<const TriangleTree> tree_;
 };
 
-inline constexpr double k_least_first_height = 1e-12;  ///< m, as of the option first_height
+inline constexpr double k_least_first_height = 1e-12;  ///< m, same minimum as the option first_height
 
 }  // namespace sterna::volmesh

@@ -19,20 +19,20 @@ double geometric_sum(double q, int n) {
   return std::expm1(n * std::log1p(q)) / q;
 }
 
-constexpr int k_bend_steps = 100;            ///< Newton's or bisection's
-constexpr double k_sum_tolerance = 1e-13;    ///< of the total height
-constexpr double k_unbent = 1.0 / 3.0;       ///< of the least height for the first cell: lines that low have the bend of full ones
-constexpr double k_compressed = 1.0 + 1e-9;  ///< of n h0
-constexpr double k_largest_bend = 1e200;     ///< beyond any that a height above n h0 asks for
-constexpr double k_least_edge_share = 0.4;   ///< of a line's edge, by which the bend of a low line acts at least
-constexpr double k_log_step = 1.0;           ///< of the first height's logarithm
-constexpr double k_first_tolerance = 1e-14;  ///< of the same
-constexpr double k_kept_growth = 0.6;        ///< of r - 1 at the top of lines as tall as asked: what lower lines keep before their first cells get lower
+constexpr int k_bend_steps = 100;            ///< Newton or bisection steps
+constexpr double k_sum_tolerance = 1e-13;    ///< relative to the total height
+constexpr double k_unbent = 1.0 / 3.0;       ///< share of the least height for the first cell; growth lines this low have the bend of full-height lines
+constexpr double k_compressed = 1.0 + 1e-9;  ///< relative to n h0
+constexpr double k_largest_bend = 1e200;     ///< larger than any bend required by a height above n h0
+constexpr double k_least_edge_share = 0.4;   ///< lower limit of the edge length at which the bend of a low growth line acts, as a share of the line's edge
+constexpr double k_log_step = 1.0;           ///< step in the logarithm of the first height
+constexpr double k_first_tolerance = 1e-14;  ///< tolerance in the logarithm of the first height
+constexpr double k_kept_growth = 0.6;  ///< share of r - 1 at the top of a full-height growth line that lower lines keep before their first cells get lower
 
-/// Heights of the cells of a line with this bend, and the sum's derivative by it.
+/// Cell heights of a growth line with this bend: their sum, and the derivative of the sum with respect to the bend.
 struct BentSum {
   double sum = 0.0, slope = 0.0;
-  double last = 0.0, ratio = 1.0;  ///< of the last cell
+  double last = 0.0, ratio = 1.0;  ///< height and ratio of the last cell
 };
 
 BentSum bent_sum(const LineGrowth& line, double bend, int n) {
@@ -62,9 +62,9 @@ BentSum bent_sum(const LineGrowth& line, double bend, int n) {
   return result;
 }
 
-/// The bend whose heights have this sum, by Newton's method between bounds. \pre n >= 2, height above n h0
+/// Returns the bend whose cell heights have this sum, by Newton's method between bounds. \pre n >= 2, height above n h0
 double bend_for_height(const LineGrowth& line, double height, int n) {
-  double low = 0.0, high = 0.0;  // of the bend: the sum is above the height at `low`, below it at `high`
+  double low = 0.0, high = 0.0;  // bounds of the bend: the sum is above the height at `low`, below it at `high`
   const double straight = bent_sum(line, 0.0, n).sum;
   if (std::abs(straight - height) <= k_sum_tolerance * height) return 0.0;
   double step = 1.0;
@@ -94,14 +94,14 @@ double bend_for_height(const LineGrowth& line, double height, int n) {
   return bend;
 }
 
-/// The cells of a line whose flat ones grow by the common ratio.
+/// Cells of a growth line whose flat cells grow by the common ratio.
 struct CommonCells {
-  double first = 0.0;  ///< m, height of the first
+  double first = 0.0;  ///< m, height of the first cell
   double bend = 0.0;
-  double edge = 0.0;  ///< m, by which the bend acts (bend_share)
+  double edge = 0.0;  ///< m, edge length at which the bend acts (bend_share)
 };
 
-/// Bends of a line as tall as asked (at least 0), and the largest, of a line that is lower.
+/// Bend of a growth line of target height (at least 0), and the largest bend of a lower line.
 struct Bends {
   double asked = 0.0, largest = 0.0;
 };
@@ -112,7 +112,7 @@ Bends bends_of(const LineGrowth& line, int n) {
   return {std::max(0.0, bend), std::max(0.0, line.common / (1.0 + k_kept_growth * (top - 1.0)) - 1.0)};
 }
 
-/// First height, m, with which n cells of this bend are `height` tall, by bisection of its logarithm: the sum grows with it.
+/// Returns the first height, m, with which n cells of this bend have the total height `height`, by bisection of its logarithm: the sum grows with it.
 /// \pre the sum with line.h0 is at least `height`
 double first_for_height(LineGrowth line, double bend, double height, int n) {
   double high = std::log(line.h0), low = high;
@@ -136,7 +136,7 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
   const Bends bends = bends_of(line, n);
   const double lowest = bent_sum(line, bends.largest, n).sum;
   if (height > lowest) return {line.h0, bend_for_height(line, height, n), line.edge};
-  // The first cell is lower anyway: the lower the line, the more its last cells grow as on a full one.
+  // The first cell is reduced in any case: the lower the growth line, the more its last cells grow as on a full-height line.
   const double squeeze = std::clamp((height / lowest - k_unbent) / (1.0 - k_unbent), 0.0, 1.0);
   const double bend = bends.asked + squeeze * (bends.largest - bends.asked);
   const double share = height / bent_sum(line, bend, n).sum;
@@ -147,7 +147,7 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
   return {first_for_height(low, bend, height, n), bend, low.edge};
 }
 
-/// The line as its cells are.
+/// The growth line with the first height and edge of its actual cells.
 LineGrowth as_made(LineGrowth line, const CommonCells& cells) {
   line.h0 = cells.first;
   line.edge = cells.edge;

@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::string>& texts, const char* between) {
   return text;
 }
 
-/// What the rule requests of a layer, as the user writes it; empty where it requests none.
+/// Returns the layer options that the rule sets, as the user writes them; empty if it sets none.
 std::vector<std::string> layer_requests(const PatchRule& rule) {
   std::vector<std::string> requests;
   const auto add = [&](const char* name, const std::string& value) { requests.push_back(std::string(name) + " = " + value); };
@@ -44,20 +44,20 @@ std::vector<std::string> layer_requests(const PatchRule& rule) {
   return requests;
 }
 
-/// Whether the rule takes the layers of its patches away, whatever others request.
+/// Returns true if the rule removes the layers of its patches, whatever other rules request.
 bool ends_layers(const PatchRule& rule) { return rule.layers == 0 || (rule.kind != k_nothing.kind && rule.kind != "wall"); }
 
-/// Whether the rule was made for a placed part, by its length, and not by the user.
+/// Returns true if the rule was made for a placed part, from its length, and not by the user.
 bool is_of_part(const PatchRule& rule, std::size_t n_requests, const MeshCase& options) {
   return !options.parts.empty() && n_requests == 1 && !is_automatic(rule.max_thickness);
 }
 
-/// A rule and the patches that have names like it.
+/// A rule and its effect on the patches whose names match it.
 struct RuleUse {
-  std::vector<std::string> without;  ///< names of its patches without layers, each with the reason
-  bool is_used = false;              ///< a patch with layers has it
-  bool is_replaced = true;           ///< a later rule takes the layers of all others away
-  bool is_no_wall = false;           ///< a patch is of another kind than wall
+  std::vector<std::string> without;  ///< names of matching patches without layers, each with the reason
+  bool is_used = false;              ///< a patch with layers uses the rule
+  bool is_replaced = true;           ///< a later rule removes the layers of all other patches
+  bool is_no_wall = false;           ///< a patch is not of kind wall
 };
 
 RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PatchRule> rules) {
@@ -79,7 +79,7 @@ RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Colum
   return use;
 }
 
-/// Options of all walls that no patch with layers uses.
+/// Warns of wall options that no patch with layers uses.
 void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, const MeshCase& options,
                             const RunContext& context) {
   const EnvelopeOptions& all = options.envelope;
@@ -100,24 +100,24 @@ void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<
   warn_unless_used("max_thickness", all.max_thickness, &PatchRule::max_thickness);
 }
 
-/// A shape of the farfield and whether it has the group of options.
+/// A group of options and the farfield shape it belongs to.
 struct FarfieldGroup {
   std::string given;  ///< "farfield_radius = 5", empty where none is given
   bool is_used;
   const char* shapes;
 };
 
-/// Winding numbers above are of places in the fluid or on its boundary.
+/// Locations with larger winding numbers are in the fluid or on its boundary.
 constexpr double k_in_fluid = 0.25;
-/// Samples of a region along each side of its box.
+/// Samples of a region along each side of its bounding box.
 constexpr int k_region_samples = 5;
-/// Times the longest edge at a vertex of the boundary: a source that requests longer edges there refines nothing beside it.
+/// Factor on the longest edge at a boundary vertex: a source that requests longer edges there refines nothing near the vertex.
 constexpr double k_of_edge = 2.0;
 
-/// Distance of a place from the region of a source, m.
+/// Distance of a location from the region of a source, m.
 double distance_from(const SizeSource& source, const Point& p) { return size_of(source, p, 1.0) - size_of(source, p, 0.0); }
 
-/// A box around the region of a source.
+/// Returns a bounding box of the region of a source.
 Box box_of(const SizeSource& source) {
   Box box;
   if (source.kind == SourceKind::samples) {
@@ -142,7 +142,7 @@ Box box_of(const SizeSource& source) {
   return box;
 }
 
-/// Points of the region: those of a grid in its box that are in it, its ends and its middle.
+/// Sample points of the region: points of a grid in its box that lie inside, its ends and its middle.
 std::vector<Point> samples_of(const SizeSource& source) {
   if (source.kind == SourceKind::samples) return source.points;
   std::vector<Point> samples = {source.from};
@@ -195,7 +195,7 @@ void require_used_farfield(const FarfieldOptions& options) {
   const auto given = [](std::initializer_list<std::pair<const char*, double>> members) {
     std::vector<std::string> texts;
     for (const auto& [name, value] : members)
-      if (!is_automatic(value) && !(std::string_view(name) == "farfield_edge" && value <= 0.0))  // below zero: made by the family
+      if (!is_automatic(value) && !(std::string_view(name) == "farfield_edge" && value <= 0.0))  // negative: set by the family
         texts.push_back(std::string(name) + " = " + number_text(value));
     return joined(texts, ", ");
   };
@@ -232,7 +232,7 @@ void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, c
   Column<VertexId, double> longest;
   for (std::size_t i = 0; i < options.sources.size(); ++i) {
     const SizeSource& source = options.sources[i];
-    if (!problem_of(source, options.size.size_growth).empty()) continue;  // refused where the size field is made
+    if (!problem_of(source, options.size.size_growth).empty()) continue;  // rejected later, when the size field is built
     const std::vector<Point> samples = samples_of(source);
     if (std::ranges::any_of(samples, [&](const Point& p) { return std::abs(tree.winding_number(p)) > k_in_fluid; })) continue;
     NearestHit nearest;

@@ -1,4 +1,4 @@
-// Options of what a mesh may need of the machine (volmesh/forecast.h).
+// Limits on the machine resources of a mesh (volmesh/forecast.h).
 #pragma once
 
 #include "geom/base/schema.h"

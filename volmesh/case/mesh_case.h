@@ -1,4 +1,4 @@
-// All that is asked of a volume mesh but the surface: options of every stage, and what is no option.
+// The complete request for a volume mesh except the surface: options of every stage, and inputs that are no options.
 #pragma once
 
 #include <memory>
@@ -42,30 +42,29 @@ struct MeshOptions {
   LimitOptions limits;
 };
 
-/// What is asked for and is no option, and what is known of the surface.
+/// Inputs that are no options, and known properties of the surface.
 struct MeshFacts {
-  /// By place, where rules of patches say nothing else; null: envelope.first_height. With them that is the least of them.
+  /// First heights by location, where patch rules set none; null: envelope.first_height. If set, envelope.first_height is their minimum.
   std::shared_ptr<const FirstHeights> first_heights;
-  std::vector<PatchRule> patches;                   ///< what patches ask for instead; of several rules that match the last counts (sort_by_pattern)
-  std::shared_ptr<const TriMesh> farfield_surface;  ///< for its shape "surface"
-  std::vector<SizeSource> sources;                  ///< of the size field
+  std::vector<PatchRule> patches;                   ///< patch-specific settings; of several matching rules the last counts (sort_by_pattern)
+  std::shared_ptr<const TriMesh> farfield_surface;  ///< for the farfield shape "surface"
+  std::vector<SizeSource> sources;                  ///< sources of the size field
   std::vector<ActuatorDisc> discs;                  ///< in the fluid
   std::vector<WakeSheet> wakes;                     ///< behind trailing edges of the walls
-  std::vector<PeriodicNames> periodic;              ///< pairs of patches, also of those that are added, that are to match node by node and face by face
-  /// rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle.
+  std::vector<PeriodicNames> periodic;              ///< pairs of patches, including added patches, that must match node by node and face by face
+  /// rad: largest dihedral turn in the smooth part of the wall, if the surface mesher provides it; sets the default feature angle.
   double smooth_angle = k_automatic;
-  std::vector<PlacedPart> parts;  ///< of the wall, that were meshed elsewhere and moved: their envelopes are made there, too, and moved (joint_envelope.h)
+  std::vector<PlacedPart> parts;  ///< parts of the wall meshed elsewhere and moved; their envelopes are made there, too, and moved (joint_envelope.h)
 };
 
-/// The whole request; members of its own would be in no list.
+/// The complete request. It must have no members of its own: they would be in no option list.
 struct MeshCase : MeshOptions, MeshFacts {};
 
-/// All options of all stages, for Lua, the command line, help and the manifest. `options` must outlive the table.
+/// Returns all options of all stages, for Lua, the command line, help and the manifest. `options` must outlive the table.
 OptionTable options_of(MeshOptions& options);
-/// Those that may be given at one of the steps.
+/// Returns the options that may be given at one of the steps.
 OptionTable options_of(MeshOptions& options, MeshSteps steps);
-/// All; first_height is not required where rules of patches give it, as then each patch with layers is asked for its own (layers_of_patches), and where no
-/// patch is to have layers.
+/// Returns all options. first_height is not required if patch rules give it (layers_of_patches then checks each patch with layers), or if no patch has layers.
 OptionTable required_options_of(MeshCase& mesh_case);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// Options of what is done about needles of the given wall (domain/split_needles.h).
+// Options for sliver triangles of the input wall (domain/split_needles.h).
 #pragma once
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// What patches with such names ask for instead of what holds for all walls. Options only; volmesh/envelope/patch_layers.h makes use of them.
+// Patch rules: settings that replace the global wall options on patches whose names match. Options only; volmesh/envelope/patch_layers.h applies them.
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
-// Pairs of patches that the user wants to be periodic.
+// Pairs of patches that the user declares periodic.
 #pragma once
 
 #include <string>
 
 namespace sterna::volmesh {
 
-/// Names of two patches that are to be each other's image.
+/// Names of two patches that must be images of each other.
 struct PeriodicNames {
   std::string first, second;
   friend bool operator==(const PeriodicNames&, const PeriodicNames&) = default;

@@ -1,4 +1,4 @@
-// Options of what is done at sharp convex edges of walls with layers (domain/open_ridges.h).
+// Options for sharp convex edges of walls with layers (domain/open_ridges.h).
 #pragma once
 
 #include <numbers>

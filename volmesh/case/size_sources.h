@@ -1,4 +1,4 @@
-// Regions where the user wants a given edge length.
+// Regions with a user-specified edge length.
 #pragma once
 
 #include <string>
@@ -22,29 +22,30 @@ enum class SourceKind {
 /// "point", "line", ...
 std::string_view to_string(SourceKind kind);
 
-/// Edge length `size` inside of the region (a wake: growing linearly to `size_end` at its end); outside it grows with the distance from there.
+/// A source with edge length `size` inside its region (for a wake, growing linearly to `size_end` at its end); outside, the edge length grows with the distance
+/// from the region.
 struct SizeSource {
   SourceKind kind = SourceKind::point;
   Vec3 from;                      ///< m
   Vec3 to;                        ///< m
-  Vec3 direction{1.0, 0.0, 0.0};  ///< of a wake; any length
+  Vec3 direction{1.0, 0.0, 0.0};  ///< wake only; any length
   double radius = 0.0;            ///< m
-  double length = 0.0;            ///< m, of a wake
-  double height = 0.0;            ///< m, of a wake
-  double spread = 0.0;            ///< of a wake: tangent of half its opening angle
+  double length = 0.0;            ///< m, wake only
+  double height = 0.0;            ///< m, wake only
+  double spread = 0.0;            ///< wake only: tangent of half the opening angle
   double size = 0.0;              ///< m
-  double size_end = 0.0;          ///< m, of a wake; 0: the same as size
-  std::vector<Vec3> points;       ///< m, of samples
-  std::vector<double> sizes;      ///< m, one for each point
+  double size_end = 0.0;          ///< m, wake only; 0: same as size
+  std::vector<Vec3> points;       ///< m, samples only
+  std::vector<double> sizes;      ///< m, one per point
 };
 
-/// What is wrong with a source, in the user's words; empty when nothing is. \p growth: limit of the field that it goes into.
+/// Returns a description of the error in a source, in the user's terms; empty if there is none. \p growth: growth limit of the size field.
 std::string problem_of(const SizeSource& source, double growth);
 
-/// Volume of the region, m^3 (of a swept or growing wake about); 0 for points and samples.
+/// Volume of the region, m^3 (approximate for a swept or growing wake); 0 for points and samples.
 double volume_of(const SizeSource& source);
 
-/// Edge length that the source asks for at a place when sizes grow by `slope` per length; infinite for samples, which the field's tree handles.
+/// Returns the edge length that the source requests at a location if sizes grow by `slope` per length; infinite for samples, which the field's tree handles.
 /// \pre problem_of() is empty. Lipschitz with constant `slope`.
 double size_of(const SizeSource& source, const Vec3& p, double slope);
 

@@ -1,4 +1,4 @@
-// Whether so many layers reach the size of the tetrahedra on them, by the triangles of the wall alone.
+// Checks whether the layers grow to the size of the adjacent tetrahedra, from the wall triangles alone.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 namespace sterna::volmesh {
 
 struct ThinLayers {
-  double share = 0.0;  ///< of the walls' area on which the last of the layers stays thinner than a third of a regular tetrahedron
-  int enough = 0;      ///< layers that reach that on nine tenths of the area, with the same growth
+  double share = 0.0;  ///< share of the walls' area where the last layer stays thinner than a third of a regular tetrahedron
+  int enough = 0;      ///< number of layers that reaches this height on nine tenths of the area, with the same growth
 };
 
-/// Of layers of full height. Nothing where the share is below a tenth, and where not one request counts for all walls (rules of patches, heights by place, a
-/// height that is given): volmesh/inspect knows those.
+/// Estimates for layers of full height. Returns nothing if the share is below a tenth, or if the request is not the same for all walls (patch rules, first
+/// heights by location, a given total height): volmesh/inspect handles these cases.
 std::optional<ThinLayers> thin_layers(const TriMesh& surface, const MeshCase& options);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// What a wall may do where its layer is too low for all layers that were asked for (layer/truncate.h).
+// Layer truncation on a wall: behaviour where the layer is too low for all requested layers (layer/truncate.h).
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 
 namespace sterna::volmesh {
 
-/// In the order in which lines give up more layers.
+/// Ordered by how many layers growth lines give up.
 enum class Truncation : std::uint8_t { never, automatic, always };
-/// \p text "auto", "never" or "always", as PrismOptions::truncate. \throws Error(bad_argument) for another
+/// Returns the truncation named by \p text: "auto", "never" or "always", as PrismOptions::truncate. \throws Error(bad_argument) for any other string
 Truncation truncation_of(std::string_view text);
 
 }  // namespace sterna::volmesh

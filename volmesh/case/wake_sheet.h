@@ -1,4 +1,4 @@
-// Wake sheets: surfaces behind trailing edges, without thickness, on which the layers of both sides of a wing go on.
+// Wake sheets: zero-thickness surfaces behind trailing edges, on which the layers of both sides of a wing continue.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace sterna::volmesh {
 
-/// What is asked for behind the trailing edges of some walls (domain/wake_sheets.h). The sheet is no patch: cells of both sides share its faces.
+/// Request for a wake sheet behind the trailing edges of some walls (domain/wake_sheets.h). The sheet is no patch: cells of both sides share its faces.
 struct WakeSheet {
-  std::string wing = "*";              ///< patches with trailing edges, a pattern as in rules of patches
+  std::string wing = "*";              ///< patches with trailing edges, a pattern as in patch rules
   double length = 2.0;                 ///< local chords
   double growth = 1.2;                 ///< largest ratio of consecutive edges along the stream
   double height_growth = 1.2;          ///< largest ratio of first heights of consecutive rows of cells along the stream
-  std::optional<Vec3> direction = {};  ///< of the free stream, any length; empty: what the domain says (domain/wake_sheets.h, stream_of)
+  std::optional<Vec3> direction = {};  ///< free-stream direction, any length; empty: derived from the domain (domain/wake_sheets.h, stream_of)
 };
 
 }  // namespace sterna::volmesh

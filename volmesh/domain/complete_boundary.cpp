@@ -21,14 +21,14 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_completing_attempt = "completing the boundary";
-constexpr double k_shape_snap = 0.3;  ///< share of HalfOptions: the shape's own triangles matter less than good ones at its rim
+constexpr double k_shape_snap = 0.3;  ///< HalfOptions::snap: keeping the shape's own triangles matters less than good triangles at its open boundary
 
 bool is_changed(const FarfieldOptions& options) {
   FarfieldOptions defaults, copy = options;
   const OptionTable table = sterna::options_of(copy), of_defaults = sterna::options_of(defaults);
   for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table[i].name == "farfield_sides") continue;                             // of planes, too
-    if (table[i].name == "farfield_edge" && copy.farfield_edge < 0.0) continue;  // a share of the automatic one
+    if (table[i].name == "farfield_sides") continue;                             // also applies to planes
+    if (table[i].name == "farfield_edge" && copy.farfield_edge < 0.0) continue;  // a share of the automatic edge
     const OptionValue value = table[i].get();
     if (const auto* number = std::get_if<double>(&value)) {
       if (!is_automatic(*number)) return true;
@@ -39,7 +39,7 @@ bool is_changed(const FarfieldOptions& options) {
   return false;
 }
 
-/// Components that reach farthest along some axis that no plane cuts: nothing is around them.
+/// Components that reach farthest along some axis that no plane cuts: nothing encloses them.
 std::vector<std::uint32_t> outermost(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends) {
   std::vector<std::uint32_t> result;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> outermost(const TriMesh& mesh, const Components& comp
   return result;
 }
 
-/// The surface is all around its fluid. \throws when some of what is outermost is, and some is not
+/// Returns true if the surface encloses its fluid. \throws if some of the outermost components enclose the fluid and some do not
 bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const EndPlane> ends) {
   const Components components = connected_components(mesh, topology);
   const std::vector<double> volumes = volumes_of(mesh, components, ends);
@@ -82,7 +82,7 @@ bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const
   throw Error(std::move(info));
 }
 
-/// One vertex of each part, off the planes, is enough: preflight finds what crosses.
+/// Checks one vertex of each part, off the planes. This is enough: preflight finds intersections.
 void check_encloses(const TriMesh& surface, const Topology& topology, std::span<const EndPlane> ends, const TriMesh& shape, const RunContext& context) {
   const Components components = connected_components(surface, topology);
   const TriangleTree tree(shape, context);
@@ -105,7 +105,7 @@ void turn(TriMesh& mesh) {
   for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-/// The user's surface with normals into the fluid, and farfield where nothing better is known.
+/// The user's surface with normals into the fluid; kind farfield where no other kind is known.
 TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const OuterOptions& options, std::span<const EndPlane> ends,
                       const RunContext& context) {
   if (!options.surface || options.surface->n_triangles() == 0)
@@ -138,7 +138,7 @@ TriMesh make_shape(const TriMesh& surface, const Topology& topology, const Outer
   return farfield_sphere(surface, options.farfield, context, ends);
 }
 
-/// Patches as the user wants them; sides that nothing is said of become one "farfield", those of equal name and kind one patch.
+/// Applies the side rules to the patches of the shape. Sides without a rule become one "farfield"; sides of equal name and kind become one patch.
 void apply_rules(std::span<const SideRule> rules, bool has_sides, TriMesh& shape) {
   Column<PatchId, Patch> patches;
   Column<PatchId, PatchId> old2new;
@@ -158,7 +158,7 @@ void apply_rules(std::span<const SideRule> rules, bool has_sides, TriMesh& shape
   for (PatchId& patch : shape.triangle_patch) patch = old2new[patch];
 }
 
-/// The patch of the shape that covers most of a plane, unless that is farfield.
+/// Returns the patch of the shape that covers most of a plane, unless it is a farfield patch.
 const Patch* patch_in_plane(const TriMesh& shape, const EndPlane& end) {
   const double tolerance = k_coincident * bounding_box(shape).longest_side();
   std::vector<double> area(shape.patches.size(), 0.0);
@@ -186,7 +186,7 @@ std::vector<Patch> default_patches(std::span<const EndPlane> ends) {
 
 std::string side_of(const EndPlane& end) { return std::string(1, "xyz"[end.axis]) + (end.inward > 0.0 ? "_min" : "_max"); }
 
-/// Of a box, the plane that bodies end on is one of its sides: a rule may name either. \throws where rules name both
+/// Merges rules for a box: a plane that bodies end on is one of the box's sides, and a rule may name either. \throws if rules name both
 std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const EndPlane> ends) {
   const std::vector<Patch> planes = default_patches(ends);
   for (SideRule& rule : rules)
@@ -196,7 +196,7 @@ std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const
       if (std::ranges::find(rules, side, &SideRule::side) != rules.end())
         throw_bad_argument("farfield_sides", "\"" + rule.side + "\" and \"" + side + "\" are the same plane", {}, "leave one of them out");
       rule.side = side;
-      // As of a plane of another shape, which is a plane of symmetry unless said otherwise.
+      // Same default as for a plane of another shape: a plane of symmetry unless specified otherwise.
       if (!rule.has_kind) rule.kind = PatchKind::symmetry;
       if (!rule.has_kind && rule.name.empty()) rule.name = planes[i].name;
       rule.has_kind = true;
@@ -204,10 +204,11 @@ std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const
   return rules;
 }
 
-/// Patches and edge lengths of the planes: what the rules say of them, or of a box's side there; else what the shape has there; else symmetry.
+/// Patches and edge lengths of the planes: from the rules for the plane or for the box's side there; otherwise from the shape's patch there; otherwise
+/// symmetry.
 struct PlaneRequests {
   std::vector<Patch> patches;
-  std::vector<double> edges;  ///< m, automatic where no rule gives one
+  std::vector<double> edges;  ///< m, automatic if no rule sets it
 };
 
 PlaneRequests requests_of_planes(std::span<const EndPlane> ends, std::span<const SideRule> rules, const TriMesh* shape, bool is_box) {
@@ -228,7 +229,7 @@ PlaneRequests requests_of_planes(std::span<const EndPlane> ends, std::span<const
   return planes;
 }
 
-/// Every rule has to speak of something that is there, and edge lengths of what is triangulated here.
+/// Checks that every rule names an existing side, and that edge lengths are given only for sides that are triangulated here.
 void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::span<const Patch> planes, bool has_own_edges) {
   std::vector<std::string> known;
   if (shape)
@@ -248,14 +249,14 @@ void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::spa
   }
 }
 
-/// Two of the planes that are to be periodic: their rims on a sphere would be no images of each other.
+/// Returns true if two of the planes are a periodic pair: their boundary edges on a sphere would not be images of each other.
 bool has_periodic_planes(std::span<const EndPlane> ends, std::span<const PeriodicNames> pairs) {
   const std::vector<Patch> planes = default_patches(ends);
   const auto is_plane = [&](const std::string& name) { return std::ranges::find(planes, name, &Patch::name) != planes.end(); };
   return std::ranges::any_of(pairs, [&](const PeriodicNames& pair) { return is_plane(pair.first) && is_plane(pair.second); });
 }
 
-/// A box in place of the sphere that nobody asked for, with the same centre and reach.
+/// Replaces the default sphere by a box with the same centre and extent.
 void choose_box(const TriMesh& surface, std::span<const EndPlane> ends, FarfieldOptions& farfield, const RunContext& context) {
   const Vec3 middle = bounding_box(surface).center();
   const double reach = is_automatic(farfield.farfield_radius) ? k_default_radius * body_length(surface) : farfield.farfield_radius;
@@ -282,7 +283,7 @@ TriMesh cut(TriMesh shape, std::span<const EndPlane> ends, const RunContext& con
   return shape;
 }
 
-/// Names that the surface has already get a number, unless the kind is the same, too.
+/// Appends a number to a name that the surface already has, unless the kind is also the same.
 void make_names_new(const TriMesh& surface, Patch& patch) {
   const std::string name = patch.name;
   const auto is_taken = [&] {
@@ -292,7 +293,7 @@ void make_names_new(const TriMesh& surface, Patch& patch) {
   for (int n = 2; is_taken(); ++n) patch.name = name + "_" + std::to_string(n);
 }
 
-/// Rims moved exactly into the planes: a vertex on two of them into both.
+/// Moves open-boundary vertices exactly into the planes; a vertex on two planes is moved into both.
 void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh& mesh) {
   for (const VertexId v : rims.vertex.ids())
     for (const std::int32_t k : rims.vertex[v].on)
@@ -312,14 +313,14 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
                  .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
 }
 
-/// Patch of a box's side: what the rules say of it, else farfield.
+/// Returns the patch of a box's side: from the rules, otherwise farfield.
 Patch patch_of_side(std::span<const SideRule> rules, const std::string& side) {
   const auto rule = std::ranges::find(rules, side, &SideRule::side);
   if (rule == rules.end() || (!rule->has_kind && rule->name.empty())) return {"farfield", PatchKind::farfield};
   return {rule->name.empty() ? std::string(to_string(rule->kind)) : rule->name, rule->kind};
 }
 
-/// An open sheet gets a lid, and sides between its rim and the lid.
+/// Adds a lid to an open sheet, and sides between its open boundary and the lid.
 TriMesh complete_over_floor(const TriMesh& surface, const Topology& topology, const FarfieldOptions& options, const RunContext& context,
                             std::vector<AddedPlane>* planes) {
   TriMesh mesh = surface;

@@ -1,4 +1,4 @@
-// From the surface that the user has to the closed surface, its patches with kinds, whose inside is the fluid.
+// Completes the user's surface to a closed surface, with patch kinds, whose inside is the fluid.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ namespace sterna::volmesh {
 struct OuterOptions {
   FarfieldOptions farfield;
   std::shared_ptr<const TriMesh> surface = nullptr;  ///< for the shape "surface": closed, or ending in the planes of the bodies
-  std::vector<PeriodicNames> periodic = {};          ///< pairs of patches, also of planes that are added
+  std::vector<PeriodicNames> periodic = {};          ///< pairs of patches, including patches of added planes
 };
 
-/// A plane that was added, beside which the fluid ends.
+/// A plane that was added as a boundary of the fluid.
 struct AddedPlane {
   std::size_t axis = 1;
   double at = 0.0;            ///< m
@@ -25,41 +25,45 @@ struct AddedPlane {
   double edge = k_automatic;  ///< m, longest edge on it
 };
 
-/// Adds what ends the fluid: the outer shape around bodies, and where bodies end in planes x, y or z = constant (half models; constraints_of_rims) these
-/// planes, with the shape cut to its part beside them. A surface that encloses its fluid gets no shape: its outermost part has normals inwards (a tunnel, a
-/// complete domain). The surface's vertices, triangles and patches come first and unchanged, but for vertices of rims, which are moved into their planes to the
-/// bit; then the shape's; then the planes', with long thin triangles between the rims: to be triangulated anew. The planes' patches are of kind symmetry and
-/// called "symmetry", where there are several "symmetry_y" or "symmetry_y_min"; farfield_sides names them otherwise. A plane in which the shape has a patch of
-/// another kind than farfield takes over its name and kind (the side wall of a tunnel that a wing stands on). Of a user's surface, normals are turned into the
-/// fluid; where it has walls alone and farfield_sides says nothing of them, they become farfield.
-/// Where two of the planes are periodic sides and no shape is given, the shape is a box, whose sides are images of each other there; a log line says so.
-/// With `farfield_floor` the surface is an open sheet, with bodies above it or none: it gets a lid, and sides from its rim upwards, patches as a box's sides
-/// (floor.h).
-/// `planes`, where it is not null, gets the planes that were added.
+/// Adds the outer boundary of the fluid: the outer shape around bodies, and the planes x, y or z = constant in which bodies end (half models;
+/// constraints_of_rims), with the shape cut to its part beside them. A surface that encloses its fluid gets no shape: its outermost part has normals inwards (a
+/// tunnel, a complete domain).
+///
+/// Order of the result: the surface's vertices, triangles and patches come first and unchanged, except for vertices of open boundaries, which are moved
+/// bit-exactly into their planes. Then come those of the shape. Those of the planes come last, with long thin triangles between the open boundaries that have
+/// to be re-meshed.
+///
+/// Patches of the planes have kind symmetry and the name "symmetry"; with several planes "symmetry_y" or "symmetry_y_min". farfield_sides can rename them. If
+/// the shape has a patch of another kind than farfield in a plane, the plane takes over its name and kind (the side wall of a tunnel that a wing stands on).
+/// Normals of a user's surface are turned into the fluid; if it has walls alone and farfield_sides has no rule for them, they become farfield.
+///
+/// If two of the planes are periodic sides and no shape is given, the shape is a box, whose sides are images of each other there; this is logged. With
+/// `farfield_floor` the surface is an open sheet, with or without bodies above it: it gets a lid, and sides from its open boundary upwards, with patches as a
+/// box's sides (floor.h). `planes`, if not null, receives the planes that were added.
 /// \pre surface manifold, normals into the fluid
 /// \post closed (no boundary edges), manifold; body volumes positive, the outermost negative
-/// \throws Error(open_surface) for rims in no plane; (bad_argument) when the shape does not enclose the bodies, when there is nothing around them (shape none),
-/// when a shape is asked for around a surface that encloses its fluid, or for farfield_sides with an edge length where nothing is triangulated by it;
-/// (empty_surface)
+/// \throws Error(open_surface) for open boundaries in no plane; (bad_argument) if the shape does not enclose the bodies, if nothing is around them (shape
+/// none), if a shape is requested around a surface that encloses its fluid, or if farfield_sides has an edge length for a side that is not triangulated with
+/// it; (empty_surface)
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context, std::vector<AddedPlane>* planes = nullptr);
 
-/// A plane x, y or z = constant that an open surface ends in.
+/// A plane x, y or z = constant in which an open surface ends.
 struct RimPlane {
   std::size_t axis = 0;
   double at = 0.0;       ///< m
   bool is_above = true;  ///< the surface is on the side of larger coordinates
-  Box rim;               ///< m, of the vertices of rims in it
-  double covered = 0.0;  ///< m^2 of the surface that lie in it
+  Box rim;               ///< m, bounding box of the open-boundary vertices in the plane
+  double covered = 0.0;  ///< m^2 of the surface that lie in the plane
 };
-/// The planes that all rims of the surface lie in; empty for a closed surface.
-/// \throws Error(open_surface) when some rim lies in no such plane or the surface is on both sides of one
+/// Returns the planes that contain all open boundaries of the surface; empty for a closed surface.
+/// \throws Error(open_surface) if some open boundary lies in no such plane or the surface is on both sides of a plane
 std::vector<RimPlane> rim_planes_of(const TriMesh& surface, const RunContext& context);
 
-/// Whether the options name or change an outer shape.
+/// Returns true if the options name or change an outer shape.
 bool is_farfield_given(const FarfieldOptions& options);
 
-/// An open surface whose outermost parts have their normals inwards, as a domain has them, but which is to be a body in a farfield: turns these parts. Nothing
-/// happens where other parts lie within them, or where the normals point outwards. \return number of parts that were turned
+/// Turns the outermost parts of an open surface whose normals point inwards, as in a domain, if the surface is meant as a body in a farfield. Nothing happens
+/// if other parts lie within them, or if the normals point outwards. \return number of parts that were turned
 std::int64_t turn_to_bodies(TriMesh& surface, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -17,11 +17,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_snap_share = 0.3;         ///< of an edge: cut nearer to its end, the end moves; triangles keep about a third of their height
-constexpr double k_on_plane = 1e-12;         ///< of the largest coordinate and the radius: rounding of a vertex that is meant to be in the plane
-constexpr double k_least_turn_cosine = 0.8;  ///< between normals of a triangle before and after one of its vertices has moved
-constexpr double k_least_area_share = 0.2;   ///< of its area that a triangle keeps when a vertex moves
-const double k_feature_cosine = std::cos(30.0 * std::numbers::pi / 180.0);  ///< edges that turn by more keep their line
+constexpr double k_snap_share = 0.3;         ///< share of an edge: cut nearer to its end, the end moves; triangles keep about a third of their height
+constexpr double k_on_plane = 1e-12;         ///< tolerance for vertices in the plane, as a share of the largest coordinate and the radius (rounding)
+constexpr double k_least_turn_cosine = 0.8;  ///< least cosine between the normals of a triangle before and after one of its vertices moves
+constexpr double k_least_area_share = 0.2;   ///< least share of its area that a triangle keeps when a vertex moves
+const double k_feature_cosine = std::cos(30.0 * std::numbers::pi / 180.0);  ///< vertices on edges that turn by more move only along these edges
 
 class Cutter {
  public:
@@ -29,7 +29,7 @@ class Cutter {
          const RunContext& context)
       : mesh_(mesh), disc_(disc), plane_(disc), has_layer_(has_layer), taken_by_(taken_by), context_(context) {}
 
-  /// Whether the disc meets walls with layers, and nothing else.
+  /// Returns true if the disc meets walls with layers, and nothing else.
   bool find_active() {
     Box box;
     for (const Point& p : mesh_.points) box.add(p);
@@ -96,7 +96,7 @@ class Cutter {
     for (const Candidate& candidate : candidates) snap(topology, candidate.vertex);
   }
 
-  /// Splits triangles; what each comes from is appended to `made`.
+  /// Splits triangles; the source triangle of each new triangle is appended to `made`.
   Column<TriangleId, TriangleId> split() {
     Column<TriangleId, TriangleVertices> triangles;
     Column<TriangleId, PatchId> patches;
@@ -108,14 +108,14 @@ class Cutter {
     };
     for (const TriangleId t : mesh_.triangles.ids()) {
       const TriangleVertices v = mesh_.triangles[t];
-      std::array<bool, 3> is_cut{};  // the edge from corner k
+      std::array<bool, 3> is_cut{};  // cut state of the edge from corner k
       int n_cut = 0;
       for (std::size_t k = 0; is_active_[t] && k < 3; ++k) n_cut += is_cut[k] = crosses(v[k], v[(k + 1) % 3]);
       if (n_cut == 0) {
         add(t, v[0], v[1], v[2]);
         continue;
       }
-      // Turned so that the only cut edge is opposite to the first corner, or the two cut edges meet there.
+      // Rotate the corners so that the only cut edge is opposite to the first corner, or so that the two cut edges meet there.
       std::size_t first = 0;
       while (n_cut == 1 ? !is_cut[(first + 1) % 3] : is_cut[(first + 1) % 3]) ++first;
       const VertexId a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
@@ -147,7 +147,7 @@ class Cutter {
   CutDisc find_outline() {
     struct Sides {
       int upstream = 0, downstream = 0;
-      std::array<VertexId, 2> edge;  ///< as upstream
+      std::array<VertexId, 2> edge;  ///< oriented as in the upstream triangle
     };
     std::map<std::array<VertexId, 2>, Sides> edges;
     std::map<VertexId, int> degree;
@@ -207,14 +207,14 @@ class Cutter {
   }
   const std::string& name(TriangleId t) const { return mesh_.patches[mesh_.triangle_patch[t]].name; }
   bool crosses(VertexId a, VertexId b) const { return (height_[a] < 0.0 && height_[b] > 0.0) || (height_[a] > 0.0 && height_[b] < 0.0); }
-  /// Of the way from a to b, where the plane is.
+  /// Fraction of the way from a to b where the plane cuts.
   double share_of(VertexId a, VertexId b) const { return height_[a] / (height_[a] - height_[b]); }
   Point cut_place(VertexId a, VertexId b) const {
     if (b < a) std::swap(a, b);
     return plane_.onto(mesh_.points[a] + share_of(a, b) * (mesh_.points[b] - mesh_.points[a]));
   }
 
-  /// What the triangle has of the plane; nothing for a point.
+  /// Section of the triangle with the plane; nothing if it is a point.
   std::optional<std::array<Point, 2>> segment(TriangleId t) const {
     const TriangleVertices& v = mesh_.triangles[t];
     std::array<Point, 6> ends;
@@ -262,7 +262,7 @@ class Cutter {
     return area_vector(a, b, c);
   }
 
-  /// Moves a vertex into the plane along its shortest way there on an edge, if an edge still is cut near it and nothing forbids it.
+  /// Moves a vertex into the plane along its shortest cut edge, if an edge is still cut near the vertex and nothing forbids the move.
   void snap(const Topology& topology, VertexId v) {
     if (height_[v] == 0.0 || taken_by_[v] != 0) return;
     std::size_t n_features = 0;
@@ -295,11 +295,12 @@ class Cutter {
       height_[v] = old_height;
       return;
     }
-    // The plane goes through triangles now that it passed by before, with the vertex alone.
+    // The plane now passes through triangles that it previously missed and that share only this vertex.
     for (const HalfedgeId h : topology.outgoing(v)) is_active_[triangle_of(h)] = 1;
   }
 
-  /// Which rims lie in the fluid: the winding number of all the boundary's sections with the plane is one there (the outermost +1, bodies -1).
+  /// Finds which boundary circles of the disc lie in the fluid: the winding number of all boundary sections with the plane is one there (the outermost +1,
+  /// bodies -1).
   void find_rims(CutDisc& cut) const {
     const Vec3 n = plane_.normal();
     const Vec3 m{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
@@ -308,7 +309,7 @@ class Cutter {
       const Point p = plane_.center() + radius * u;
       double turn = 0.0;
       for (const TriangleId t : mesh_.triangles.ids()) {
-        // Vertices in the plane count as downstream; so sections are closed.
+        // Vertices in the plane count as downstream, so that sections are closed.
         const TriangleVertices& v = mesh_.triangles[t];
         Point in, out;
         int n_ends = 0;
@@ -335,10 +336,10 @@ class Cutter {
   const Column<VertexId, std::uint32_t>& taken_by_;
   const RunContext& context_;
   Column<VertexId, double> height_;             ///< above the plane; exactly 0: in it
-  Column<TriangleId, std::uint8_t> is_active_;  ///< the disc's plane goes through it within the radii
+  Column<TriangleId, std::uint8_t> is_active_;  ///< the disc's plane cuts the triangle between the radii
   struct CutPoint {
     VertexId vertex;
-    int n_uses = 0;  ///< by triangles; two are beside an edge
+    int n_uses = 0;  ///< number of triangles; two are adjacent to an edge
   };
   std::map<std::array<VertexId, 2>, CutPoint> cut_points_;
 };
@@ -347,7 +348,7 @@ class Cutter {
 
 DiscCuts cut_discs(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const std::vector<ActuatorDisc>& discs, const RunContext& context) {
   DiscCuts cuts;
-  Column<VertexId, std::uint32_t> taken_by(boundary.n_vertices(), 0);  // by the outline of this disc, counted from 1
+  Column<VertexId, std::uint32_t> taken_by(boundary.n_vertices(), 0);  // index of the disc whose outline uses the vertex, counted from 1
   for (std::size_t i = 0; i < discs.size(); ++i) {
     require_sane(discs[i]);
     Cutter cutter(boundary, discs[i], has_layer, taken_by, context);

@@ -1,4 +1,5 @@
-// The outlines of actuator discs on walls with layers become edges of the boundary: where the disc's plane goes through the wall, triangles are split along it.
+// Cuts walls with layers along the outlines of actuator discs: where the disc's plane crosses the wall, triangles are split, so that the outline consists of
+// boundary edges.
 #pragma once
 
 #include <array>
@@ -11,27 +12,27 @@
 
 namespace sterna::volmesh {
 
-/// A disc that walls with layers reach through.
+/// A disc that walls with layers cross.
 struct CutDisc {
   std::size_t disc = 0;                          ///< index of the discs
-  std::vector<std::array<VertexId, 2>> outline;  ///< edges of the boundary, as their triangles upstream have them; closed polygons in the disc's plane
-  bool has_outer_rim = false;                    ///< the disc's own rims that lie in the fluid
+  std::vector<std::array<VertexId, 2>> outline;  ///< edges of the boundary, oriented as in their upstream triangles; closed polygons in the disc's plane
+  bool has_outer_rim = false;                    ///< boundary circles of the disc that lie in the fluid
   bool has_inner_rim = false;
 };
 
 struct DiscCuts {
   std::vector<CutDisc> discs;
-  Column<TriangleId, TriangleId> sources;  ///< of each triangle of the boundary now: the one that it is part of; empty where nothing was cut
+  Column<TriangleId, TriangleId> sources;  ///< for each triangle of the boundary now: its source triangle; empty if nothing was cut
 };
 
-/// Splits triangles of walls with layers along the planes of discs, between their radii. Vertices within k_snap_share of an edge from the plane are moved into
-/// it along that edge where triangles and edges between patches and facets allow it, so that no slivers come. All stay on the given triangles: a run that is
-/// continued from a file, without the model behind the wall, has to find the same wall. Coordinates are exact for a plane along a coordinate axis. Vertices
-/// keep their numbers, new ones follow; triangles stay in the order of those that they come from. Discs that meet no wall with layers, or another patch beside,
-/// are left out: they are judged where they are put into the fluid. \p has_layer: of each patch.
+/// Splits triangles of walls with layers along the planes of discs, between their radii. To avoid slivers, vertices within k_snap_share of an edge from the
+/// plane are moved into it along that edge, where triangles and edges between patches and facets allow the move. All vertices stay on the input triangles: a
+/// run continued from a file, without the CAD model behind the wall, has to find the same wall. Coordinates are exact for a plane along a coordinate axis.
+/// Vertices keep their numbers, new vertices follow; triangles stay in the order of their source triangles. Discs that meet no wall with layers, or also meet
+/// another patch, are skipped here: they are checked when they are inserted into the fluid. \p has_layer: for each patch.
 /// \pre boundary closed, normals into the fluid
-/// \throws Error(self_intersection) with places where a wall with layers goes through a disc's rim, touches its plane without going through, lies in it, or
-/// where two outlines meet
+/// \throws Error(self_intersection) with locations where a wall with layers crosses a boundary circle of a disc, touches its plane without crossing it, lies in
+/// it, or where two outlines meet
 DiscCuts cut_discs(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const std::vector<ActuatorDisc>& discs, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -8,10 +8,10 @@
 
 namespace sterna::volmesh {
 
-/// Along a coordinate axis its points have the centre's coordinate to the bit.
+/// Plane of a disc. If it is normal to a coordinate axis, its points have the centre's coordinate bit-exactly.
 class DiscPlane {
  public:
-  /// \pre the disc's numbers are sane (require_sane)
+  /// \pre the disc's numbers are valid (require_sane)
   explicit DiscPlane(const ActuatorDisc& disc) : center_(disc.center), normal_(normalized(disc.axis)), inner_(disc.inner_radius), outer_(disc.radius) {
     for (int k = 0; k < 3; ++k)
       if (std::abs(normal_[static_cast<std::size_t>(k)]) == 1.0) axis_ = k;
@@ -38,7 +38,7 @@ class DiscPlane {
   Point center_;
   Vec3 normal_;
   double inner_, outer_;
-  int axis_ = -1;  ///< of the coordinates, where the plane is along one
+  int axis_ = -1;  ///< coordinate axis normal to the plane, if there is one
 };
 
 }  // namespace sterna::volmesh

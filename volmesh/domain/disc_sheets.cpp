@@ -1,5 +1,5 @@
-// Rings of vertices, each as far from the next as edges are long there, turned by half an edge against each other; between two rings, triangles that advance on
-// the ring whose next vertex comes first by its angle.
+// Discs consist of rings of vertices. Ring spacing equals the local edge length, and each ring is turned by half an edge against the next. Triangles between
+// two rings advance on the ring whose next vertex comes first by its angle.
 
 #include "volmesh/domain/disc_sheets.h"
 
@@ -19,11 +19,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_shortest_edge = 1e-4;  ///< of the radius: more rings than that are a mistake
+constexpr double k_shortest_edge = 1e-4;  ///< share of the radius; more rings than that are an error
 constexpr std::size_t k_most_rings = 2000;
 constexpr int k_least_on_ring = 6;
-constexpr int k_probes = 48;                       ///< places on a ring where walls are looked for
-const double k_row_height = 0.5 * std::sqrt(3.0);  ///< of regular triangles, over their edge
+constexpr int k_probes = 48;                       ///< points on a ring at which the distance from walls is sampled
+const double k_row_height = 0.5 * std::sqrt(3.0);  ///< height over edge of regular triangles
 
 ErrorInfo problem_with(const ActuatorDisc& disc, ErrorCode code, std::string problem, std::string hint = {}) {
   return {.code = code, .attempted = "making actuator disc \"" + disc.name + "\"", .problem = std::move(problem), .hint = std::move(hint)};
@@ -63,7 +63,7 @@ class Frame {
   Vec3 u_, v_;
 };
 
-/// Vertices of walls with the geometric mean of the edges there.
+/// Vertices of walls, with the geometric mean of the edges there.
 std::vector<SizeSite> sites_of(const TriMesh& walls) {
   Column<VertexId, double> sum(walls.n_vertices(), 0.0), count(walls.n_vertices(), 0.0);
   for (const TriangleVertices& v : walls.triangles)
@@ -79,14 +79,14 @@ std::vector<SizeSite> sites_of(const TriMesh& walls) {
 
 double longest_edge(const ActuatorDisc& disc) {
   const double longest = is_automatic(disc.edge) ? k_disc_edge * disc.radius : disc.edge;
-  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;  // else a narrow ring's polygons would meet
+  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;  // otherwise the polygons of a narrow ring would meet
 }
 
 std::uint32_t edges_on_ring(double radius, double edge) {
   return static_cast<std::uint32_t>(std::max<double>(k_least_on_ring, std::round(2.0 * std::numbers::pi * radius / edge)));
 }
 
-/// Edge lengths around the disc's middle as functions of the radius.
+/// Edge lengths on circles around the disc's centre, as functions of the radius.
 class RingSizes {
  public:
   RingSizes(const ActuatorDisc& disc, const Frame& frame, const TriMesh& walls, double growth, const RunContext& context)
@@ -107,7 +107,7 @@ class RingSizes {
   std::uint32_t hint_ = 0;
 };
 
-/// Radii of the rings, from the rim inwards; 0 is a vertex in the middle.
+/// Radii of the rings, from the outer circle inwards; 0 is a vertex in the centre.
 std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
   std::vector<double> steps;
   double reached = disc.radius;
@@ -117,8 +117,8 @@ std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
                                "raise its edge, or move it away from finely meshed walls"));
     steps.push_back(k_row_height * size(reached));
   }
-  // The last step goes too far: it stays when more than half of it is needed.
-  const std::size_t least = disc.inner_radius > 0.0 ? 2 : 1;  // a ring of vertices between two free rims
+  // The last step overshoots: it is kept if more than half of it is needed.
+  const std::size_t least = disc.inner_radius > 0.0 ? 2 : 1;  // one ring of vertices between two free boundary circles
   if (steps.size() > least && disc.inner_radius - reached > 0.5 * steps.back()) {
     reached += steps.back();
     steps.pop_back();
@@ -137,7 +137,7 @@ std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
 struct Ring {
   std::uint32_t first = 0;
   std::uint32_t n = 0;
-  double turn = 0.0;  ///< angle of its first vertex
+  double turn = 0.0;  ///< angle of the ring's first vertex
   double angle(std::uint32_t i) const { return turn + 2.0 * std::numbers::pi * i / n; }
   VertexId vertex(std::uint32_t i) const { return VertexId(first + i % n); }
 };
@@ -239,7 +239,7 @@ void require_clear(const ActuatorDisc& disc, std::span<const Vec3> points, std::
 
 namespace {
 
-/// The same of a sheet and a mesh, all by indices of their own.
+/// Runs require_clear() for a baffle and another mesh, each with its own indices.
 void require_sheet_clear(const ActuatorDisc& disc, const TriMesh& sheet, const TriMesh& others, const RunContext& context) {
   std::vector<Vec3> points(sheet.points.begin(), sheet.points.end());
   points.insert(points.end(), others.points.begin(), others.points.end());
@@ -264,7 +264,7 @@ void require_sheet_clear(const ActuatorDisc& disc, const TriMesh& sheet, const T
   require_clear(disc, points, triangles, n_own, patch_of, "", context);
 }
 
-/// Vertices on the border of the part of a mesh that these triangles are.
+/// Vertices on the border of the part of a mesh that consists of these triangles.
 Column<VertexId, std::uint8_t> find_rim(const TriMesh& sheet, const std::vector<TriangleId>& triangles) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const TriangleId t : triangles)

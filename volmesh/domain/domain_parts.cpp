@@ -1,5 +1,6 @@
-// Steps: require_closed; numbering of both parts; rims (walk around each rim vertex through the patches without layers: one patch holds it on a surface, two on
-// the line where they meet, more hold it fast); surfaces of the end patches, plane where their vertices are; snapping; which wall vertices are near a surface.
+// Steps: require_closed; numbering of both parts; layer boundary (a walk around each boundary vertex through the patches without layers: one patch constrains
+// the vertex to a surface, two patches to their common line, more fix it); surfaces of the adjacent patches, plane if their vertices are; snapping; wall
+// vertices near a surface.
 #include "volmesh/domain/domain_parts.h"
 
 #include <algorithm>
@@ -19,8 +20,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_chain_sine = 1e-3;      ///< planes at a smaller angle have their line along their common edge
-constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
+constexpr double k_chain_sine = 1e-3;      ///< for planes at a smaller angle, the line is taken along their common edge
+constexpr double k_forward_cosine = 0.02;  ///< least cosine between the wall's normal and a line along which a layer grows
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
@@ -43,10 +44,10 @@ void require_closed(const TriMesh& surface, const Topology& topology) {
   throw Error(std::move(info));
 }
 
-/// One of the two parts: triangles that are chosen, their vertices and patches numbered anew in the order of the surface.
+/// One of the two parts: selected triangles, with their vertices and patches renumbered in the order of the surface.
 struct Part {
   TriMesh mesh;
-  Column<VertexId, VertexId> surface2part;  ///< invalid where the part has no such vertex
+  Column<VertexId, VertexId> surface2part;  ///< invalid if the part has no such vertex
   Column<PatchId, PatchId> patch2part;
   Column<TriangleId, TriangleId> part2surface;
 };
@@ -78,10 +79,10 @@ Part part_of(const TriMesh& surface, const Chosen& is_chosen) {
   return part;
 }
 
-/// Around a rim vertex, from its border half-edge that leaves to the one that arrives: half-edges from the vertex at which the patch beyond changes.
+/// Walk around a layer boundary vertex, from its outgoing border half-edge to the incoming one: half-edges from the vertex at which the patch beyond changes.
 struct RimFan {
-  std::vector<PatchId> patches;     ///< of the surface, in the order of the walk
-  std::vector<HalfedgeId> changes;  ///< of the surface, start at the vertex; one less than patches
+  std::vector<PatchId> patches;     ///< patches of the surface, in the order of the walk
+  std::vector<HalfedgeId> changes;  ///< half-edges of the surface, starting at the vertex; one less than patches
 };
 
 class DomainSplitter {
@@ -107,7 +108,8 @@ class DomainSplitter {
  private:
   bool is_layered(TriangleId t) const { return has_layer_[surface_.triangle_patch[t]] != 0; }
 
-  /// All closed parts but the one that turns inwards with the largest volume: that encloses the fluid. Others that turn inwards are cavities.
+  /// Collects all closed parts except the one that encloses the fluid: the inward-oriented part with the largest volume. Other inward-oriented parts are
+  /// cavities.
   void find_parts() {
     const Components parts = connected_components(surface_, topology_);
     std::vector<CompensatedSum> sums(parts.count);
@@ -152,7 +154,7 @@ class DomainSplitter {
         if (outer_.mesh.triangle_patch[t] == end.patch) domain_.links.surface[t] = end.surface;
   }
 
-  /// Numbers of periodic sides and of their partners in both parts. \throws where a wall with layers ends on one side and not on the other
+  /// Numbers of periodic sides and of their partners in both parts. \throws if a wall with layers ends on only one of two partner sides
   void keep_periodic() {
     ErrorInfo info = error(ErrorCode::bad_argument, "",
                            "the same walls must end on both periodic sides, at the same places: give the patches there the same kind and layers");
@@ -174,7 +176,7 @@ class DomainSplitter {
     throw Error(std::move(info));
   }
 
-  /// What one of two partners may not do, the other does not do either.
+  /// Restricts both partners to the freedoms that they have in common.
   void share_freedoms() {
     for (bool is_changed = true; is_changed;) {
       is_changed = false;
@@ -210,7 +212,7 @@ class DomainSplitter {
 
   RimFan fan_beyond(HalfedgeId rim) const {
     RimFan fan;
-    // The twin arrives at the vertex; its successor leaves it, one triangle on.
+    // The twin arrives at the vertex; its successor leaves the vertex, one triangle on.
     for (HalfedgeId h = topology_.twin(rim);; h = topology_.twin(next(h))) {
       const TriangleId t = triangle_of(h);
       if (is_layered(t)) return fan;
@@ -228,7 +230,7 @@ class DomainSplitter {
     make_surfaces();
 
     std::vector<RimFan> fans;
-    std::vector<VertexId> vertices;  // of the surface
+    std::vector<VertexId> vertices;  // vertices of the surface
     for (const RimEdge& edge : domain_.rim) {
       const HalfedgeId h = surface_halfedge(edge.halfedge);
       fans.push_back(fan_beyond(h));
@@ -264,7 +266,7 @@ class DomainSplitter {
     mark_near();
   }
 
-  /// Rim vertices at which the wall turns away from the patch beyond: there is fluid on both sides of where the layer's side would be.
+  /// Layer boundary vertices at which the wall turns away from the patch beyond: there is fluid on both sides of the layer's side face.
   Column<VertexId, std::uint8_t> convex_rim() const {
     Column<VertexId, std::uint8_t> is_convex(wall_.mesh.n_vertices(), 0);
     for (const RimEdge& edge : domain_.rim) {
@@ -316,7 +318,7 @@ class DomainSplitter {
     }
   }
 
-  /// Vertices of several planes are moved until they are on all of them: axis-parallel ones in one step.
+  /// Moves vertices on several planes until they lie on all of them; axis-parallel planes need one step.
   void snap(const std::vector<VertexId>& vertices, const ConstraintPlane& plane) {
     for (const VertexId v : vertices) outer_.mesh.points[v] = plane.closest(outer_.mesh.points[v]);
     for (const VertexId v : surface_.points.ids()) {
@@ -381,12 +383,12 @@ class DomainSplitter {
       h = on;
       if (topology_.from(h) == start) break;
     }
-    // Between two lines of the layer the chain is the same from both ends: that of the lower vertex stands for both.
+    // A chain between two growth lines is the same from both ends: only the chain from the lower vertex is stored.
     if (chain.ends_on_wall && domain_.constraints.vertex[wall_.surface2part[topology_.to(h)]].freedom == Freedom::line && topology_.to(h) < start) return;
     domain_.chains.push_back(std::move(chain));
   }
 
-  /// Vertices from which a layer can reach an end patch along the wall; a plane of symmetry concerns all.
+  /// Marks vertices from which a layer can reach an adjacent patch along the wall; a plane of symmetry affects all vertices.
   void mark_near() {
     domain_.constraints.near.assign(wall_.mesh.n_vertices(), 0);
     const WallReach reach(wall_.mesh);

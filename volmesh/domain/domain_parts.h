@@ -1,4 +1,4 @@
-// The fluid's boundary taken apart: the walls that carry layers, and the rest; where a wall ends on a patch without layers, that patch holds the layer's rim.
+// Splits the fluid's boundary into walls that carry layers and the rest. Where a wall ends on a patch without layers, that patch constrains the layer boundary.
 #pragma once
 
 #include <array>
@@ -19,83 +19,84 @@
 
 namespace sterna::volmesh {
 
-/// A patch without layers on which layers end. It is triangulated anew around the layer's footprint (rims/close_ends.h).
+/// An adjacent patch: a patch without layers on which layers end. It is re-meshed around the layer's footprint (rims/close_ends.h).
 struct EndPatch {
-  PatchId patch;                  ///< of Domain::outer
-  std::int32_t surface = -1;      ///< of Domain::constraints.surfaces
-  double max_edge = k_automatic;  ///< m, of its triangles
+  PatchId patch;                  ///< index in Domain::outer
+  std::int32_t surface = -1;      ///< index in Domain::constraints.surfaces
+  double max_edge = k_automatic;  ///< m, longest edge of its triangles
 };
 
 /// An edge of the wall's border and the patch beyond it.
 struct RimEdge {
-  HalfedgeId halfedge;  ///< of Domain::wall
-  PatchId patch;        ///< of Domain::outer
+  HalfedgeId halfedge;  ///< half-edge of Domain::wall
+  PatchId patch;        ///< patch of Domain::outer
 };
 
-/// Where two end patches meet: the polygon that starts at a wall vertex whose line runs along it.
+/// The polygon in which two adjacent patches meet. It starts at a wall vertex whose growth line runs along it.
 struct EndChain {
-  std::vector<VertexId> outer;  ///< of Domain::outer, at least two; the first is on the wall
-  bool ends_on_wall = false;    ///< the last one is a vertex with a line along this chain too
-  PatchId left, right;          ///< of Domain::outer, seen along the chain from the fluid
+  std::vector<VertexId> outer;  ///< vertices of Domain::outer, at least two; the first is on the wall
+  bool ends_on_wall = false;    ///< the last vertex also has a growth line along this chain
+  PatchId left, right;          ///< patches of Domain::outer, seen along the chain from the fluid
 };
 
-/// Two patches of Domain::outer of which the second is the first, moved.
+/// Two patches of Domain::outer; the second is a translated copy of the first.
 struct PeriodicEnds {
   PatchId first, second;
   Vec3 translation;                               ///< m
-  std::vector<std::array<VertexId, 2>> vertices;  ///< partners, of Domain::outer
+  std::vector<std::array<VertexId, 2>> vertices;  ///< partners, vertices of Domain::outer
 };
 
-/// An actuator disc that ends on walls with layers. The wall stays closed there; its columns are parted when the layer is known (rims/slits.h).
+/// An actuator disc that ends on walls with layers (disc cut). The wall stays closed there; its columns are separated once the layer exists (rims/slits.h).
 struct DiscSlit {
-  std::size_t disc = 0;                            ///< index of MeshCase::discs
-  PatchId patch, back;                             ///< of Domain::outer: the upstream and the downstream side
+  std::size_t disc = 0;                            ///< index in MeshCase::discs
+  PatchId patch, back;                             ///< patches of Domain::outer: the upstream and the downstream side
   std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the disc's plane: the half-edge upstream, and its twin downstream
-  bool has_outer_rim = false;                      ///< rims of the disc that lie free in the fluid
+  bool has_outer_rim = false;                      ///< boundary circles of the disc that lie free in the fluid
   bool has_inner_rim = false;
-  std::vector<TriangleId> behind;  ///< of the wall: those with vertices of the outline that lie downstream of the disc, ascending
-  std::int32_t surface = -1;       ///< of Domain::constraints.surfaces: its upstream side; the downstream one follows
+  std::vector<TriangleId> behind;  ///< triangles of the wall with outline vertices that lie downstream of the disc, ascending
+  std::int32_t surface = -1;       ///< index in Domain::constraints.surfaces of the upstream side; the downstream side follows
 };
 
 struct Domain {
-  TriMesh wall;                ///< triangles of patches with layers, in the order of the surface; open where it ends on other patches
-  Constraints constraints;     ///< of its rim
-  TriMesh outer;               ///< all other triangles, in the order of the surface, then one side of actuator discs; its own vertices, those of the rim too
-  OuterLinks links;            ///< empty without rims
+  TriMesh wall;             ///< triangles of patches with layers, in the order of the surface; open where the wall ends on other patches
+  Constraints constraints;  ///< constraints of the wall's boundary
+  TriMesh outer;     ///< all other triangles, in the order of the surface, then one side of actuator discs; vertices are separate from the wall's, also on the
+                     ///< layer boundary
+  OuterLinks links;  ///< empty without layer boundaries
   std::vector<EndPatch> ends;  ///< ascending by patch
   std::vector<RimEdge> rim;    ///< ascending by half-edge
   std::vector<EndChain> chains;
   std::vector<PeriodicEnds> periodic;
-  std::vector<std::array<VertexId, 2>> partners;  ///< of the wall, where it ends on periodic sides: they grow alike
+  std::vector<std::array<VertexId, 2>> partners;  ///< vertices of the wall where it ends on periodic sides: partners get the same growth
   Column<TriangleId, TriangleId> wall2surface;
-  Column<TriangleId, CornerWeights> wall_weights;  ///< in wall2surface; empty where needles have not changed the wall, and where discs have cut it
+  Column<TriangleId, CornerWeights> wall_weights;  ///< weights in wall2surface; empty if sliver splitting has not changed the wall, and if discs have cut it
   NeedleReport needles;
-  OpenedRidges ridges;   ///< of the wall
-  DoubledSheets sheets;  ///< likewise; not both
+  OpenedRidges ridges;   ///< opened ridges of the wall
+  DoubledSheets sheets;  ///< doubled sheets of the wall; never together with ridges
   std::vector<DiscSlit> slits;
   std::vector<VertexId>
-      slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc
-  std::vector<std::size_t> vertex2slit;  ///< of each of them: the slit
-  /// Fluid that no other fluid reaches: the insides of closed parts with normals inwards, but that of the one that encloses the rest.
+      slit_vertices;  ///< outline vertices of the wall, all outlines, ascending; the i-th also has growth line n_vertices() + i, downstream of its disc
+  std::vector<std::size_t> vertex2slit;  ///< for each of these vertices: the disc cut
+  /// Fluid that is not connected to the main fluid: the inside of a closed part with normals inwards, except the part that encloses the rest.
   struct Cavity {
-    double volume = 0.0;               ///< m^3, with what is in it
-    Box box;                           ///< of the part
-    std::vector<std::string> patches;  ///< of the part
+    double volume = 0.0;               ///< m^3, including the volume of its contents
+    Box box;                           ///< bounding box of the part
+    std::vector<std::string> patches;  ///< patches of the part
   };
   std::vector<Cavity> cavities;
-  TriMesh bodies;  ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
-  /// Whether vertices of the wall have several lines, so that its layer is not the given wall's yet.
+  TriMesh bodies;  ///< closed parts of the surface except the one that encloses the fluid: cavities are searched here
+  /// Returns true if wall vertices have several growth lines, so that the layer does not yet correspond to the given wall.
   bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
-  /// Whether the outer boundary is made anew around the layer.
+  /// Returns true if the outer boundary is re-meshed around the layer.
   bool has_rims() const { return !rim.empty() || !slits.empty(); }
 };
 
-/// Takes a closed surface apart. Vertices of flat end patches are moved into their plane, by 1e-6 of their distance to the wall's middle plus body length at
-/// most; symmetry patches on which layers end must be flat. \p has_layer: of each patch. \p periodic: sides of the surface that match; rim vertices at partners
-/// have the same freedom.
-/// \pre normals into the fluid. Without rims wall and outer are the surface's triangles, unchanged.
-/// \throws Error(open_surface) with places for open edges; Error(non_manifold_surface) where walls with layers touch in single points; Error(bad_argument) for
-/// a symmetry patch that is not plane, with its vertex farthest off, and where walls end on one periodic side alone
+/// Splits a closed surface. Vertices of flat adjacent patches are moved into their plane, by at most 1e-6 of their distance to the wall's middle plus body
+/// length; symmetry patches on which layers end must be flat. \p has_layer: for each patch. \p periodic: matching sides of the surface; layer boundary vertices
+/// at partners have the same freedom.
+/// \pre normals into the fluid. Without layer boundaries, wall and outer are the surface's triangles, unchanged.
+/// \throws Error(open_surface) with locations for open edges; Error(non_manifold_surface) if walls with layers touch in single points; Error(bad_argument) for
+/// a symmetry patch that is not plane, with its farthest vertex, and if walls end on only one of two periodic sides
 Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
                     std::span<const PeriodicPatches> periodic = {});
 

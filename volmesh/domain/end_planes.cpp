@@ -1,7 +1,7 @@
-// 1. rim_edges: which plane each edge with one triangle belongs to;
-// 2. join_on_lines: where two planes meet, the fluid's part of their line runs from rim to rim;
-// 3. triangulate: the plane's part inside an odd number of rims, without new vertices;
-// 4. what is then still open is where it went wrong.
+// 1. rim_edges: assigns each edge with one triangle to a plane;
+// 2. join_on_lines: where two planes meet, the fluid's part of their line runs between open-boundary vertices;
+// 3. triangulate: the plane's part inside an odd number of open-boundary loops, without new vertices;
+// 4. edges that are still open mark the location of an error.
 #include "volmesh/domain/end_planes.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_line_growth = 1.3;  ///< of the edges on a line between two planes, from either rim
+constexpr double k_line_growth = 1.3;  ///< growth ratio of the edges on a line between two planes, from either end
 constexpr std::size_t k_most_line_vertices = 100'000;
 constexpr const char* k_planes_attempt = "filling the planes that the surface ends on";
 
@@ -28,7 +28,7 @@ std::string name_of(const EndPlane& end) {
   return text + " = " + std::to_string(end.at);
 }
 
-/// The rims of each plane. An edge in two planes belongs to the one that its triangle rises from.
+/// Open-boundary edges of each plane. An edge in two planes belongs to the plane that its triangle rises from.
 std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const EndPlane> ends, const RunContext& context) {
   const Topology topology(mesh, context);
   std::vector<std::vector<Edge>> rims(ends.size());
@@ -52,7 +52,7 @@ std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const En
   throw Error(std::move(info));
 }
 
-/// Mean length of the given rim's edges at a vertex.
+/// Mean length of the open-boundary edges at a vertex.
 double length_at(const TriMesh& mesh, const std::vector<std::vector<Edge>>& rims, VertexId v) {
   double sum = 0.0;
   int n = 0;
@@ -78,12 +78,12 @@ std::vector<double> graded(double first, double last, double most) {
       step_b = std::max(step_b, std::min(step_b * k_line_growth, most));
     }
   }
-  // What is left between is less than both steps: without the last point the gap would be up to their sum.
+  // The remaining piece in between is shorter than both steps: without the last point the gap would be up to their sum.
   lower.insert(lower.end(), upper.rbegin(), upper.rend());
   return lower;
 }
 
-/// Edges along the line of two planes, divided; added to the rims of both.
+/// Divides the edges along the line of two planes and adds them to the open boundaries of both.
 void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const double> edges, std::size_t k, std::size_t l,
                   std::vector<std::vector<Edge>>& rims, std::vector<std::vector<Edge>>& lines) {
   const std::size_t along = 3 - ends[k].axis - ends[l].axis;
@@ -159,7 +159,7 @@ void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& ri
   const auto same = std::find(mesh.patches.begin(), mesh.patches.end(), patch);
   const PatchId id = same == mesh.patches.end() ? mesh.patches.push_back(patch) : PatchId(static_cast<std::uint64_t>(same - mesh.patches.begin()));
   for (const auto& t : triangles) {
-    // Counter-clockwise in (u, v) looks along the axis.
+    // Counter-clockwise order in (u, v) has its normal along the axis.
     const bool is_turned = end.inward < 0.0;
     mesh.triangles.push_back({vertices[t[0]], vertices[t[is_turned ? 2 : 1]], vertices[t[is_turned ? 1 : 2]]});
     mesh.triangle_patch.push_back(id);
@@ -196,7 +196,7 @@ std::vector<EndPlane> end_planes_of(const Constraints& rims) {
 }
 
 std::vector<double> volumes_of(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends) {
-  // Planes across the axis add their area times the coordinate's difference from `origin`: nothing for one of them.
+  // Planes across the axis add their area times the coordinate's difference from `origin`: zero for one of them.
   std::size_t axis = 3;
   double origin = 0.0;
   for (std::size_t k = 0; k < 3 && axis == 3; ++k)

@@ -1,4 +1,4 @@
-// Private to volmesh/domain: planes that bodies and their outer boundary end on, as patches.
+// Private to volmesh/domain: planes in which bodies and their outer boundary end, as patches.
 #pragma once
 
 #include <span>
@@ -12,19 +12,19 @@
 
 namespace sterna::volmesh {
 
-/// The planes of constraints_of_rims().
+/// Returns the planes of constraints_of_rims().
 std::vector<EndPlane> end_planes_of(const Constraints& rims);
 
-/// Signed volume of each component, as flux of a coordinate along itself for which the planes count nothing: positive for bodies with normals out of them, also
-/// where they are open in the planes.
-/// \throws Error(open_surface) when there are two planes across each axis
+/// Signed volume of each component, as the flux of a coordinate along itself, chosen so that the planes contribute nothing: positive for bodies with outward
+/// normals, also if they are open in the planes.
+/// \throws Error(open_surface) if there are two planes across each axis
 std::vector<double> volumes_of(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends);
 
-/// Closes `mesh` by one patch per plane, between the rims that lie in it; patches[i] is that of ends[i]. Where two planes meet, the line between rims is
-/// divided with lengths that grow from rim to rim, up to the lesser of the planes' `edges` (m; automatic: no limit), and both planes share its new vertices;
-/// they have no other ones. Long thin triangles; normals into the fluid.
-/// \pre rims lie in their planes to the bit
-/// \throws Error(open_surface) with places where rims are no border between inside and outside, and where three planes meet
+/// Closes `mesh` by one patch per plane, between the open boundaries that lie in it; patches[i] belongs to ends[i]. Where two planes meet, the line between
+/// open boundaries is divided with lengths that grow from both ends, up to the lesser of the planes' `edges` (m; automatic: no limit), and both planes share
+/// its new vertices; they have no other new vertices. The result has long thin triangles, with normals into the fluid.
+/// \pre open-boundary vertices lie bit-exactly in their planes
+/// \throws Error(open_surface) with locations where open boundaries do not separate inside and outside, and where three planes meet
 void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, std::span<const double> edges, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_margin = 0.25;  ///< body lengths between wall and sphere: room for the layer and a few tetrahedra
+constexpr double k_margin = 0.25;  ///< body lengths between wall and sphere: space for the layer and a few tetrahedra
 constexpr std::size_t k_most_triangles = 20'000'000;
 constexpr std::uint32_t k_not_made = 0xffffffff;
 
@@ -36,7 +36,7 @@ constexpr std::array<std::array<std::uint32_t, 3>, 20> k_faces = {{{0, 11, 5},  
 /// Edge of the icosahedron over its circumradius.
 const double k_edge_ratio = 2.0 / std::sqrt(1.0 + k_golden * k_golden);
 
-/// Unit sphere: every icosahedron face split into f^2 triangles (class I), points pushed out to the sphere. Points on shared edges are made once.
+/// Unit sphere: every icosahedron face split into f^2 triangles (class I), points projected onto the sphere. Points on shared edges are made once.
 class Subdivision {
  public:
   explicit Subdivision(std::uint32_t f) : f_(f) {
@@ -66,7 +66,7 @@ class Subdivision {
   }
   void split(const std::array<std::uint32_t, 3>& face) {
     const auto [a, b, c] = face;
-    // Row j: points from edge a-c to edge b-c, f - j + 1 of them.
+    // Row j: f - j + 1 points from edge a-c to edge b-c.
     std::vector<std::uint32_t> below, row;
     for (std::uint32_t j = 0; j <= f_; ++j) {
       row.clear();

@@ -1,4 +1,5 @@
-// A box whose sides have their own edge lengths: its twelve edges are divided once, by the finer of their two sides; each side is filled between its four.
+// A box whose sides have their own edge lengths: its twelve edges are divided once, by the finer of their two sides; each side is then filled between its four
+// edges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +18,7 @@ constexpr const char* k_box_attempt = "making the farfield box";
 
 struct BoxSize {
   Box box;
-  std::array<double, 6> edge{};  ///< wanted, of each side
+  std::array<double, 6> edge{};  ///< target edge length of each side
 };
 
 BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::span<const EndPlane> ends) {
@@ -83,7 +84,7 @@ class BoxMesh {
 
  private:
   double length(std::size_t axis) const { return size_.box.max[axis] - size_.box.min[axis]; }
-  /// The edge from a corner along an axis: by the finer of the two sides that meet there.
+  /// Divides the edge from a corner along an axis, with the edge length of the finer of the two adjacent sides.
   void divide(std::size_t axis, std::size_t corner) {
     double wanted = 1e300;
     for (std::size_t k = 0; k < 3; ++k)
@@ -134,7 +135,7 @@ class BoxMesh {
 
   const BoxSize& size_;
   TriMesh mesh_;
-  std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< by axis and lower corner
+  std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< indexed by axis and lower corner
 };
 
 TriMesh mesh_of_box(const BoxSize& size, const RunContext& context) {

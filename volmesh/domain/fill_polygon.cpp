@@ -9,9 +9,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_radius_share = 0.72;    ///< of the wanted edge: larger circumcircles get a point; 0.577 is that of the equilateral triangle
-constexpr double k_border_share = 0.5;     ///< of the wanted edge: nearer to the border no points
-constexpr double k_distance_share = 0.55;  ///< of the wanted edge: nearer to another vertex no points
+constexpr double k_radius_share = 0.72;    ///< share of the target edge: larger circumcircles get a point; 0.577 is that of the equilateral triangle
+constexpr double k_border_share = 0.5;     ///< share of the target edge: no points nearer to the border
+constexpr double k_distance_share = 0.55;  ///< share of the target edge: no points nearer to another vertex
 constexpr std::size_t k_most_points = 20'000'000;
 
 struct Circle {

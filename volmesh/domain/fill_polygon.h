@@ -1,4 +1,4 @@
-// Triangles of given sizes inside a convex polygon of the plane whose border stays as it is: the flat sides of outer boundaries.
+// Triangulation with given sizes inside a convex plane polygon whose border stays unchanged: flat sides of outer boundaries.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 namespace sterna::volmesh {
 
 struct LocalSize {
-  double edge = 0.0;         ///< wanted edge length
-  double from_border = 0.0;  ///< distance from the polygon: points nearer than about half an edge are not made
+  double edge = 0.0;         ///< target edge length
+  double from_border = 0.0;  ///< distance from the polygon: no points are made nearer than about half an edge
 };
 
 struct PolygonFill {
-  std::vector<Vec2> points;                             ///< those of the polygon first
+  std::vector<Vec2> points;                             ///< points of the polygon first
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
 };
 
@@ -27,8 +27,8 @@ struct PolygonFill {
 /// \throws Error(self_intersection) when the polygon crosses itself
 PolygonFill fill_polygon(std::span<const Vec2> polygon, const std::function<LocalSize(const Vec2&)>& size, const RunContext& context);
 
-/// Triangles, counter-clockwise, of what is inside an odd number of the rims that the segments make; no new points.
-/// \throws Error(self_intersection) with the place (z = 0) where segments cross
+/// Triangulates, counter-clockwise, the area inside an odd number of the loops formed by the segments; no new points.
+/// \throws Error(self_intersection) with the location (z = 0) where segments cross
 std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
                                                            const RunContext& context);
 

@@ -10,16 +10,16 @@
 
 namespace sterna::volmesh {
 
-/// The flat patch's plane: constant x, y or z where all its vertices have it nearly, else through their middle.
+/// The flat patch's plane: constant x, y or z if all its vertices are nearly in such a plane, otherwise through their middle.
 struct FlatFit {
   bool is_flat = false;
   Point point;
   Vec3 normal;
-  VertexId farthest;      ///< of the mesh
-  double distance = 0.0;  ///< of the farthest, m
+  VertexId farthest;      ///< vertex of the mesh with the largest distance
+  double distance = 0.0;  ///< m, of the farthest vertex
 };
 
-/// Vertices of a patch, ascending. The mesh must outlive it.
+/// The vertices of a patch, ascending. The mesh must outlive this object.
 class PatchVertices {
  public:
   PatchVertices(const TriMesh& mesh, PatchId patch) : mesh_(mesh) {
@@ -34,7 +34,7 @@ class PatchVertices {
   }
   const std::vector<VertexId>& vertices() const { return vertices_; }
 
-  /// tolerance_at(point), m: how far a vertex may be off. Without triangles, or when they cancel out, not flat.
+  /// Fits a plane. tolerance_at(point), m: allowed distance of a vertex. Not flat if there are no triangles, or if their areas cancel out.
   template <class Tolerance>
   FlatFit fit(const Tolerance& tolerance_at) const {
     FlatFit result;

@@ -1,4 +1,4 @@
-// Private to volmesh/domain: rims that lie nearly in a plane.
+// Private to volmesh/domain: open-boundary loops that are nearly plane.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -7,12 +7,13 @@
 
 namespace sterna::volmesh {
 
-/// A rim within this of a plane x, y or z = constant is meant to lie in it, share of the body length: CAD systems sew with such gaps.
+/// An open-boundary loop within this distance of a plane x, y or z = constant is treated as lying in it, share of the body length: CAD systems sew with such
+/// gaps.
 inline constexpr double k_flat_rim = 1e-4;
 
-/// Moves vertices of rims that lie within k_flat_rim of a plane x, y or z = constant, but not all of them within k_rim_tolerance, exactly into it: to 0 where
-/// that is between them, else to the coordinate that most of them have (their median where all differ). Tells how many, and the largest distance. Rims that lie
-/// in no plane, and those of which a triangle would turn over, stay as they are.
+/// Flattens open-boundary loops. Vertices of loops that lie within k_flat_rim of a plane x, y or z = constant, but not all within k_rim_tolerance, are moved
+/// exactly into the plane. The coordinate is 0 if that is between them, otherwise the most frequent one (the median if all differ). The log reports the number
+/// and the largest distance. Loops that lie in no plane, and loops of which a triangle would be inverted, stay unchanged.
 /// \pre `topology` is that of `mesh`
 void flatten_rims(const Topology& topology, TriMesh& mesh, const RunContext& context);
 

@@ -1,5 +1,5 @@
-// Steps: find_edges, choose_vertices, walk_chains (which side of a vertex is which), make_fans, make_corners, close_gaps. Virtual triangles are what a tiny
-// rounding of the edge would be, so all that comes after works as on any wall.
+// Steps: find_edges, choose_vertices, walk_chains (which side of a vertex is which), make_fans, make_corners, close_gaps. Virtual triangles correspond to a
+// tiny rounding of the edge, so all later steps work as on any other wall.
 #include "volmesh/domain/open_ridges.h"
 
 #include <algorithm>
@@ -24,21 +24,21 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_raise = 0.01;                 ///< of the first height: how far lines start off their foot, well within the 2 % of gate G11
-constexpr double k_least_raise = 1e-11;          ///< of the largest coordinate: virtual triangles have normals of five digits then
-constexpr double k_longest_edge = 1e5;           ///< first heights: beyond it control volumes of fans would not be closed to rounding
-constexpr double k_bend_cosine = 0.5;            ///< 60 degrees: chains that bend by more end there
-constexpr double k_side_cosine = 0.5;            ///< 60 degrees: between the normal of a side and its facets
+constexpr double k_raise = 0.01;  ///< share of the first height: distance of growth line starts from their ridge base vertex, well within the 2 % of gate G11
+constexpr double k_least_raise = 1e-11;          ///< share of the largest coordinate: normals of virtual triangles then have five digits
+constexpr double k_longest_edge = 1e5;           ///< in first heights: beyond it, control volumes of multi-normal fans would not be closed to rounding
+constexpr double k_bend_cosine = 0.5;            ///< 60 degrees: chains end at larger bends
+constexpr double k_side_cosine = 0.5;            ///< 60 degrees: largest angle between the normal of a side and its facets
 constexpr double k_far_turn = 182.0 * k_degree;  ///< knife edges turn by 180 degrees up to rounding
-constexpr double k_angle_slack = 1e-6;           ///< of fan_angle: no sector for rounding
-constexpr double k_clear_axis = 0.1;             ///< sine of the turn above which both normals give its axis
+constexpr double k_angle_slack = 1e-6;           ///< relative to fan_angle: rounding must not add a sector
+constexpr double k_clear_axis = 0.1;             ///< sine of the turn above which the two normals define its axis
 
-/// One vertex inside a chain, or the one at which it goes on in its mirror image.
+/// A vertex inside a chain, or a vertex at which the chain continues in its mirror image.
 struct Inner {
-  HalfedgeId ahead, back;       ///< outgoing edges of the chain; one is invalid in a plane on which the wall ends
-  RidgeTurn turn;               ///< between the normals of both sides
-  std::array<Vec3, 2> normal;   ///< unit, of the sides: left and right of the way ahead
-  std::vector<VertexId> lines;  ///< from left to right
+  HalfedgeId ahead, back;       ///< outgoing edges of the chain; one is invalid in a plane in which the wall ends
+  RidgeTurn turn;               ///< turn between the normals of both sides
+  std::array<Vec3, 2> normal;   ///< unit normals of the sides: left and right of the direction ahead
+  std::vector<VertexId> lines;  ///< growth lines from left to right
 };
 
 class RidgeOpener {
@@ -72,8 +72,8 @@ class RidgeOpener {
     const auto [a, b, c] = corners(wall_, t);
     return normalized(area_vector(a, b, c));
   }
-  /// Whether the wall ends in one plane there, on one patch: ridges go on up to it.
-  /// (Of periodic sides there are two, and the ridge goes on at the other.)
+  /// Returns true if the wall ends there in one plane, on one patch: ridges continue up to the plane. (Periodic sides have two planes, and the ridge continues
+  /// at the other side.)
   bool is_in_plane(VertexId v) const {
     if (!patch_beyond_[v].is_valid() || domain_.constraints.vertex[v].freedom != Freedom::plane) return false;
     return !is_partner_[v] || partner_[v].is_valid();
@@ -92,13 +92,13 @@ class RidgeOpener {
       const double turn = std::atan2(dot(cross(own, other), normalized(along)), dot(own, other));
       is_chain_[h] = turn > options_.open_angle || (turn < 0.0 && turn + 2.0 * std::numbers::pi < k_far_turn) ? 1 : 0;
     }
-    for (std::size_t i = 0; i < topology_.n_halfedges(); ++i) {  // knife edges: both senses must agree
+    for (std::size_t i = 0; i < topology_.n_halfedges(); ++i) {  // knife edges: both directions must agree
       const HalfedgeId h(i);
       if (is_chain_[h] && !is_chain_[topology_.twin(h)]) is_chain_[h] = 0;
     }
   }
 
-  /// Triangles between outgoing half-edges, from one counter-clockwise to the other; an invalid one is the border of the wall.
+  /// Triangles between two outgoing half-edges, counter-clockwise; an invalid half-edge stands for the border of the wall.
   std::vector<TriangleId> sector(HalfedgeId from, HalfedgeId to) const {
     std::vector<TriangleId> triangles;
     if (from.is_valid())
@@ -112,10 +112,10 @@ class RidgeOpener {
   VertexId vertex_at(HalfedgeId h) const { return h.is_valid() ? topology_.to(h) : VertexId{}; }
   bool has_fan(VertexId v) const { return inner_[v] || corners_.contains(v); }
   bool has_fan_at(HalfedgeId h) const { return h.is_valid() && has_fan(topology_.to(h)); }
-  /// Fans need a fan beside them; what is beside the last one is the chain's end, which has to be free.
+  /// Returns true if a chain may end here. Multi-normal fans need an adjacent fan; the vertex after the last fan is the chain's end, which must be free.
   bool can_end(HalfedgeId h) const { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); }
 
-  /// Of the triangles of one side of a vertex, by their angles there.
+  /// Sum of the normals of the triangles on one side of a vertex, weighted by their angles there.
   Vec3 sum_of_normals(VertexId v, const std::vector<TriangleId>& side) const {
     Vec3 sum;
     for (const TriangleId t : side) {
@@ -130,14 +130,14 @@ class RidgeOpener {
     return std::ranges::all_of(side, [&](TriangleId t) { return dot(direction, normal(t)) > k_side_cosine; });
   }
 
-  /// The normal of one side of a vertex; nothing where it does not see all of it well.
+  /// Returns the normal of one side of a vertex; nothing if not all triangles of the side are well visible from it.
   std::optional<Vec3> side_normal(VertexId v, const std::vector<TriangleId>& side) const {
     const Vec3 sum = sum_of_normals(v, side), mean = is_in_plane(v) ? constrained(domain_.constraints.vertex[v], sum) : normalized(sum);
     if (!sees(mean, side)) return {};
     return mean;
   }
 
-  /// Left and right normals of a vertex on a periodic side: of its triangles and those at its partner, the same to the bit for both.
+  /// Left and right normals of a vertex on a periodic side: from its triangles and those at its partner, bit-identical for both.
   std::optional<std::array<Vec3, 2>> periodic_normals(VertexId v, HalfedgeId ahead, HalfedgeId of_partner) const {
     struct End {
       VertexId vertex;
@@ -150,7 +150,7 @@ class RidgeOpener {
       if (!sees(mean, a) || !sees(mean, b)) return {};
       return mean;
     };
-    // The ways ahead are opposite: what is left of one is right of the other.
+    // The directions ahead are opposite: the left side of one is the right side of the other.
     const std::optional<Vec3> left = normal_of(sector(first.edge, {}), sector({}, second.edge)),
                               right = normal_of(sector({}, first.edge), sector(second.edge, {}));
     if (!left || !right) return {};
@@ -158,7 +158,7 @@ class RidgeOpener {
     return std::array{*right, *left};
   }
 
-  /// The edge of a ridge at a vertex where that is the only one; else invalid.
+  /// Returns the edge of a ridge at a vertex with exactly one; otherwise invalid.
   HalfedgeId only_edge(VertexId v) const {
     HalfedgeId edge;
     for (const HalfedgeId h : topology_.outgoing(v)) {
@@ -169,7 +169,7 @@ class RidgeOpener {
     return edge;
   }
 
-  /// Whether a vertex can be one inside a chain; its sides are those of the first edge as the one ahead.
+  /// Returns the vertex data if a vertex can be inside a chain; left and right refer to the first edge as the edge ahead.
   std::optional<Inner> inner_at(VertexId v) const {
     Inner inner;
     int n = 0;
@@ -184,13 +184,13 @@ class RidgeOpener {
     return std::ranges::any_of(topology_.neighbours(v), [&](VertexId w) { return distance(point(v), point(w)) > longest_edge_; });
   }
 
-  /// From one normal to another, rad, 0 to two pi.
+  /// Angle from one normal to another, rad, 0 to two pi.
   static double turn_about(const Vec3& along, const Vec3& left, const Vec3& right) {
     const double angle = std::atan2(dot(cross(left, right), along), dot(left, right));
     return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
   }
 
-  /// Whether a vertex can be a corner. \pre it is not inside a chain
+  /// Returns the corner if a vertex can be one. \pre it is not inside a chain
   std::optional<RidgeCorner> corner_at(VertexId v) const {
     RidgeCorner corner;
     for (const HalfedgeId h : topology_.outgoing(v))
@@ -217,7 +217,7 @@ class RidgeOpener {
 
   int n_sectors(double turn) const { return std::max(2, static_cast<int>(std::ceil(turn / options_.fan_angle - k_angle_slack))); }
 
-  /// Whether its lines make an open corner, with as many sectors as each of its ridges would have alone.
+  /// Returns true if the growth lines make an open corner, with as many sectors as each of its ridges would have alone.
   bool is_open_corner(RidgeCorner corner) const {
     for (std::size_t i = 0; i < corner.edges.size(); ++i) corner.n_sectors[i] = n_sectors(corner.turn[i].angle);
     return corner.is_star();
@@ -228,7 +228,7 @@ class RidgeOpener {
     return way - 2.0 * dot(way, normal) * normal;
   }
 
-  /// \pre the edge ahead is there
+  /// \pre the edge ahead exists
   std::optional<Inner> measured(VertexId v, Inner inner) const {
     const Vec3 ahead = normalized(point(topology_.to(inner.ahead)) - point(v));
     Vec3 back;
@@ -258,7 +258,7 @@ class RidgeOpener {
     partner_.resize(wall_.n_vertices());
     for (const auto& pair : domain_.partners)
       for (std::size_t k = 0; k < 2; ++k) {
-        partner_[pair[k]] = is_partner_[pair[k]] == 0 ? pair[1 - k] : VertexId{};  // of one pair of sides
+        partner_[pair[k]] = is_partner_[pair[k]] == 0 ? pair[1 - k] : VertexId{};  // pairs of one pair of sides
         is_partner_[pair[k]] = 1;
       }
     patch_beyond_.resize(wall_.n_vertices());
@@ -302,7 +302,7 @@ class RidgeOpener {
     }
   }
 
-  /// Chains as lists of vertices in their order; the edges ahead go along them.
+  /// Collects chains as lists of vertices in their order; the edges ahead point along them.
   void walk_chains() {
     Column<VertexId, std::uint8_t> is_done(wall_.n_vertices(), 0);
     const auto turn_round = [&](VertexId v) {
@@ -322,7 +322,7 @@ class RidgeOpener {
         v = next;
       }
     };
-    for (const bool from_ends : {true, false})  // what is left then are loops
+    for (const bool from_ends : {true, false})  // the remaining chains are loops
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v] || is_done[v]) continue;
         const bool is_first = !is_inner_at(inner_[v]->back), is_last = !is_inner_at(inner_[v]->ahead);
@@ -332,7 +332,7 @@ class RidgeOpener {
       }
   }
 
-  /// To the nearest end along the ridges, m; they do not end in planes.
+  /// Distance to the nearest end along the ridges, m; ridges do not end in planes.
   Column<VertexId, double> distances_to_ends() const {
     Column<VertexId, double> to_end(wall_.n_vertices(), k_infinity);
     using Reached = std::pair<double, VertexId>;
@@ -366,14 +366,14 @@ class RidgeOpener {
     return to_end;
   }
 
-  /// New vertices, and the given triangles on the right side moved to theirs.
+  /// Creates the new vertices, and moves the given triangles on the right side to theirs.
   void make_fans() {
     OpenedRidges& ridges = domain_.ridges;
     ridges.n_given_vertices = wall_.n_vertices();
     ridges.n_given_triangles = wall_.n_triangles();
     to_end_ = distances_to_ends();
     given_ = wall_.points;
-    std::vector<double> most(chains_.size(), 0.0);  // of the turns along each chain, and along those in which it goes on at periodic sides
+    std::vector<double> most(chains_.size(), 0.0);  // largest turn along each chain, and along chains in which it continues at periodic sides
     Column<VertexId, std::size_t> chain_of(wall_.n_vertices(), 0);
     for (std::size_t c = 0; c < chains_.size(); ++c) {
       for (const VertexId v : chains_[c]) {
@@ -413,14 +413,14 @@ class RidgeOpener {
     }
   }
 
-  /// Beyond its first and its last vertex.
+  /// Edges beyond the chain's first and last vertex.
   std::array<HalfedgeId, 2> ways_out(const std::vector<VertexId>& chain) const { return {inner_[chain.front()]->back, inner_[chain.back()]->ahead}; }
 
   bool has_fan_pair(const std::array<VertexId, 2>& pair) const {
     return std::ranges::all_of(pair, [&](VertexId v) { return v.index() < inner_.size() && inner_[v] && partner_[v].is_valid(); });
   }
 
-  /// Lines of fans on periodic sides grow like those of the other side.
+  /// Pairs the growth lines of multi-normal fans on periodic sides with those of the other side.
   void pair_lines() {
     std::vector<std::array<VertexId, 2>> more;
     for (auto& pair : domain_.partners) {
@@ -431,7 +431,7 @@ class RidgeOpener {
     }
     domain_.partners.insert(domain_.partners.end(), more.begin(), more.end());
   }
-  /// The edge at a vertex in a plane.
+  /// The chain's edge at a vertex in a plane.
   HalfedgeId edge_at(VertexId v) const { return inner_[v]->ahead.is_valid() ? inner_[v]->ahead : inner_[v]->back; }
 
   RidgeCorner* corner_beyond(HalfedgeId h) {
@@ -440,7 +440,7 @@ class RidgeOpener {
     return found == corners_.end() ? nullptr : &found->second;
   }
 
-  /// \param is_first: the vertex itself; else a new one
+  /// Creates a growth line. \param is_first: reuses the vertex itself; otherwise a new vertex is added
   VertexId new_line(VertexId v, bool is_first, const Vec3& normal) {
     const Point raised = given_[v] + raise_ * normal;
     if (!is_first) return wall_.points.push_back(raised);
@@ -458,7 +458,7 @@ class RidgeOpener {
     for (auto& [v, corner] : corners_) {
       const std::size_t n = corner.edges.size();
       for (std::size_t i = 0; i < n; ++i) {
-        if (corner.n_sectors[i] > 0) continue;  // a chain's
+        if (corner.n_sectors[i] > 0) continue;  // edge of a chain
         double most = corner.turn[i].angle;
         if (const RidgeCorner* const other = corner_beyond(corner.edges[i]))
           most = std::max(most, other->turn[other->edge_number(topology_.twin(corner.edges[i]))].angle);
@@ -497,10 +497,10 @@ class RidgeOpener {
     }
   }
 
-  /// Whether a ridge goes on in its mirror image there.
+  /// Returns true if a ridge continues in its mirror image there.
   bool is_at_plane(VertexId v) const { return inner_[v] && (!inner_[v]->ahead.is_valid() || !inner_[v]->back.is_valid()); }
 
-  /// Lines of a vertex from left to right of the way along an edge that starts there.
+  /// Growth lines of a vertex, from left to right of the direction along an edge that starts there.
   std::vector<VertexId> lines_along(HalfedgeId h) const {
     const VertexId v = topology_.from(h);
     if (!inner_[v]) {
@@ -537,7 +537,7 @@ class RidgeOpener {
         domain_.constraints.near.push_back(domain_.constraints.near[ridges.foot[VertexId(i)]]);
   }
 
-  /// Virtual triangles along an edge of a ridge that starts at a fan.
+  /// Adds virtual triangles along an edge of a ridge that starts at a multi-normal fan.
   void close_gap(HalfedgeId h) {
     OpenedRidges& ridges = domain_.ridges;
     const VertexId v = topology_.from(h), w = topology_.to(h);
@@ -580,19 +580,19 @@ class RidgeOpener {
   double longest_edge_, raise_;  ///< m
   Domain& domain_;
   TriMesh& wall_;
-  Topology topology_;  ///< of the wall as it was given
+  Topology topology_;  ///< topology of the given wall
   Column<HalfedgeId, std::uint8_t> is_chain_;
   Column<VertexId, std::uint8_t> is_partner_;
-  Column<VertexId, VertexId> partner_;      ///< where a vertex has exactly one
-  Column<VertexId, PatchId> patch_beyond_;  ///< of the outer boundary, on which the wall ends there; invalid elsewhere, and where there are several
+  Column<VertexId, VertexId> partner_;      ///< for vertices that have exactly one partner
+  Column<VertexId, PatchId> patch_beyond_;  ///< patch of the outer boundary on which the wall ends there; invalid elsewhere, and if there are several
   Column<VertexId, std::optional<Inner>> inner_;
   std::map<VertexId, RidgeCorner> corners_;
   std::vector<std::vector<VertexId>> chains_;
   Column<VertexId, double> to_end_;  ///< m
-  Column<VertexId, Point> given_;    ///< points of the wall as it was given
+  Column<VertexId, Point> given_;    ///< points of the given wall
 };
 
-/// Feet of fans at which the opened wall crosses itself, ascending.
+/// Ridge base vertices of multi-normal fans at which the opened wall intersects itself, ascending.
 std::vector<VertexId> crossing_fans(const Domain& opened, const RunContext& context) {
   std::vector<VertexId> feet;
   const auto is_fan = [&](VertexId foot) { return std::ranges::binary_search(opened.ridges.feet, foot, {}, &OpenedRidges::Foot::vertex); };

@@ -5,7 +5,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_open_cosine = 0.03;  ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 178 degrees
+constexpr double k_open_cosine = 0.03;  ///< between a wall's normal and the direction into the patch beyond: below, the fluid's angle is above 178 degrees
 
 bool lets_flow_through(PatchKind kind) { return kind == PatchKind::inflow || kind == PatchKind::outflow; }
 

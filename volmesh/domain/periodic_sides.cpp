@@ -1,5 +1,5 @@
-// Steps for each pair: find_patch; flatten the first; border vertices of both, their partners (match_borders) and the sense of the edges between them; the
-// second's vertices onto the images, where its triangles are the image of the first's, else the first's triangles instead.
+// Steps for each pair: find_patch; flatten the first; match the border vertices of both (match_borders) and the direction of the edges between them; move the
+// second's vertices onto the images if its triangles are the image of the first's, otherwise replace them by the first's triangles.
 #include "volmesh/domain/periodic_sides.h"
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_facing_cosine = -0.999;  ///< between the normals of sides that face each other: k_side_tolerance leaves less than that
+constexpr double k_facing_cosine = -0.999;  ///< cosine between the normals of opposite sides: k_side_tolerance leaves less than that
 
-constexpr double k_slide = 0.35;      ///< of the shorter edge at a border vertex: how far it may go along the border, so that its triangles stay sound
-constexpr double k_slide_off = 0.03;  ///< of that edge: how far the image may be off the border: curved borders are polygons
+constexpr double k_slide = 0.35;      ///< share of the shorter edge at a border vertex: largest movement along the border that keeps its triangles valid
+constexpr double k_slide_off = 0.03;  ///< share of that edge: largest distance of the image from the border: curved borders are polygons
 
 using Edge = std::array<VertexId, 2>;
 
@@ -89,7 +89,7 @@ class Joiner {
       if (flat.farthest.is_valid()) note(mesh_.points[flat.farthest], "off the plane by " + metres(flat.distance));
       fail("patch \"" + mesh_.patches[side].name + "\" is not flat: a vertex is " + metres(flat.distance) + " off its mean plane, limit " + metres(tolerance_));
     }
-    if (side == result_.second) return flat.normal;  // goes where the first's image is
+    if (side == result_.second) return flat.normal;  // moved later to the first side's image
     for (const VertexId v : vertices.vertices()) {
       Point& p = mesh_.points[v];
       p -= dot(p - flat.point, flat.normal) * flat.normal;
@@ -122,7 +122,7 @@ class Joiner {
   }
 
   void find_translation(const std::vector<VertexId>& first, const std::vector<VertexId>& second) {
-    // Medians of the coordinates: those of the image are the image of those, and a few vertices elsewhere do not spoil them.
+    // Medians of the coordinates: the median of the image is the image of the median, and a few displaced vertices do not affect it.
     const auto median = [&](const std::vector<VertexId>& vertices, std::size_t axis) {
       std::vector<double> values;
       for (const VertexId v : vertices) values.push_back(mesh_.points[v][axis]);
@@ -134,12 +134,13 @@ class Joiner {
       if (std::abs(result_.translation[k]) <= tolerance_) result_.translation[k] = 0.0;
   }
 
-  /// Partners of `first` among `second`, added to `partner`; whether all have one of their own. \throws where they do not, when they must
+  /// Matches vertices of `first` with vertices of `second`, adds them to `partner`, and returns true if each has its own partner. \throws if not all match and
+  /// `must` is set
   bool match(const std::vector<VertexId>& first, const std::vector<VertexId>& second, std::map<VertexId, VertexId>& partner, bool must) {
     std::vector<std::pair<double, VertexId>> sorted;
     const auto key = [](const Point& p) {
       return p.x + 0.7 * p.y + 0.4 * p.z;
-    };  // differs between points of sides along coordinate axes; changes by no more than sqrt(3) times the way
+    };  // differs between points of sides along coordinate axes; changes by at most sqrt(3) times the distance moved
     for (const VertexId v : second) sorted.emplace_back(key(mesh_.points[v]), v);
     std::ranges::sort(sorted);
     std::set<VertexId> is_taken;
@@ -172,8 +173,9 @@ class Joiner {
            names_.first + "\", " + std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) + " m apart)");
     return true;
   }
-  /// Borders along the same lines, cut into as many edges, but not at the same places: a mesher's, whose sizes on the two sides differ a little. The
-  /// translation is that of their boxes then, and vertices of the second side go along its border to the images. Whether that is possible.
+  /// Matches borders along the same lines with equally many edges but different vertex locations, as from a mesher whose sizes on the two sides differ a
+  /// little. The translation is then that of their boxes, and vertices of the second side move along its border to the images. Returns true if that is
+  /// possible.
   bool slide(const std::vector<Edge>& first, const std::vector<Edge>& second, const RunContext& context) {
     const std::vector<VertexId> of_first = vertices_of(first), of_second = vertices_of(second);
     if (of_first.size() != of_second.size()) return false;
@@ -241,7 +243,7 @@ class Joiner {
     return inner;
   }
 
-  /// Whether the vertices inside and the triangles match, too. Then all partners are known.
+  /// Returns true if the interior vertices and the triangles also match. All partners are then known.
   bool match_inside() {
     std::vector<VertexId> of_first, of_second;
     for (const auto& [a, b] : partner_) {
@@ -267,7 +269,7 @@ class Joiner {
     return true;
   }
 
-  /// The triangles of the first side, turned over, in place of those of the second.
+  /// Replaces the triangles of the second side by the reversed triangles of the first.
   void copy_inside(const RunContext& context) {
     context.info("periodic side \"" + names_.second + "\" gets the triangles of \"" + names_.first + "\"");
     Column<TriangleId, TriangleVertices> triangles;
@@ -298,7 +300,7 @@ class Joiner {
 
   TriMesh& mesh_;
   const PeriodicNames& names_;
-  Column<TriangleId, TriangleId>& sources_;  ///< of the boundary's triangles, as JoinedSides has them
+  Column<TriangleId, TriangleId>& sources_;  ///< sources of the boundary's triangles, as in JoinedSides
   double tolerance_;
   ErrorInfo error_;
   PeriodicPatches result_;
@@ -328,7 +330,7 @@ JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames
 std::vector<PeriodicPatches> move_onto_images(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
   if (names.empty()) return {};
   TriMesh joined = boundary;
-  // It is told when they are joined for good.
+  // No logging here: it happens when they are finally joined.
   std::vector<PeriodicPatches> pairs = join_periodic_sides(joined, names, RunContext({.threads = context.threads()})).pairs;
   for (PeriodicPatches& pair : pairs)
     std::erase_if(pair.vertices, [&](const std::array<VertexId, 2>& vertices) { return vertices[1].index() >= boundary.n_vertices(); });

@@ -1,4 +1,4 @@
-// Periodic sides of the fluid's boundary: two flat patches that face each other, of which the second is the first, moved.
+// Periodic sides of the fluid's boundary: two opposite flat patches; the second is a translated copy of the first.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace sterna::volmesh {
 
-/// Two patches that are, and their vertices.
+/// Two periodic patches and their vertices.
 struct PeriodicPatches {
   PatchId first, second;
   Vec3 translation;                               ///< m, from the first to the second
@@ -21,23 +21,23 @@ struct PeriodicPatches {
 /// All pairs of a boundary.
 struct JoinedSides {
   std::vector<PeriodicPatches> pairs;
-  Column<TriangleId, TriangleId> sources;  ///< of each triangle of the boundary: before; of those that a second side gets: of its image. Empty where all stayed
+  Column<TriangleId, TriangleId> sources;  ///< previous number of each triangle; for copied ones on a second side, of the image. Empty if all stayed
 };
 
-/// Files keep 6 to 7 digits: vertices may be off their plane and off their image by this share of the boundary's box.
+/// Share of the boundary's box by which vertices may be off their plane and off their image: files keep 6 to 7 digits.
 inline constexpr double k_side_tolerance = 1e-6;
 
-/// Makes these patches of a closed boundary periodic: they become of kind interface; the first is moved into its plane, the second onto the first's image, to
-/// the bit, by k_side_tolerance of the boundary's box at most. Borders along the same lines that are cut into as many edges at other places (by a mesher whose
-/// sizes differ a little) match, too: there the second side's vertices go up to 0.35 edges along its border. Where borders match and the triangles between them
-/// do not, the second gets those of the first: its own and their vertices inside go (unused vertices stay in the mesh; triangles keep their order, those of the
-/// second side go to the end). Several pairs may share edges.
-/// \throws Error(bad_argument) for a name that is no patch (with those there are), a patch in several pairs, sides that are not flat, do not face each other or
-/// do not match: with places and distances
+/// Makes these patches of a closed boundary periodic. They become kind interface; the first is moved into its plane, the second onto the first's image,
+/// bit-exactly, by at most k_side_tolerance of the boundary's box. Borders along the same lines with equally many edges but different vertex locations (from a
+/// mesher whose sizes differ a little) also match: vertices of the second side then move up to 0.35 edges along its border. If borders match and the triangles
+/// between them do not, the second side gets the triangles of the first; its own triangles and their interior vertices are removed (unused vertices stay in the
+/// mesh; triangles keep their order, those of the second side go to the end). Several pairs may share edges.
+/// \throws Error(bad_argument) for a name that is no patch (with the existing names), a patch in several pairs, sides that are not flat, are not opposite or do
+/// not match: with locations and distances
 JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
 
-/// Moves vertices of periodic sides onto their images, as join_periodic_sides() does, without a change of triangles.
-/// \return the pairs, without vertices inside a second side that joining would add
+/// Moves vertices of periodic sides onto their images, as join_periodic_sides() does, without changing triangles.
+/// \return the pairs, without interior vertices of a second side that joining would add
 std::vector<PeriodicPatches> move_onto_images(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
 
 }  // namespace sterna::volmesh

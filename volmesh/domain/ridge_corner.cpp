@@ -3,8 +3,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_corner_cosine = 0.3;  ///< between lines of a corner and the virtual triangles there, at least
-constexpr double k_corner_slack = 0.05;  ///< cosine: lines of knife edges are at a right angle to the one in the middle
+constexpr double k_corner_cosine = 0.3;  ///< least cosine between growth lines of a corner and the virtual triangles there
+constexpr double k_corner_slack = 0.05;  ///< cosine: growth lines of knife edges are at a right angle to the middle line
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Where ridges meet (open_ridges.h): which normals the lines of a corner have.
+// Corners where ridges meet (open_ridges.h): normals of their growth lines.
 #pragma once
 
 #include <algorithm>
@@ -11,33 +11,35 @@
 
 namespace sterna::volmesh {
 
-/// The turn across an edge of a ridge, from the normal of its left side to that of its right one.
+/// The turn across an edge of a ridge, from the normal of its left side to that of its right side.
 struct RidgeTurn {
   double angle = 0.0;  ///< rad
   Vec3 axis;           ///< unit: turns the left normal towards the right one
-  /// The left normal turned by so much.
+  /// Returns the left normal turned by this angle.
   Vec3 turned(const Vec3& left, double by) const { return normalized(std::cos(by) * left + std::sin(by) * cross(axis, left)); }
 };
 
-/// A vertex at which ridges meet, or one bends by too much for the inside of a chain: a line for each side between two of its ridges, those of the fans
-/// between them, and one in the middle.
+/// A vertex at which ridges meet, or at which a ridge bends too much for the inside of a chain. It has a growth line for each side between two of its ridges,
+/// the lines of the multi-normal fans between them, and one in the middle.
 struct RidgeCorner {
-  std::vector<HalfedgeId> edges;             ///< of ridges, outgoing, counter-clockwise
-  std::vector<Vec3> normal;                  ///< unit, of the side left of each
-  std::vector<RidgeTurn> turn;               ///< across each: between the facets at it
-  std::vector<Vec3> facet;                   ///< unit normal of the left one of these
-  std::vector<int> n_sectors;                ///< of the fan across each; 0: not known yet
-  std::vector<std::vector<VertexId>> lines;  ///< from left to right of each
-  VertexId middle;                           ///< the line in the middle
+  std::vector<HalfedgeId> edges;             ///< edges of ridges, outgoing, counter-clockwise
+  std::vector<Vec3> normal;                  ///< unit normal of the side left of each edge
+  std::vector<RidgeTurn> turn;               ///< turn across each edge: between its facets
+  std::vector<Vec3> facet;                   ///< unit normal of the left facet of each edge
+  std::vector<int> n_sectors;                ///< number of sectors of the fan across each edge; 0: not known yet
+  std::vector<std::vector<VertexId>> lines;  ///< growth lines from left to right of each edge
+  VertexId middle;                           ///< the middle growth line
 
   const Vec3& right_normal(std::size_t i) const { return normal[(i + normal.size() - 1) % normal.size()]; }
   std::size_t edge_number(HalfedgeId h) const { return static_cast<std::size_t>(std::ranges::find(edges, h) - edges.begin()); }
 
-  /// Of the lines from left to right of an edge: around it from facet to facet, moved to the sides' normals at both ends. \pre n_sectors known
+  /// Normals of the growth lines from left to right of an edge: around it from facet to facet, adjusted to the sides' normals at both ends. \pre n_sectors
+  /// known
   std::vector<Vec3> normals_across(std::size_t i) const;
-  /// Of the line in the middle: the area vector of the spherical polygon of all these.
+  /// Normal of the middle growth line: the area vector of the spherical polygon of all these normals.
   Vec3 middle_normal() const;
-  /// Whether the triangles between middle and polygon cover it and are seen well from their lines. In notches, where lines would meet, they are not.
+  /// Returns true if the triangles between middle and polygon cover the polygon and are well visible from their growth lines. In notches, where growth lines
+  /// would meet, they are not.
   bool is_star() const;
 };
 

@@ -10,9 +10,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_given_plane = 1e-6;  ///< of the body length: a given symmetry patch within it of a plane is in it
+constexpr double k_given_plane = 1e-6;  ///< share of the body length: a given symmetry patch this close to a plane lies in it
 
-/// A given symmetry patch that is left out, to be made anew.
+/// A given symmetry patch that is left out and re-meshed.
 struct LeftOut {
   PatchId patch;
   std::size_t axis;
@@ -34,9 +34,9 @@ std::optional<LeftOut> in_plane(const TriMesh& mesh, PatchId patch) {
 /// The user's triangles without symmetry planes; vertices in the order of the boundary.
 struct UserPart {
   TriMesh mesh;
-  std::vector<TriangleId> triangles;  ///< of the boundary
+  std::vector<TriangleId> triangles;  ///< triangle numbers in the boundary
   std::vector<LeftOut> left_out;
-  Column<VertexId, VertexId> partner;  ///< of vertices that have one on another periodic side
+  Column<VertexId, VertexId> partner;  ///< for vertices with a partner on another periodic side
 };
 
 UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic) {
@@ -94,7 +94,7 @@ UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSpl
   return part;
 }
 
-/// What sheets have added is moved behind all that completion has.
+/// Moves the entries added by the sheets behind all entries of the completion.
 template <class I, class T>
 void move_to_end(Column<I, T>& column, std::size_t begin, std::size_t end) {
   std::vector<T>& values = column.raw();

@@ -1,4 +1,4 @@
-// The fluid's boundary with wake sheets: what the user gave gets them, and is completed anew around them.
+// The fluid's boundary with wake sheets: the user's surface gets the sheets, and is completed again around them.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,21 @@ namespace sterna::volmesh {
 
 struct SheetedBoundary {
   TriMesh boundary;
-  NeedleSplits needles;  ///< its sources and weights: of all triangles, sheets have that of the wall at the trailing edge, no weights
-  DoubledSheets sheets;  ///< in numbers of the boundary, of which what they have added are the last
+  NeedleSplits needles;  ///< sources and weights of all triangles: sheet triangles have the source of the wall at the trailing edge, and no weights
+  DoubledSheets sheets;  ///< in numbers of the boundary; entries added by the sheets are the last
 };
 
-/// Takes what came from the user out of a boundary that is complete, with its needles split, adds wake sheets and completes it again. Given symmetry patches in
-/// a plane x, y or z = constant are triangulated anew, as those that are added are, and so are given periodic sides, whose borders stay images of each other.
-/// \p n_given: triangles of the user's surface, the first ones of the boundary before needles were split
+/// Extracts the user's surface from a complete boundary with split sliver triangles, adds wake sheets and completes it again. Given symmetry patches in a plane
+/// x, y or z = constant are re-meshed like added planes. The same applies to given periodic sides, whose borders stay images of each other.
+/// \p n_given: triangles of the user's surface, the first of the boundary before sliver triangles were split
 /// \p periodic: sides of the boundary, whose vertices are on their images
-/// \p complete_again: complete_boundary(), or more, of what it is given; the triangles that it is given are the first of its result
+/// \p complete_again: complete_boundary(), possibly with further steps; its input triangles are the first of its result
 /// \throws as add_wake_sheets() and complete_boundary(); Error(bad_argument) for given periodic sides in no such plane
 SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
                                  std::span<const WakeSheet> wakes, double first_height, const std::function<TriMesh(const TriMesh&)>& complete_again,
                                  const RunContext& context);
 
-/// The sheets in numbers of a domain's wall; vertices on their rims get no layer there.
+/// Stores the sheets in numbers of a domain's wall; vertices on the boundary edges of the sheets get no layer.
 /// \pre domain of split_domain() on the boundary, all walls at the sheets have layers
 void hold_sheets(const SheetedBoundary& sheeted, Domain& domain);
 

@@ -1,5 +1,5 @@
-// Steps: find needles (else nothing is done); flip around them; bisect, each time with the flips that the new vertex makes possible; prove that nothing
-// crosses.
+// Steps: find sliver triangles (if none, nothing is done); flip edges around them; bisect, each time with the flips that the new vertex makes possible; verify
+// that nothing intersects.
 #include "volmesh/domain/split_needles.h"
 
 #include <algorithm>
@@ -18,20 +18,20 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_flip_gain = 0.95;     ///< the worst cotangent of a pair falls at least to this share by a flip: not to and fro between equals
-constexpr double k_flip_drift = 0.3;     ///< of flip_angle (rad) and the shorter diagonal: a square that is folded by the angle along one moves by a quarter
-constexpr double k_hairline = 1e-6;      ///< of the diagonal: triangles so thin have normals of rounding, the distance of the diagonals decides alone
-constexpr double k_needle_reach = 32.0;  ///< pieces of a long edge; needles that would take more are left, pieces in between would be needles too
-constexpr double k_least_piece = 0.45;   ///< of the piece of a given triangle's longest edge that makes it no needle: halves may fall below it once
-constexpr double k_crease_share = 2.0 / 3.0;  ///< of a triangle's longest edge: creases this long are bisected before it, because only they need it
-constexpr double k_path_ratio = 1.6;          ///< of edges: beyond it the neighbour's longest edge is bisected first. Above 1 / k_crease_share, so paths end
-constexpr double k_spoilt = 1.01;             ///< of a triangle's own cotangent: the sum of those of its parts that are needles
-constexpr int k_needle_passes = 6;            ///< flips alone, then each without splitting what it spoilt in the one before
-constexpr double k_sharper = 1.1;             ///< so much a needle's cotangent may get larger by a bisection
+constexpr double k_flip_gain = 0.95;     ///< a flip reduces the worst cotangent of a pair at least to this share: this prevents flipping back and forth
+constexpr double k_flip_drift = 0.3;     ///< share of flip_angle (rad) times the shorter diagonal: a square folded by the angle moves by a quarter
+constexpr double k_hairline = 1e-6;      ///< share of the diagonal: thinner triangles have normals of rounding, only the diagonals' distance counts
+constexpr double k_needle_reach = 32.0;  ///< pieces of a long edge; slivers that would need more are left, as the pieces in between would be slivers too
+constexpr double k_least_piece = 0.45;   ///< share of the piece length at which a given triangle's longest edge makes no sliver: halves may fall below it once
+constexpr double k_crease_share = 2.0 / 3.0;  ///< share of a triangle's longest edge: creases this long are bisected before it, because only they need it
+constexpr double k_path_ratio = 1.6;          ///< edge ratio: beyond it the neighbour's longest edge is bisected first. Above 1 / k_crease_share, so paths end
+constexpr double k_spoilt = 1.01;             ///< limit for the cotangent sum of a triangle's sliver parts, relative to its own cotangent
+constexpr int k_needle_passes = 6;            ///< one pass of flips alone; each further pass does not split the triangles that the previous pass worsened
+constexpr double k_sharper = 1.1;             ///< largest factor by which a bisection may increase a sliver's cotangent
 constexpr double k_endless_cotangent = 1e300;
 
 using FaceId = std::uint32_t;
-/// 3 face + corner, from that corner to the next one.
+/// 3 face + corner: the side from that corner to the next.
 using SideId = std::uint32_t;
 
 FaceId face_of(SideId s) { return s / 3; }
@@ -45,8 +45,8 @@ struct WallFace {
   PatchId patch;
   TriangleId source;
   bool has_layer = false;
-  double least_edge = 0.0;  ///< m, shorter ones do not come by bisection
-  double drift = 0.0;       ///< m, from the given surface at most
+  double least_edge = 0.0;  ///< m, bisection makes no shorter edges
+  double drift = 0.0;       ///< m, largest distance from the given surface
   CornerWeights weights{};
 };
 
@@ -54,7 +54,7 @@ std::array<double, 3> middle_weights(const std::array<double, 3>& a, const std::
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
 }
 
-/// Distance of the lines through ab and cd: how far a surface moves when one diagonal becomes the other.
+/// Distance of the lines through ab and cd: how far a surface moves if one diagonal replaces the other.
 double diagonal_distance(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Vec3 n = cross(b - a, d - c);
   const double length = norm(n);
@@ -107,7 +107,7 @@ class NeedleSplitter {
     while (!queue_.empty()) {
       const Candidate candidate = queue_.top();
       queue_.pop();
-      if (candidate.cotangent != cotangent(candidate.face)) continue;  // of a triangle that is no more
+      if (candidate.cotangent != cotangent(candidate.face)) continue;  // entry of a triangle that no longer exists
       const SideId chosen = side_to_bisect(candidate.face);
       if (chosen == k_none) continue;
       if (n_new_ + 2 > budget) {
@@ -124,14 +124,14 @@ class NeedleSplitter {
     }
   }
 
-  /// Sum of the cotangents of needles: how many there are, and how sharp.
+  /// Sum of the cotangents of sliver triangles: a measure of their number and sharpness.
   double sharpness() const {
     double sum = 0.0;
     for (FaceId f = 0; f < faces_.size(); ++f) sum += is_needle(f) ? cotangent(f) : 0.0;
     return sum;
   }
 
-  /// Marks the given triangles whose parts are needles more, or sharper, than they were. False where there is no new one.
+  /// Marks the given triangles whose sliver parts are more, or sharper, than before. Returns false if no new triangle is marked.
   bool lock_spoilt(const TriMesh& given, Column<TriangleId, std::uint8_t>& is_locked) const {
     Column<TriangleId, double> sum(is_locked.size(), 0.0);
     for (FaceId f = 0; f < faces_.size(); ++f)
@@ -169,7 +169,7 @@ class NeedleSplitter {
   struct Candidate {
     double cotangent;
     FaceId face;
-    /// priority_queue's top is the largest: the mildest needle, the first face.
+    /// The top of priority_queue is the largest: the mildest sliver, the first face.
     bool operator<(const Candidate& b) const { return cotangent != b.cotangent ? cotangent > b.cotangent : face > b.face; }
   };
 
@@ -188,7 +188,7 @@ class NeedleSplitter {
     if (is_needle(f)) queue_.push({cotangent(f), f});
   }
 
-  /// Whether a vertex is a neighbour of where a side starts.
+  /// Returns true if a vertex is a neighbour of the start of a side.
   bool has_neighbour(SideId s, VertexId other) const {
     const SideId first = s;
     do {
@@ -200,7 +200,7 @@ class NeedleSplitter {
 
   bool is_straight(const Vec3& a, const Vec3& b) const { return dot(a, b) >= flat_cosine_ * norm(a) * norm(b); }
 
-  /// Whether the wall is flat along an edge inside of a patch.
+  /// Returns true if the wall is flat along an edge inside a patch.
   bool is_flat(SideId s) const {
     const SideId t = twin(s);
     if (options_.flip_angle == 0.0 || !is_inner(s) || faces_[face_of(s)].patch != faces_[face_of(t)].patch) return false;
@@ -209,7 +209,7 @@ class NeedleSplitter {
     return diagonal_distance(from(s), to(s), opposite(s), opposite(t)) <= k_hairline * distance(opposite(s), opposite(t));
   }
 
-  /// The larger cotangent behind a flip; endless where it may not be.
+  /// Returns the larger cotangent after a flip; infinite if the flip is not allowed.
   double cotangent_behind_flip(SideId s) const {
     if (!is_flat(s)) return k_endless_cotangent;
     const Point &a = from(s), &b = to(s), &c = opposite(s), &d = opposite(twin(s));
@@ -254,7 +254,7 @@ class NeedleSplitter {
     ++n_flips_;
   }
 
-  /// Flips edges of needles among these faces, and of those that change by it, as long as that helps. Returns all of these faces, ascending.
+  /// Flips edges of sliver triangles among these faces, and of faces that change by it, as long as that helps. Returns all of these faces, ascending.
   std::vector<FaceId> flip_around(std::vector<FaceId> faces) {
     std::vector<FaceId> waiting(faces.rbegin(), faces.rend());
     while (!waiting.empty()) {
@@ -283,7 +283,7 @@ class NeedleSplitter {
     return faces;
   }
 
-  /// Whether the angle between creases around a corner leaves room for better ones.
+  /// Returns true if the angle between creases around a corner leaves room for better angles.
   bool has_room(SideId at_corner) const {
     double angle = corner_angle(from(at_corner), to(at_corner), opposite(at_corner));
     const auto add = [&](SideId s) { return angle += corner_angle(from(s), to(s), opposite(s)); };
@@ -302,7 +302,7 @@ class NeedleSplitter {
     return angle >= options_.split_needles;
   }
 
-  /// Of a triangle: the longest edge, or a crease that is nearly as long.
+  /// Returns the longest edge of a triangle, or a crease that is nearly as long.
   SideId long_side(FaceId f) const {
     SideId longest = side_at(f, 0);
     for (std::uint32_t k = 1; k < 3; ++k)
@@ -316,7 +316,7 @@ class NeedleSplitter {
     return crease != k_none ? crease : longest;
   }
 
-  /// Whether a triangle is a needle that stays one, in any number of pieces.
+  /// Returns true if a triangle is a sliver that stays one, in any number of pieces.
   bool is_hopeless(FaceId f) const {
     const double sharp = cotangent(f);
     if (!faces_[f].has_layer || sharp <= limit_) return false;
@@ -324,10 +324,10 @@ class NeedleSplitter {
     SideId shortest = side_at(f, 0);
     for (std::uint32_t k = 1; k < 3; ++k)
       if (length2(side_at(f, k)) < length2(shortest)) shortest = side_at(f, k);
-    return !has_room(side_before(shortest));  // at the smallest angle
+    return !has_room(side_before(shortest));  // room at the smallest angle
   }
 
-  /// Whether a triangle's halves would be sharper than needles that it was.
+  /// Returns true if a triangle's halves would be sharper slivers than the triangle itself.
   bool spoils(SideId s) const {
     if (!faces_[face_of(s)].has_layer) return false;
     const Point m = 0.5 * (from(s) + to(s));
@@ -335,7 +335,7 @@ class NeedleSplitter {
     return worst > std::max(limit_, k_sharper * cotangent(face_of(s)));
   }
 
-  /// The edge to bisect for the sake of a needle; none where that would not help.
+  /// Returns the edge to bisect to improve a sliver; none if that would not help.
   SideId side_to_bisect(FaceId f) const {
     const SideId s = long_side(f);
     if (!is_inner(s) || length2(s) < 4.0 * faces_[f].least_edge * faces_[f].least_edge) return k_none;
@@ -353,7 +353,7 @@ class NeedleSplitter {
     }
   }
 
-  /// Returns the four triangles beside the new vertex.
+  /// Bisects an edge and returns the four triangles adjacent to the new vertex.
   std::array<FaceId, 4> bisect(SideId s) {
     const SideId t = twin(s);
     const VertexId m = points_.push_back(0.5 * (from(s) + to(s)));
@@ -366,7 +366,7 @@ class NeedleSplitter {
     return made;
   }
 
-  /// From (a, b, c) to (a, m, c), and (m, b, c) as the last face.
+  /// Changes (a, b, c) to (a, m, c), and appends (m, b, c) as the last face.
   void halve(SideId s, VertexId m) {
     const FaceId f = face_of(s), last = static_cast<FaceId>(faces_.size());
     const std::uint32_t k = s % 3, l = (k + 1) % 3, n = (k + 2) % 3;
@@ -386,11 +386,11 @@ class NeedleSplitter {
 
   const NeedleOptions& options_;
   const RunContext& context_;
-  double limit_;  ///< cotangent
+  double limit_;  ///< limit of the cotangent
   double flat_cosine_;
   Column<VertexId, Point> points_;
-  const Column<TriangleId, std::uint8_t>& is_locked_;  ///< of given triangles
-  std::vector<WallFace> faces_;                        ///< all of the boundary
+  const Column<TriangleId, std::uint8_t>& is_locked_;  ///< for given triangles
+  std::vector<WallFace> faces_;                        ///< all faces of the boundary
   std::priority_queue<Candidate> queue_;
   std::int64_t n_given_ = 0, n_new_ = 0, n_flips_ = 0, n_bisections_ = 0;
   bool is_over_budget_ = false;
@@ -439,7 +439,7 @@ NeedleSplits split_needles(TriMesh& boundary, const Column<PatchId, std::uint8_t
 
   const StageTimer timer(context, "needles");
   const Topology topology(boundary, context);
-  if (topology.n_boundary_halfedges() > 0) return unchanged;  // whoever takes the boundary apart refuses it
+  if (topology.n_boundary_halfedges() > 0) return unchanged;  // split_domain rejects such a boundary later
   TriMesh split = boundary;
   NeedleSplits result;
   Column<TriangleId, std::uint8_t> is_locked(boundary.n_triangles(), 0);

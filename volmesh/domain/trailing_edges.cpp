@@ -12,11 +12,11 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_sharp_edge_turn = 120.0 * k_degree;
-constexpr double k_looks_downstream = 0.342;  ///< cosine of 70 degrees
+constexpr double k_looks_downstream = 0.342;  ///< cosine of 70 degrees; limit between stream and edge direction
 constexpr double k_base_turn_from = 40.0 * k_degree, k_base_turn_to = 140.0 * k_degree;
-constexpr double k_base_cosine = 0.7, k_side_of_base_cosine = 0.5;  ///< with the stream: a base has more, a side less
-constexpr double k_upright = 0.3;                                   ///< z of the normals of sides that look neither up nor down
-constexpr double k_base_width = 0.1;                                ///< of the chord
+constexpr double k_base_cosine = 0.7, k_side_of_base_cosine = 0.5;  ///< cosines to the stream: a base has a larger cosine, a side a smaller one
+constexpr double k_upright = 0.3;                                   ///< largest |z| in the normals of upright sides
+constexpr double k_base_width = 0.1;                                ///< share of the chord
 constexpr double k_chain_bend = 0.5;                                ///< cosine of 60 degrees
 constexpr double k_median_reach = 0.5;                              ///< chords
 constexpr std::size_t k_least_edges = 3;
@@ -28,7 +28,7 @@ Vec3 unit_normal_of(const TriMesh& wall, TriangleId t) {
 
 Vec3 along(const TriMesh& wall, const Topology& topology, HalfedgeId h) { return normalized(wall.points[topology.to(h)] - wall.points[topology.from(h)]); }
 
-/// Of each triangle: whether it is one of them.
+/// Returns 1 for each triangle of `wing`.
 Column<TriangleId, std::uint8_t> marks_of(const TriMesh& wall, const WingTriangles& wing) {
   Column<PatchId, std::uint8_t> matches(wall.patches.size(), 0);
   for (const PatchId p : wall.patches.ids()) matches[p] = wall.patches[p].kind == PatchKind::wall && matches_glob(wall.patches[p].name, wing.patches) ? 1 : 0;
@@ -38,13 +38,13 @@ Column<TriangleId, std::uint8_t> marks_of(const TriMesh& wall, const WingTriangl
   return result;
 }
 
-/// Unit, out of the wing, across an edge and halfway between both of its sides.
+/// Unit vector out of the wing, across an edge and halfway between both of its sides.
 Vec3 looks_along(const TriMesh& wall, const Topology& topology, HalfedgeId edge) {
   const Vec3 e = along(wall, topology, edge);
   return normalized(cross(e, unit_normal_of(wall, triangle_of(edge))) + cross(unit_normal_of(wall, triangle_of(topology.twin(edge))), e));
 }
 
-/// rad, positive where convex.
+/// Turn of the wall at an edge, rad, positive where convex.
 double turn_of(const TriMesh& wall, const Topology& topology, HalfedgeId h) {
   const Vec3 own = unit_normal_of(wall, triangle_of(h)), other = unit_normal_of(wall, triangle_of(topology.twin(h)));
   const double turn = std::atan2(dot(cross(own, other), along(wall, topology, h)), dot(own, other));
@@ -60,7 +60,7 @@ bool looks_up(const Vec3& normal) { return std::abs(normal.z) > k_upright ? norm
 
 bool is_base(const Vec3& normal, const Vec3& stream) { return dot(normal, stream) > k_base_cosine; }
 
-/// Of one half-edge: whether its own triangle is the side and its twin's the base.
+/// Returns true if the half-edge's own triangle is the side and its twin's triangle the base.
 bool is_above_base(const TriMesh& wall, const Topology& topology, HalfedgeId h, const Vec3& stream) {
   const Vec3 side = unit_normal_of(wall, triangle_of(h)), base = unit_normal_of(wall, triangle_of(topology.twin(h)));
   if (!is_base(base, stream) || dot(side, stream) > k_side_of_base_cosine || !looks_up(side)) return false;
@@ -68,7 +68,8 @@ bool is_above_base(const TriMesh& wall, const Topology& topology, HalfedgeId h, 
   return turn > k_base_turn_from && turn < k_base_turn_to;
 }
 
-/// Points in which the section by a plane cuts edges, as far as it hangs together from a vertex on: f(point). \p is_part: whether it goes over a triangle
+/// Calls f(point) for each point in which the plane section cuts edges, along the connected section from a vertex. \p is_part: returns true if the section may
+/// cross a triangle
 template <class IsPart, class F>
 void walk_section(const TriMesh& wall, const Topology& topology, VertexId from, const Vec3& normal, const IsPart& is_part, const F& f) {
   const Point p = wall.points[from];
@@ -96,13 +97,13 @@ void walk_section(const TriMesh& wall, const Topology& topology, VertexId from, 
   }
 }
 
-/// Of a vertex inside a chain, across which sections go.
+/// Normal of the section plane at a vertex inside a chain.
 Vec3 section_normal(const TriMesh& wall, const Topology& topology, HalfedgeId back, HalfedgeId ahead, const Vec3& stream) {
   const Vec3 edge = normalized(along(wall, topology, ahead) + along(wall, topology, back));
   return normalized(edge - dot(edge, stream) * stream);
 }
 
-/// Whether the base below a chain is narrow everywhere.
+/// Returns true if the base below a chain is narrow everywhere.
 bool has_narrow_base(const TriMesh& wall, const Topology& topology, const WingTriangles& wing, const Vec3& stream, const TrailingEdge& chain) {
   const std::vector<double> chords = local_chords(wall, topology, wing, stream, chain);
   for (std::size_t i = 1; i < chain.edges.size(); ++i) {
@@ -117,7 +118,7 @@ bool has_narrow_base(const TriMesh& wall, const Topology& topology, const WingTr
   return true;
 }
 
-/// The value that half of the weight is below.
+/// Returns the weighted median.
 double weighted_median(std::vector<std::array<double, 2>> values) {
   std::ranges::sort(values);
   double whole = 0.0, below = 0.0;
@@ -127,11 +128,11 @@ double weighted_median(std::vector<std::array<double, 2>> values) {
   return 0.0;
 }
 
-/// Of values at a chain's vertices: medians over k_median_reach chords to both sides. Beside a body sections go on over it, or end at the wing's root, and at a
-/// tip they get as short as one likes.
+/// Replaces values at a chain's vertices by medians over k_median_reach chords to both sides. Near a body, sections continue over the body or end at the wing's
+/// root, and at a tip they become arbitrarily short.
 std::vector<double> medians_along(const TriMesh& wall, const Topology& topology, const TrailingEdge& chain, const std::vector<double>& values) {
   const std::size_t n = values.size();
-  std::vector<double> at = {0.0}, weight(n, 0.0);  // m along the chain; m
+  std::vector<double> at = {0.0}, weight(n, 0.0);  // position along the chain, m; weight, m
   for (std::size_t i = 0; i < chain.edges.size(); ++i) {
     const double length = distance(wall.points[topology.from(chain.edges[i])], wall.points[topology.to(chain.edges[i])]);
     at.push_back(at.back() + length);
@@ -182,7 +183,7 @@ std::vector<TrailingEdge> find_trailing_edges(const TriMesh& wall, const Topolog
   };
   std::vector<TrailingEdge> chains;
   Column<HalfedgeId, std::uint8_t> is_done(topology.n_halfedges(), 0);
-  for (const bool from_ends : {true, false})  // what is left then are loops
+  for (const bool from_ends : {true, false})  // the remaining chains are loops
     for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
       const HalfedgeId first(i);
       if (kind[first] == none || is_done[first] || (from_ends && next_of(topology.twin(first)).is_valid())) continue;

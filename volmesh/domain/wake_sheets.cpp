@@ -1,5 +1,5 @@
-// Steps for each chain of trailing edges: shape (directions, chords, stations), keep (cells with room, no free rim from rim to rim), number, open the edge, add
-// triangles. Both sides stand a hair off their common foot, so all that comes after works as on any thin body.
+// Steps for each chain of trailing edges: shape (directions, chords, stations), keep (cells with enough space; no free boundary edge between two boundary
+// vertices), number, open the edge, add triangles. Both sides are slightly offset from their common base vertex, so all later steps work as on any thin body.
 #include "volmesh/domain/wake_sheets.h"
 
 #include <algorithm>
@@ -24,23 +24,23 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_wake_attempt = "making wake sheets";
-constexpr double k_sheet_raise = 0.01;          ///< of the first height: how far both sides are off their foot
-constexpr double k_least_sheet_raise = 1e-11;   ///< of the largest coordinate: five digits are left for normals between both sides
-constexpr double k_blend = 1.5;                 ///< chords, over which the sheet turns into the free stream
-constexpr double k_least_start = 0.25;          ///< of the edge across the stream: the first edge along it, or triangles would be needles
-constexpr double k_short_end = 0.25;            ///< of edges upstream of a chain, and of its median edge: shorter ones at its free ends get no sheet
-constexpr std::size_t k_least_sheet_edges = 3;  ///< of a chain, with or without these
-constexpr double k_longest = 2.5;               ///< of the edge across the stream: an edge along it, so that tops of layers are no needles
-constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< likewise where edges across are finer than this part of the chord
-constexpr double k_spread = 0.3;                                ///< chords, over which lines go to equal distances
-constexpr double k_spread_slope = 0.7;                          ///< of the way along a line: so far it goes aside for that, or cells would lean and cross
-constexpr double k_clear_angle = 0.3;   ///< of the way from the trailing edge: nearer than this, walls are in the way, unless farther than an edge
-constexpr double k_start_share = 0.01;  ///< of the first edge: walls are hit at its start
+constexpr double k_sheet_raise = 0.01;          ///< share of the first height: offset of both sides from their base vertex
+constexpr double k_least_sheet_raise = 1e-11;   ///< share of the largest coordinate: leaves five digits for normals between both sides
+constexpr double k_blend = 1.5;                 ///< chords over which the sheet turns into the free stream
+constexpr double k_least_start = 0.25;          ///< share of the edge across the stream: least first edge along the stream, to avoid sliver triangles
+constexpr double k_short_end = 0.25;            ///< share of the edges upstream of a chain, and of its median edge: shorter edges at its free ends get no sheet
+constexpr std::size_t k_least_sheet_edges = 3;  ///< least edges of a chain, with or without short ends
+constexpr double k_longest = 2.5;               ///< largest ratio of an edge along the stream to the edge across, so that tops of layers are no slivers
+constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< the same ratio where edges across are shorter than this share of the chord
+constexpr double k_spread = 0.3;                                ///< chords over which streamwise lines become equidistant
+constexpr double k_spread_slope = 0.7;  ///< largest sideways shift for that, as a share of the distance along the line: otherwise cells would lean and cross
+constexpr double k_clear_angle = 0.3;   ///< share of the distance from the trailing edge: nearer walls block the sheet, unless farther than an edge
+constexpr double k_start_share = 0.01;  ///< share of the first edge: ray hits nearer than this are the wall at the start
 constexpr std::size_t k_most_stations = 1000;
-constexpr int k_shape_sweeps = 3;       ///< of chords along the edge
-constexpr double k_shape_reach = 0.15;  ///< chords to both sides, over which directions are means
+constexpr int k_shape_sweeps = 3;       ///< smoothing sweeps of chords along the edge
+constexpr double k_shape_reach = 0.15;  ///< chords to both sides over which directions are averaged
 
-/// Mean of the edges at a vertex of the trailing edge that go upstream, m.
+/// Mean length of the edges that run upstream from a vertex of the trailing edge, m.
 double upstream_edge(const TriMesh& wall, const Topology& topology, VertexId v, const Vec3& stream) {
   double sum = 0.0;
   int n = 0;
@@ -53,7 +53,7 @@ double upstream_edge(const TriMesh& wall, const Topology& topology, VertexId v, 
   return n > 0 ? sum / n : 0.0;
 }
 
-/// A plane in which an open wall ends, and on which side of it the wall is.
+/// A plane in which an open wall ends, and the side of it on which the wall lies.
 struct BorderPlane {
   std::size_t axis = 0;
   double at = 0.0;
@@ -62,7 +62,7 @@ struct BorderPlane {
 };
 
 std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topology) {
-  std::map<std::pair<std::size_t, double>, std::size_t> n_edges;  // of an axis and a coordinate
+  std::map<std::pair<std::size_t, double>, std::size_t> n_edges;  // key: axis and coordinate
   std::vector<std::array<VertexId, 2>> border;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
@@ -71,7 +71,7 @@ std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topo
     for (std::size_t k = 0; k < 3; ++k)
       if (const double at = wall.points[border.back()[0]][k]; at == wall.points[border.back()[1]][k]) ++n_edges[{k, at}];
   }
-  // An edge along an axis lies in two such planes: it is of the one with more edges.
+  // An edge along an axis lies in two such planes: it is assigned to the plane with more edges.
   std::map<std::pair<std::size_t, double>, BorderPlane> planes;
   for (const auto& [a, b] : border) {
     std::optional<std::pair<std::size_t, double>> best;
@@ -105,8 +105,8 @@ class SheetMaker {
         topology_(wall, context),
         tree_(wall, context) {}
 
-  /// \return whether there is one: none behind a trailing edge whose sheet would be in a plane in which the wall ends (the half of a fin in the plane of
-  /// symmetry), which a warning tells
+  /// \return true if a sheet was made. There is none behind a trailing edge whose sheet would lie in a plane in which the wall ends (the half of a fin in the
+  /// plane of symmetry); a warning reports this
   bool make() {
     shape();
     if (is_in_border_plane()) return false;
@@ -127,9 +127,9 @@ class SheetMaker {
     throw_bad_argument(k_wake_attempt, std::move(problem), {{where, "the trailing edge"}}, std::move(hint));
   }
 
-  // ---- Where it is -----------------------------------------------------------------------------------------------------------------------
+  // ---- Shape ------------------------------------------------------------------------------------------------------------------------------
 
-  /// The coordinate that is the same along the border of the wall at the end of the chain; nothing where the chain ends inside the wall.
+  /// Returns the axis whose coordinate is constant along the border of the wall at the end of the chain; nothing if the chain ends inside the wall.
   std::optional<std::size_t> border_axis(VertexId v) const {
     std::vector<Point> ends;
     for (const HalfedgeId h : topology_.outgoing(v)) {
@@ -182,7 +182,7 @@ class SheetMaker {
     if (!chain_.is_loop) spread_lines();
   }
 
-  /// Whether the chain's ends are images of each other on two periodic sides. \throws where one has its image elsewhere
+  /// Returns true if the chain's ends are images of each other on two periodic sides. \throws if the image of an end is elsewhere
   bool is_from_side_to_side() const {
     if (chain_.is_loop) return false;
     const VertexId first = edge_vertex(0), last = edge_vertex(n_cells_);
@@ -193,7 +193,7 @@ class SheetMaker {
   }
   VertexId partner_of(VertexId v) const { return v.index() < partner_.size() ? partner_[v] : VertexId(); }
 
-  /// The lines at both ends get the same course, the mean of theirs.
+  /// Gives the lines at both ends the same shape, their mean.
   void equalise_ends() {
     std::vector<Point>&first = points_[0], &last = points_[n_cells_];
     for (std::size_t j = 1; j < first.size(); ++j) {
@@ -203,7 +203,7 @@ class SheetMaker {
     }
   }
 
-  /// Makes directions of normals: means over some of the trailing edge, so that a round tip does not turn the last lines, and without a part along the edge, so
+  /// Turns normals into directions: averages along the trailing edge, so that a round tip does not turn the last lines, without a component along the edge, so
   /// that lines do not cross.
   void even_out(std::vector<Vec3>& normals) const {
     for (Vec3& normal : normals) normal = normalized(normal);
@@ -229,13 +229,13 @@ class SheetMaker {
     }
   }
 
-  /// What is short across the stream at the trailing edge (beside a tip) need not be behind it: along each row, lines go to equal distances within k_spread
-  /// chords, but aside by no more than k_spread_slope of their way.
+  /// Distributes lines evenly. Short edges across the stream at the trailing edge (near a tip) are not needed behind it: along each row, lines become
+  /// equidistant within k_spread chords, with a sideways shift of at most k_spread_slope of their distance.
   void spread_lines() {
     for (std::size_t j = 1; j <= n_rows(); ++j) {
       std::vector<Point> row;
       std::vector<double> at = {0.0};
-      double way = 0.0, metres = 0.0;  // over the chord; as it is
+      double way = 0.0, metres = 0.0;  // distance over the chord; distance in metres
       for (std::size_t i = 0; i < n_lines(); ++i) {
         row.push_back(points_[i][j]);
         if (i > 0) at.push_back(at.back() + distance(row[i - 1], row[i]));
@@ -253,7 +253,7 @@ class SheetMaker {
     }
   }
 
-  /// Of the length, ascending from 0 to 1; the same for all lines.
+  /// Returns the stations as shares of the length, ascending from 0 to 1; the same for all lines.
   std::vector<double> stations(const std::vector<double>& first) const {
     const auto mean = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); };
     const double length = wake_.length * mean(chords_), across = mean(spacing_);
@@ -292,7 +292,7 @@ class SheetMaker {
     return points;
   }
 
-  /// Whether most of its lines go through such a plane.
+  /// Returns true if most of the lines run through such a plane.
   bool is_in_border_plane() {
     planes_ = border_planes(wall_, topology_);
     for (const BorderPlane& plane : planes_) {
@@ -306,12 +306,12 @@ class SheetMaker {
     return false;
   }
 
-  // ---- Which of its cells there are ------------------------------------------------------------------------------------------------------
+  // ---- Selection of cells -----------------------------------------------------------------------------------------------------------------
 
   std::size_t n_rows() const { return points_.front().size() - 1; }
   bool is_kept(std::size_t i, std::size_t j) const { return j < kept_[i]; }
 
-  /// No wall near a place on a line, but for the trailing edge that it comes from.
+  /// Returns true if no wall is near a location on a line, except the trailing edge where the line starts.
   bool has_room(std::size_t i, const Point& p, double way) const {
     const double reach = std::min(k_clear_angle * way, spacing_[line(i)]);
     return !tree_.nearest(p, reach).triangle.is_valid();
@@ -321,14 +321,14 @@ class SheetMaker {
     return std::ranges::any_of(planes_, [&](const BorderPlane& plane) { return plane.is_beyond(p); });
   }
 
-  /// No wall between two neighbours on a line.
+  /// Returns true if there is no wall between two neighbours on a line.
   bool is_free(std::size_t i, std::size_t j) const {
     for (const TriangleTree::RayHit& hit : tree_.ray(point(i, j), point(i, j + 1) - point(i, j)))
       if (hit.t < 1.0 && (j > 0 || hit.t > k_start_share)) return false;
     return true;
   }
 
-  /// Each column of cells ends where there is no room; then what is not wide enough goes.
+  /// Ends each column of cells where there is no space; then removes parts that are too narrow.
   void keep_cells() {
     kept_.assign(n_cells_, 0);
     for (std::size_t i = 0; i < n_cells_; ++i)
@@ -356,7 +356,7 @@ class SheetMaker {
            point(n_cells_ / 2, 0));
   }
 
-  /// Whether a vertex of the grid has a foot with two lines: inside the sheet, or on the wall's border.
+  /// Returns true if a vertex of the grid has a base vertex with two growth lines: inside the sheet, or on the wall's border.
   bool is_inside(std::size_t i, std::size_t j) const {
     const bool has_left = chain_.is_loop || i > 0, has_right = chain_.is_loop || i < n_cells_;
     if ((!has_left || !has_right) && !is_at_border(i)) return false;
@@ -371,7 +371,7 @@ class SheetMaker {
     return std::ranges::any_of(topology_.outgoing(v), [&](HalfedgeId h) { return topology_.is_boundary(h) || topology_.is_boundary(previous(h)); });
   }
 
-  /// The last of `n` cells of a column, and all before it: each triangle has a vertex inside, no edge between two cells goes from rim to rim.
+  /// Checks the first `n` cells of a column: each triangle has an inner vertex, and no edge between two cells joins two boundary vertices.
   bool is_sound(std::size_t i, std::size_t n) const {
     for (std::size_t j = 0; j < n; ++j) {
       const bool a = is_inside(i, j), b = is_inside(i + 1, j), c = is_inside(i + 1, j + 1), d = is_inside(i, j + 1);
@@ -386,15 +386,15 @@ class SheetMaker {
     }
     return true;
   }
-  /// Whether a cell (a, b, c, d) may be cut along a-c, or b-d.
+  /// Returns true if a cell (a, b, c, d) may be cut along a-c, or b-d.
   static bool has_diagonal(const std::array<bool, 4>& inside, bool is_first) {
     const auto [a, b, c, d] = inside;
     return is_first ? a || c : b || d;
   }
 
-  // ---- What it adds to the wall ----------------------------------------------------------------------------------------------------------
+  // ---- Additions to the wall --------------------------------------------------------------------------------------------------------------
 
-  /// Unit: of the left side at a vertex of the grid.
+  /// Unit normal of the left side at a vertex of the grid.
   Vec3 normal_at(std::size_t i, std::size_t j) const {
     Vec3 sum;
     for (std::size_t column = 0; column < n_cells_; ++column) {
@@ -405,7 +405,7 @@ class SheetMaker {
     return normalized(sum);
   }
 
-  /// Vertices of both sides, that of the left one first.
+  /// Numbers the vertices of both sides, the left side's first.
   void number() {
     sides_.assign(n_lines(), std::vector<std::array<VertexId, 2>>(n_rows() + 1));
     for (std::size_t i = 0; i < n_lines(); ++i)
@@ -419,7 +419,7 @@ class SheetMaker {
         else made_.sheets.rims.push_back(sides[0]);
       }
   }
-  /// Vertices of both sides on the trailing edge; the one that there is where no layers go on there. \pre row 0 is numbered before the others
+  /// Vertices of both sides on the trailing edge; the existing vertex where no layers continue there. \pre row 0 is numbered before the others
   std::array<VertexId, 2> start_of(std::size_t i) const {
     const std::array<VertexId, 2>& sides = sides_[i][0];
     return sides[0].is_valid() ? sides : std::array<VertexId, 2>{edge_vertex(i), edge_vertex(i)};
@@ -430,7 +430,7 @@ class SheetMaker {
     return false;
   }
 
-  /// Triangles on the right of the chain at a vertex of it.
+  /// Triangles to the right of the chain at one of its vertices.
   std::vector<TriangleId> on_the_right(std::size_t i) const {
     const bool has_back = chain_.is_loop || i > 0, has_ahead = chain_.is_loop || i < n_cells_;
     std::vector<TriangleId> triangles;
@@ -444,7 +444,7 @@ class SheetMaker {
     return triangles;
   }
 
-  /// Both sides apart by a hair; triangles of the wing on the right get their own vertices.
+  /// Separates both sides by a small offset; triangles of the wing on the right get their own vertices.
   void open_edge() {
     std::vector<std::pair<VertexId, Vec3>> moved;
     for (std::size_t i = 0; i < n_lines(); ++i)
@@ -484,7 +484,7 @@ class SheetMaker {
         }
       }
   }
-  /// \p t: as the right side has it
+  /// \p t: orientation of the right side
   void add_triangle(TriangleVertices t, std::size_t side, TriangleId source) {
     if (side == 0) std::swap(t[1], t[2]);
     wall_.triangles.push_back(t);
@@ -496,23 +496,23 @@ class SheetMaker {
   const Vec3 stream_;
   double raise_;  ///< m
   const TrailingEdge& chain_;
-  const Column<VertexId, VertexId>& partner_;  ///< of the wall's given vertices, or empty
+  const Column<VertexId, VertexId>& partner_;  ///< partners of the wall's given vertices, or empty
   SheetsOnWall& made_;
   TriMesh& wall_;
   const RunContext& context_;
-  Topology topology_;  ///< of the wall without this sheet
-  TriangleTree tree_;  ///< likewise
+  Topology topology_;  ///< topology of the wall without this sheet
+  TriangleTree tree_;  ///< tree of the wall without this sheet
   std::vector<BorderPlane> planes_;
   std::size_t n_cells_ = 0;
   bool has_images_ = false;                 ///< is_from_side_to_side()
-  std::vector<double> chords_, spacing_;    ///< m, of each line: local chord, edge across the stream
-  std::vector<std::vector<Point>> points_;  ///< of each line, from the trailing edge on
-  std::vector<std::size_t> kept_;           ///< of each column of cells: how many there are
+  std::vector<double> chords_, spacing_;    ///< m, for each line: local chord, edge across the stream
+  std::vector<std::vector<Point>> points_;  ///< for each line, from the trailing edge on
+  std::vector<std::size_t> kept_;           ///< number of cells in each column
   std::vector<std::vector<std::array<VertexId, 2>>> sides_;
 };
 
-/// Without the short edges of a round tip, behind which the sheet's triangles would be needles: its first edges along the stream are as long there as
-/// elsewhere.
+/// Removes the short edges of a round tip from a chain: the sheet's triangles behind them would be slivers, as its first edges along the stream are as long
+/// there as elsewhere.
 TrailingEdge without_short_ends(const TriMesh& wall, const Topology& topology, const Vec3& stream, TrailingEdge chain) {
   if (chain.is_loop) return chain;
   const auto length = [&](HalfedgeId h) { return distance(wall.points[topology.to(h)], wall.points[topology.from(h)]); };
@@ -566,7 +566,7 @@ Vec3 stream_of(const TriMesh& boundary) {
     sum += area_vector(a, b, c);
     area += norm(area_vector(a, b, c));
   }
-  constexpr double k_one_way = 0.5;  // of the area: less is no stream
+  constexpr double k_one_way = 0.5;  // share of the area: below it, there is no stream direction
   return norm(sum) > k_one_way * area ? normalized(sum) : k_along_x;
 }
 
@@ -590,7 +590,7 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
                              "\" have no trailing edge: no three edges in a row at which the wall turns by more than 120 degrees and looks downstream, or "
                              "above a base narrower than a tenth of the chord",
                          {}, "check the direction of the free stream");
-    // Before the wall is changed: makers double its vertices, half-edges stay.
+    // Before the wall is changed: makers double its vertices, but half-edges stay valid.
     for (TrailingEdge& chain : chains) chain = without_short_ends(wall, topology, stream, std::move(chain));
     for (const TrailingEdge& chain : chains) n_chains += SheetMaker(wake, stream, raise, chain, partner, made, wall, context).make() ? 1 : 0;
   }

@@ -13,7 +13,7 @@ namespace {
 struct FrictionLaw {
   std::string_view name;
   double (*friction)(double reynolds);
-  double from, to;  ///< Reynolds numbers that its authors fitted
+  double from, to;  ///< range of Reynolds numbers of the authors' fit
 };
 constexpr std::array<FrictionLaw, 6> k_laws = {{
     {"schlichting", [](double re) { return std::pow(2.0 * std::log10(re) - 0.65, -2.3); }, 5e5, 1e9},

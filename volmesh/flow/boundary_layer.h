@@ -1,4 +1,4 @@
-// Estimates of a turbulent boundary layer on a flat plate, for meshes: the first height of a wanted y+, and the thickness that the layers have to cover.
+// Estimates of a turbulent flat-plate boundary layer for meshing: the first height for a target y+, and the thickness that the layers have to cover.
 #pragma once
 
 #include <string>
@@ -33,16 +33,17 @@ inline constexpr double k_least_reynolds = 1e4;
 inline constexpr double k_largest_reynolds = 1e11;
 
 struct FirstHeight {
-  double height = 0.0;  ///< m: what first_height is to be
+  double height = 0.0;  ///< m: value for first_height
   double y_plus = 0.0;
-  double wall_distance = 0.0;  ///< m, that has the y+: the first node's, or half the first cell's height
+  double wall_distance = 0.0;  ///< m, distance at which y+ holds: the first node, or half the first cell's height
   double skin_friction = 0.0;
-  double friction_velocity = k_automatic;  ///< m/s; automatic where the speed is not known
+  double friction_velocity = k_automatic;  ///< m/s; automatic if the speed is not known
   FirstHeightOptions options;
   FlowState flow;
 };
-/// y = y+ nu / u_tau with u_tau = U sqrt(cf/2), so y = y+ (L/Re) / sqrt(cf/2): free-stream values, which at an adiabatic wall in compressible flow give y+ a
-/// little below the wanted. Cell-centred solvers measure y+ at the middle of the first cell, node-centred ones at its upper nodes.
+/// Returns the first height for a target y+: y = y+ nu / u_tau with u_tau = U sqrt(cf/2), so y = y+ (L/Re) / sqrt(cf/2). These are free-stream values: at an
+/// adiabatic wall in compressible flow they give a y+ a little below the target. Cell-centred solvers measure y+ at the middle of the first cell, node-centred
+/// solvers at its upper nodes.
 /// \throws as skin_friction
 FirstHeight first_height(const FirstHeightOptions& options, const FlowState& flow);
 

@@ -9,7 +9,7 @@ namespace {
 
 bool has(double value) { return !is_automatic(value); }
 
-/// Collects what is wrong, so that it is told at once.
+/// Collects all input errors, so that they are reported together.
 class Problems {
  public:
   void add(const std::string& text) { text_ += (text_.empty() ? "" : "; ") + text; }
@@ -39,7 +39,7 @@ void refuse_contradictions(const FlowConditions& given, Problems& problems) {
   if (has(given.temperature) && has(given.pressure) && has(given.density)) problems.add("of temperature, pressure and density two are enough");
 }
 
-/// Temperature, pressure, density and viscosity as far as they are given or follow from each other.
+/// Determines temperature, pressure, density and viscosity, as far as they are given or follow from each other.
 void find_gas(const FlowConditions& given, FlowState& flow) {
   flow.temperature = given.temperature;
   flow.pressure = given.pressure;
@@ -70,7 +70,7 @@ void find_speed(const FlowConditions& given, FlowState& flow) {
   else if (has(flow.speed)) flow.mach = flow.speed / sound;
 }
 
-/// The Reynolds number from the gas, or what is still open of the gas from the Reynolds number.
+/// Computes the Reynolds number from the gas, or a missing gas property from the Reynolds number.
 void find_reynolds(const FlowConditions& given, FlowState& flow, Problems& problems) {
   const bool is_known = has(flow.speed) && has(flow.density) && has(flow.viscosity);
   if (!has(given.reynolds)) {

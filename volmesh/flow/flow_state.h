@@ -1,4 +1,4 @@
-// What flows past the body: from whatever a user knows of it to Reynolds number, speed and the state of the gas.
+// Flow conditions around the body: computes Reynolds number, speed and gas state from the values that the user gives.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace sterna::volmesh {
 
-/// What the user knows; k_automatic: not given.
+/// Values given by the user; k_automatic: not given.
 struct FlowConditions {
   double length = k_automatic;
   double reynolds = k_automatic;
@@ -22,9 +22,9 @@ struct FlowConditions {
   double viscosity = k_automatic;
 };
 
-/// k_automatic: cannot be known from what was given, and is not needed for the Reynolds number.
+/// Complete flow state. k_automatic: cannot be derived from the given values, and is not needed for the Reynolds number.
 struct FlowState {
-  double length = k_automatic;    ///< m, that the Reynolds number is made with
+  double length = k_automatic;    ///< m, reference length of the Reynolds number
   double reynolds = k_automatic;  ///< speed * density * length / viscosity
   double mach = k_automatic;
   double speed = k_automatic;        ///< m/s
@@ -32,16 +32,17 @@ struct FlowState {
   double pressure = k_automatic;     ///< Pa
   double density = k_automatic;      ///< kg/m^3
   double viscosity = k_automatic;    ///< Pa s, dynamic
-  double altitude = k_automatic;     ///< m, where the standard atmosphere was used
+  double altitude = k_automatic;     ///< m, if the standard atmosphere was used
 };
 
-/// One of: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density, with mach or speed (air); density, viscosity and
-/// speed (any fluid); reynolds alone, or with temperature and mach or speed, from which the density follows (air). Always the length. A viscosity of the user's
-/// replaces Sutherland's.
-/// \throws Error(bad_argument) with everything that is missing or says the same twice; as standard_atmosphere
+/// Computes the flow state from one of these sets: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density, with mach
+/// or speed (air); density, viscosity and speed (any fluid); reynolds alone, or with temperature and mach or speed, from which the density follows (air). The
+/// length is always required. A user-supplied viscosity replaces Sutherland's.
+/// \throws Error(bad_argument) with all missing or redundant values; as standard_atmosphere
 FlowState flow_state(const FlowConditions& given);
 
-/// "Re 2.14e+07 at 4.2 m, Mach 0.78, 230.2 m/s, 216.7 K, 22632 Pa, 0.3639 kg/m^3, 1.422e-05 Pa s, 11000 m of the standard atmosphere": what is known.
+/// Returns the known values: "Re 2.14e+07 at 4.2 m, Mach 0.78, 230.2 m/s, 216.7 K, 22632 Pa, 0.3639 kg/m^3, 1.422e-05 Pa s, 11000 m of the standard
+/// atmosphere".
 std::string describe(const FlowState& flow);
 
 }  // namespace sterna::volmesh

@@ -4,9 +4,9 @@
 namespace sterna::volmesh {
 
 inline constexpr double k_gas_constant = 287.05287;    ///< J/(kg K) of air: 8314.32 / 28.9644, both as the standard defines them
-inline constexpr double k_heat_ratio = 1.4;            ///< of air
-inline constexpr double k_lowest_altitude = -5000.0;   ///< m, geopotential: where the tables of ICAO and of 1976 begin
-inline constexpr double k_highest_altitude = 84852.0;  ///< m, geopotential (86 km geometric): above, the air is no longer one gas and the formulas end
+inline constexpr double k_heat_ratio = 1.4;            ///< ratio of specific heats of air
+inline constexpr double k_lowest_altitude = -5000.0;   ///< m, geopotential: start of the ICAO and 1976 tables
+inline constexpr double k_highest_altitude = 84852.0;  ///< m, geopotential (86 km geometric): above, the composition of the air changes and the formulas end
 
 struct AirState {
   double temperature = 0.0;  ///< K
@@ -14,12 +14,12 @@ struct AirState {
   double density = 0.0;      ///< kg/m^3
 };
 
-/// At a geopotential (pressure) altitude in m, as flight levels and ISA tables have it. With an offset ("ISA+15") the pressure is that of the altitude and the
-/// air is that much (K) warmer.
-/// \throws Error(bad_argument) outside of [k_lowest_altitude, k_highest_altitude], and for an offset that leaves no temperature
+/// Returns the air at a geopotential (pressure) altitude in m, as used for flight levels and ISA tables. With an offset ("ISA+15") the pressure is that of the
+/// altitude and the air is that much (K) warmer.
+/// \throws Error(bad_argument) outside of [k_lowest_altitude, k_highest_altitude], and for an offset that makes the temperature not positive
 AirState standard_atmosphere(double altitude, double temperature_offset = 0.0);
 
-/// Dynamic viscosity of air, Pa s: Sutherland's formula with the constants of the 1976 standard, 1.458e-6 T^1.5 / (T + 110.4).
+/// Returns the dynamic viscosity of air, Pa s: Sutherland's formula with the constants of the 1976 standard, 1.458e-6 T^1.5 / (T + 110.4).
 double viscosity_of_air(double temperature);
 /// m/s
 double speed_of_sound(double temperature);

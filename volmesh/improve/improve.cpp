@@ -12,9 +12,10 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_angles_end = 0.4;  ///< share of the time
-constexpr int k_wish_failures = 3;    ///< wishes are many, and those that can be had are had soon
+constexpr int k_wish_failures = 3;    ///< soft targets are many, and the feasible ones are reached soon
 
-/// Of the pass after the one for the limits: the figures that gates wish for. Changes for their sake make no angle worse than they find it, or than the limits.
+/// Limits of the second pass, after the pass for the hard limits: the target values of the gates. Changes in this pass make no angle worse than the worst that
+/// they replace, or than the limits.
 QualityLimits wished_limits(const ImproveOptions& options) {
   const GateTable gates;
   QualityLimits limits = quality_limits(options.improve_min_angle, std::min(options.improve_max_angle, gates[Measure::max_dihedral].target));
@@ -24,7 +25,7 @@ QualityLimits wished_limits(const ImproveOptions& options) {
   return limits;
 }
 
-/// What is bad by the limits of the options.
+/// Returns the tetrahedra beyond the limits of the options.
 AngleSurvey survey_of(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
   return survey_angles(boundary, tets, quality_limits(options.improve_min_angle, options.improve_max_angle), context);
 }
@@ -68,7 +69,7 @@ void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t
   for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
     if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
       some.push_back(static_cast<std::uint32_t>(t));
-  Improver improver(boundary, tets, wished_limits(options), context);  // those for angles alone would take the volumes back
+  Improver improver(boundary, tets, wished_limits(options), context);  // a pass for angles alone would undo the volume changes
   improver.work_on_bad_of(some);
   report.rounds += improver.run(options.improve_rounds);
   improver.finish(tets);

@@ -12,27 +12,29 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_group = 300;  ///< bad tetrahedra: the more, the fewer lie between two groups; few enough to keep some cores busy
+constexpr std::size_t k_group = 300;  ///< bad tetrahedra per group: larger groups leave fewer between two groups; small enough to keep some cores busy
 constexpr std::uint32_t k_ring_shift = 28;
-/// Rings of vertices around the bad ones that a group claims; every third pass another ring, for those that one did not help.
+/// Rings of vertices around the bad tetrahedra that a group claims; every third pass adds a ring, for tetrahedra that one ring did not help.
 constexpr std::uint32_t rings_of(int pass) { return pass % 3 == 2 ? 2 : 1; }
 constexpr std::size_t k_job_chunk = 1;
 constexpr std::uint32_t k_no_region = 0xffffffffu;
-/// Tetrahedra graded in all passes: of a run, and for each tetrahedron. Usual meshes take 20 to 400 for each; fans of thousands of needles would take days.
+/// Limits on tetrahedra graded in all passes: per run, and per tetrahedron. Usual meshes take 20 to 400 per tetrahedron; fans of thousands of slivers would
+/// take days.
 constexpr std::uint64_t k_least_effort = 300'000'000, k_effort_of_tet = 500, k_effort_of_job = 20'000'000;
-/// What every run may take without asking what it brings, for itself and for each tetrahedron that it is about: 10 s for a million of these.
+/// Effort that every run may use without a check of its benefit, per run and per tetrahedron under consideration: 10 s for a million of these.
 constexpr std::uint64_t k_free_effort = 2'000'000, k_free_effort_of_tet = 100;
-/// Then it ends with the first passes, one of each kind, that took more than so many tetrahedra graded for each bad one mended: usual ones are mended with some
-/// thousand, walls full of needles go on like this for minutes.
+/// After that, the run ends with the first passes, one of each kind, that graded more than this number of tetrahedra per repaired one: usual bad tetrahedra are
+/// repaired with a few thousand, while walls full of slivers continue like this for minutes.
 constexpr int k_dear_mend = 10'000;
 constexpr std::size_t k_judged_passes = 3;
-/// Or with one pass that took this many times as much for each: on tessellated cylinders with thousands of needles one pass takes longer than all else.
+/// The run also ends with one pass that took this many times as much per repaired tetrahedron: on tessellated cylinders with thousands of slivers one pass
+/// takes longer than all other steps.
 constexpr double k_hopeless_factor = 5.0;
-constexpr double k_expected_passes = 2.5;  ///< like the coming one, as far as progress is told
-constexpr double k_hard_counts = 3.0;      ///< tetrahedra beyond the hard limits count as so many bad ones, as in the costs of a Region
-/// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
+constexpr double k_expected_passes = 2.5;  ///< expected number of passes as long as the next one, for the progress report
+constexpr double k_hard_counts = 3.0;      ///< a tetrahedron beyond the hard limits counts as this many bad ones, as in the costs of a Region
+/// Changes may make tetrahedra of this share of the target as long as the mesh has worse tetrahedra.
 constexpr double k_floor = 0.5;
-/// Volume of a prism over that of a tetrahedron that fits it: a third of the height of a regular one is the step that gates G9 count from.
+/// Volume ratio of a prism and a fitting tetrahedron: a prism of a third of the height of a regular tetrahedron is the reference of gate G9.
 constexpr double k_prism_over_tet = 3.0;
 constexpr std::size_t k_listing_chunk = 1 << 15;
 
@@ -63,7 +65,8 @@ double Improver::quality(const Corners& c) const {
   return on_layer ? *on_layer : quality_among(shape, size_weights_[c[0]] * size_weights_[c[1]] * size_weights_[c[2]] * size_weights_[c[3]], limits_);
 }
 
-/// Of each vertex the mean of the logarithms of the volumes around it; on top of the layer the mean of that and of what would fit the last prisms there.
+/// Computes for each vertex the mean of the logarithms of the volumes around it; on top of the layer, the mean of that and of the volume that would fit the
+/// last prisms there.
 void Improver::find_sizes(const TetraBoundary& boundary) {
   std::vector<double> log_volume(tets_.size());
   parallel_for(context_, tets_.size(), [&](std::size_t t) {
@@ -100,7 +103,7 @@ void Improver::find_layer_faces(const TetraBoundary& boundary) {
   parallel_sort(context_, layer_faces_, std::less<>());
 }
 
-/// Those between vertices of a job, with its numbers.
+/// Returns the layer faces between vertices of a job, in local numbers.
 std::vector<LayerFace> Improver::local_layer_faces(const Job& job, std::uint32_t number) const {
   std::vector<LayerFace> faces;
   for (const std::uint32_t v : job.vertices) {
@@ -109,7 +112,7 @@ std::vector<LayerFace> Improver::local_layer_faces(const Job& job, std::uint32_t
       if (std::ranges::all_of(face->corners, [&](std::uint32_t u) { return owner_of(u) == number; }))
         faces.push_back({{local_[face->corners[0]], local_[face->corners[1]], local_[face->corners[2]]}, face->weight});
   }
-  return faces;  // local numbers ascend with the others: sorted
+  return faces;  // local numbers ascend with global ones: the list is sorted
 }
 
 void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
@@ -180,7 +183,7 @@ double Improver::amount_of_bad() const {
   return amount;
 }
 
-/// Whether the last passes took more than they brought. By numbers after each pass: tries that are left, and what is bad.
+/// Returns true if the cost of the last passes exceeded their benefit. Numbers after each pass: remaining tries, and remaining bad tetrahedra.
 bool Improver::is_dear(std::span<const std::uint64_t> left_after, std::span<const double> bad_after) const {
   const auto is_above = [&](std::size_t n_passes, double tries, std::uint64_t least) {
     const std::size_t n = left_after.size();
@@ -198,9 +201,9 @@ int Improver::run(int max_passes) {
   int pass = 0;
   std::uint64_t left = k_least_effort + k_effort_of_tet * tets_.size();
   const std::uint64_t free_until = left - std::min(left, k_free_effort + k_free_effort_of_tet * n_about_);
-  std::vector<std::uint64_t> left_after;  // each pass
+  std::vector<std::uint64_t> left_after;  // one entry per pass
   std::vector<double> bad_after;
-  double n_done = 0.0;  // jobs
+  double n_done = 0.0;  // number of jobs done
   for (; pass < max_passes; ++pass) {
     context_.check_stop();
     std::vector<Job> jobs = choose_jobs(pass);
@@ -241,7 +244,8 @@ int Improver::run(int max_passes) {
   return pass;
 }
 
-/// Groups along Morton's curve; its grid and the first group's size differ from pass to pass, so that what lay between two groups is within one another time.
+/// Forms groups along Morton's curve; its grid and the first group's size differ from pass to pass, so that tetrahedra between two groups are inside one group
+/// in another pass.
 std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   Vec3 low = points_[0], high = points_[0];
   for (std::size_t v = 0; v < n_fixed_; ++v)
@@ -255,7 +259,7 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
     bool operator<(const Item& other) const { return code != other.code ? code < other.code : tet < other.tet; }
   };
   std::vector<Item> items;
-  const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes alike
+  const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes are alike
   for (const Bad& bad : bad_) {
     const Corners& c = tets_[bad.tet];
     const bool is_at_boundary = std::min({c[0], c[1], c[2], c[3]}) < n_fixed_;
@@ -279,8 +283,8 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   return jobs;
 }
 
-/// Claims what lies around the vertices that it owns. Nearer to a bad tetrahedron counts first, then the number; so the owners do not depend on the order of
-/// the claims.
+/// Claims the tetrahedra and vertices around the vertices that the job owns. The smaller ring around a bad tetrahedron has priority, then the job number; so
+/// the owners do not depend on the order of the claims.
 void Improver::claim_ring(Job& job, std::uint32_t number, std::uint32_t ring) {
   const std::uint32_t rank = ring << k_ring_shift | number;
   const auto claim = [&](std::uint32_t v) {

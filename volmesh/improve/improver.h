@@ -1,4 +1,4 @@
-// Passes over the bad tetrahedra of a mesh, in disjoint groups that are worked on in parallel.
+// Passes over the bad tetrahedra of a mesh, in disjoint groups that are processed in parallel.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace sterna::volmesh {
 
-/// Each pass: the bad tetrahedra along a space-filling curve, so many to a group; a group owns the vertices around its bad ones unless a group before it does;
-/// the tetrahedra between vertices of one group are a Region of their own; the results are put back in order. A tetrahedron that its nearest neighbourhood
-/// could not help gets a wider one; one that this cannot help either is left until something changes beside it.
+/// Improves a mesh in passes. Each pass takes the bad tetrahedra along a space-filling curve, in groups of fixed size. A group owns the vertices around its bad
+/// tetrahedra unless an earlier group owns them; the tetrahedra between vertices of one group form a Region; the results are put back in order. A tetrahedron
+/// that could not be improved in its nearest neighbourhood gets a wider one; if this fails, too, it is left until a neighbour changes.
 class Improver {
  public:
   using Corners = std::array<std::uint32_t, 4>;
 
   /// \pre verify_tetrahedra() passes.
   Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, const RunContext& context);
-  /// Before run(): what to work on, all of it below the target.
+  /// Selects the tetrahedra to improve, before run(); all of them are below the target.
   void work_on(std::span<const std::uint32_t> bad);
-  /// The same: all that is below the target but these (ascending).
+  /// Selects, before run(), all tetrahedra below the target except these (ascending).
   void work_on_all_but(std::span<const std::uint32_t> left);
-  /// The same: those of some that are below the target.
+  /// Selects, before run(), those of `some` that are below the target.
   void work_on_bad_of(std::span<const std::uint32_t> some);
-  /// Until nothing is left to work on, nothing helps, or passes take more than they bring. Number of passes made.
+  /// Runs passes until no selected tetrahedron is left, nothing improves, or the cost of passes exceeds their benefit. Returns the number of passes.
   int run(int max_passes);
   std::uint64_t effort() const { return effort_; }  ///< Region::effort() of all passes
-  /// Removes what has vanished: numbers close up in order.
+  /// Removes deleted tetrahedra and vertices: numbers close up in order.
   void finish(TetraResult& result);
 
  private:
@@ -40,17 +40,17 @@ class Improver {
     std::uint32_t tet;
   };
   struct Job {
-    std::vector<std::uint32_t> bad;        ///< that the group is for
-    std::vector<std::uint32_t> vertices;   ///< ascending in the end: local to global
-    std::size_t n_inner = 0;               ///< of these, of all rings but the last
+    std::vector<std::uint32_t> bad;        ///< bad tetrahedra of the group
+    std::vector<std::uint32_t> vertices;   ///< ascending at the end: local to global
+    std::size_t n_inner = 0;               ///< number of vertices in all rings but the last
     std::vector<std::uint32_t> tets;       ///< ascending
-    std::vector<std::uint32_t> worked;     ///< places in `tets` of its bad ones
-    std::vector<std::uint8_t> n_failures;  ///< of these
+    std::vector<std::uint32_t> worked;     ///< indices in `tets` of the bad tetrahedra
+    std::vector<std::uint8_t> n_failures;  ///< for each of `worked`
     bool has_changed = false;
     std::uint64_t effort = 0;            ///< Region::effort()
-    std::vector<Vec3> points;            ///< of the local vertices, new ones at the end
-    std::vector<double> size_weights;    ///< likewise
-    std::vector<std::uint32_t> removed;  ///< of `tets`
+    std::vector<Vec3> points;            ///< points of the local vertices, new ones at the end
+    std::vector<double> size_weights;    ///< weights of the local vertices, new ones at the end
+    std::vector<std::uint32_t> removed;  ///< indices in `tets`
     std::vector<Corners> added;          ///< local corners
   };
 
@@ -68,25 +68,25 @@ class Improver {
   void claim_ring(Job& job, std::uint32_t number, std::uint32_t ring);
   void work(Job& job, std::uint32_t number, std::uint64_t most_effort, Region& region);
   void put_back(const Job& job);
-  /// Calls f for every living tetrahedron at a vertex, perhaps twice.
+  /// Calls f for every living tetrahedron at a vertex, possibly twice.
   template <class F>
   void for_each_at(std::uint32_t vertex, const F& f) const;
 
   QualityLimits limits_;
   std::uint64_t effort_ = 0;  ///< tetrahedra graded in all passes
   std::size_t n_fixed_;
-  std::size_t n_about_;  ///< tetrahedra among which bad ones were looked for
+  std::size_t n_about_;  ///< number of tetrahedra searched for bad ones
   std::vector<Corners>& tets_;
   const RunContext& context_;
   std::vector<Vec3> points_;
-  std::vector<double> size_weights_;               ///< of each vertex; empty where sizes are not limited
-  std::vector<LayerFace> layer_faces_;             ///< likewise, of all the boundary; sorted
-  std::vector<std::uint8_t> n_failures_;           ///< of each tetrahedron: how often nothing helped it
-  std::vector<Bad> bad_;                           ///< may name tetrahedra twice, or good ones, until drop_good()
-  std::vector<std::uint32_t> first_, incident_;    ///< tetrahedra at each vertex as they were at first
-  std::vector<std::vector<std::uint32_t>> later_;  ///< and those that came to it since
-  std::vector<std::uint32_t> owner_;               ///< of each vertex: ring around the bad ones in the highest bits, number of the job in the others
-  std::vector<std::uint32_t> local_;               ///< of each vertex: place among its job's vertices
+  std::vector<double> size_weights_;               ///< for each vertex; empty if sizes are not limited
+  std::vector<LayerFace> layer_faces_;             ///< layer faces of all the boundary, sorted; empty if sizes are not limited
+  std::vector<std::uint8_t> n_failures_;           ///< for each tetrahedron: number of failed attempts
+  std::vector<Bad> bad_;                           ///< may contain tetrahedra twice, or good ones, until drop_good()
+  std::vector<std::uint32_t> first_, incident_;    ///< initial tetrahedra at each vertex
+  std::vector<std::vector<std::uint32_t>> later_;  ///< tetrahedra added at each vertex since
+  std::vector<std::uint32_t> owner_;               ///< for each vertex: ring around the bad tetrahedra in the highest bits, number of the job in the others
+  std::vector<std::uint32_t> local_;               ///< for each vertex: index among its job's vertices
 };
 
 }  // namespace sterna::volmesh

@@ -8,14 +8,14 @@
 namespace sterna::volmesh {
 namespace {
 
-/// A bad tetrahedron away from the boundary costs as much as so many at it.
+/// Cost factor of a bad tetrahedron away from the boundary, relative to one at the boundary.
 constexpr double k_interior_weight = 20.0;
 
-/// A tetrahedron beyond the hard limits costs as much as so many beyond those of improvement only.
+/// Cost factor of a tetrahedron beyond the hard limits, relative to one beyond those of improvement only.
 constexpr double k_hard_weight = 3.0;
 
-/// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their
-/// chance.
+/// Largest initial cost of a detour, and its largest number of changes. A detour is the most expensive operation, so each tetrahedron gets one, after others
+/// around it have been tried.
 constexpr double k_detour = 2.0;
 constexpr int k_detour_steps = 12;
 constexpr int k_failures_before_detour = 2;
@@ -62,7 +62,7 @@ void Region::add(const Corners& c) {
   tets_.push_back({c, g.of_angles, g.quality, cost_of(g.quality, touches_boundary(c))});
 }
 
-/// On top of the layer the last prism is what a size is compared with, elsewhere the sizes around the vertices.
+/// On top of the layer, a size is compared with the last prism; elsewhere, with the sizes around the vertices.
 Region::Grade Region::grade(const TetShape& shape, const Corners& c, double weights) const {
   ++effort_;
   const std::optional<double> on_layer = quality_on_layer(shape, c, layer_faces_, n_boundary_, limits_);
@@ -94,8 +94,8 @@ double Region::weight_of(double quality, bool is_boundary) const {
   return (is_boundary ? 1.0 : k_interior_weight) * (quality < limits_.hard ? k_hard_weight : 1.0);
 }
 
-/// Below the target a step, so that their number counts, and a slope, so that the worst gain most; above it a little up to twice the target, so that others
-/// keep clear of it. Beyond the hard limits all of it several times.
+/// Cost of a quality. Below the target: a step, so that the number of tetrahedra counts, and a slope, so that the worst gain most. Above the target, up to
+/// twice the target: a small cost, so that other tetrahedra stay away from it. Beyond the hard limits: a multiple of all this.
 double Region::cost_of(double quality, bool is_boundary) const {
   const double x = quality / limits_.target;
   if (x >= 2.0) return 0.0;

@@ -1,4 +1,4 @@
-// Some hundred tetrahedra taken out of a mesh, with the operations that improve them; what lies outside does not change.
+// A few hundred tetrahedra extracted from a mesh, with the operations that improve them; the rest of the mesh does not change.
 #pragma once
 
 #include <array>
@@ -14,78 +14,80 @@
 namespace sterna::volmesh {
 
 enum class VertexRole : std::uint8_t {
-  kept,           ///< some of its tetrahedra are elsewhere
-  free,           ///< may move or vanish
-  boundary,       ///< of the domain: stays
-  kept_boundary,  ///< of the domain, and some of its tetrahedra are elsewhere
+  kept,           ///< some of its tetrahedra are outside the region
+  free,           ///< may move or be removed
+  boundary,       ///< on the domain's boundary: fixed
+  kept_boundary,  ///< on the domain's boundary, and some of its tetrahedra are outside the region
 };
 inline bool is_of_boundary(VertexRole role) { return role >= VertexRole::boundary; }
 
-/// How often nothing may help a tetrahedron before it is given up. Away from the boundary all can be helped, sooner or later; slender ones at it hardly ever,
-/// and they are many.
+/// Returns the number of failed attempts after which a tetrahedron is given up. Away from the boundary all tetrahedra can be improved eventually; slender
+/// tetrahedra at the boundary hardly ever can, and they are many.
 int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary);
 
-/// A boundary triangle with a layer under it.
+/// A boundary triangle with a layer below it.
 struct LayerFace {
   std::array<std::uint32_t, 3> corners;  ///< ascending
-  double weight = 0.0;                   ///< six volumes of the tetrahedron on it, times this, are its volume over the one that fits the last prism
+  double weight = 0.0;  ///< six times the volume of the tetrahedron on the face, times this, is the ratio of its volume to the one that fits the last prism
   friend bool operator<(const LayerFace& a, const LayerFace& b) { return a.corners < b.corners; }
 };
-/// The quality of a tetrahedron on top of the layer by the last prisms under it; nothing for others. \p faces sorted, \p n_boundary: all their corners are
+/// Quality of a tetrahedron on top of the layer relative to the last prisms below it; nothing for others. \p faces sorted, \p n_boundary: all their corners are
 /// below
 std::optional<double> quality_on_layer(const TetShape& shape, const std::array<std::uint32_t, 4>& corners, std::span<const LayerFace> faces,
                                        std::uint32_t n_boundary, const QualityLimits& limits);
 
-/// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one beyond the hard limits, and for one
-/// without a vertex on the domain's boundary, where its angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space,
-/// all proven positive (exact), of a smaller sum of costs, and none worse than the worst that it removes or than the floor of the limits.
+/// Local mesh; corners are local vertices. Each tetrahedron below twice the target has a cost (cost()). The cost is higher beyond the hard limits, and without
+/// a vertex on the domain's boundary, where the boundary's angles may force bad tetrahedra. Every operation replaces some tetrahedra by others that fill the
+/// same space. All new tetrahedra are proven positive (exact), have a smaller sum of costs, and none is worse than the worst removed or than the floor of the
+/// limits.
 class Region {
  public:
   using Corners = std::array<std::uint32_t, 4>;
   struct Tet {
     Corners corners;
     double angle_quality = 0.0;  ///< tet_quality()
-    double quality = 0.0;        ///< of its angles and of its size
+    double quality = 0.0;        ///< quality of its angles and of its size
     double cost = 0.0;
-    std::uint32_t tried = 0;      ///< clock when nothing helped it
-    std::uint8_t n_failures = 0;  ///< how often nothing helped it
+    std::uint32_t tried = 0;      ///< clock of the last failed attempt
+    std::uint8_t n_failures = 0;  ///< number of failed attempts
     bool is_alive = true;
   };
 
-  /// What sizes are compared with; empty where they are not limited.
+  /// Reference sizes; empty if sizes are not limited.
   struct Sizes {
     std::span<const double> vertex_weights;  ///< size_weight() of each vertex
     std::span<const LayerFace> layer_faces;  ///< sorted; vertices of the boundary come first
   };
 
   explicit Region(const QualityLimits& limits) : limits_(limits) {}
-  /// Starts anew; memory is kept.
+  /// Resets the region to new data; memory is kept.
   /// \pre tetrahedra positive.
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets, const Sizes& sizes);
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets) { assign(points, roles, tets, Sizes{}); }
-  /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and
-  /// their neighbours are, or nothing helped max_failures() times; only tries with all neighbours here count, for one flip with a tetrahedron elsewhere may be
-  /// all that it takes. `n_failures` of the given ones so far. Ends early once `most_effort` tetrahedra were graded. True when something changed.
+  /// Improves the bad ones of these tetrahedra and all bad ones that replace them, worst first. A tetrahedron is finished if it reaches the target, if nothing
+  /// helps with its current neighbours, or after max_failures() failed attempts. Only attempts with all neighbours in the region count, because one flip with a
+  /// tetrahedron outside may be sufficient. `n_failures`: failed attempts of the given tetrahedra so far. Ends early once `most_effort` tetrahedra were graded.
+  /// Returns true if something changed.
   bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures, std::uint64_t most_effort = k_endless);
   static constexpr std::uint64_t k_endless = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t effort() const { return effort_; }  ///< tetrahedra graded since assign()
   const QualityLimits& limits() const { return limits_; }
-  std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
+  std::span<const Vec3> points() const { return points_; }  ///< given points, possibly moved, then new points
   std::span<const double> size_weights() const { return size_weights_; }
-  std::span<const Tet> tets() const { return tets_; }  ///< those given, dead perhaps, then new ones
+  std::span<const Tet> tets() const { return tets_; }  ///< given tetrahedra, possibly deleted, then new ones
 
  private:
   using Face = std::array<std::uint32_t, 3>;
   struct Change {
-    double drop = 0.0;  ///< of the sum of costs
+    double drop = 0.0;  ///< reduction of the sum of costs
     std::vector<std::uint32_t> removed;
     std::vector<Corners> added;
-    std::uint32_t moved = k_none;  ///< vertex that goes to `place`; points().size(): a new one
+    std::uint32_t moved = k_none;  ///< vertex that moves to `place`; points().size(): a new vertex
     Vec3 place;
-    double size_weight = 1.0;  ///< of that vertex
+    double size_weight = 1.0;  ///< size weight of that vertex
   };
   static constexpr std::uint32_t k_none = 0xffffffffu;
-  /// A change must lower the sum of costs by this much: progress that cannot go on for ever.
+  /// Least reduction of the sum of costs by a change: guarantees termination.
   static constexpr double k_least_drop = 0.01;
   static constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
@@ -93,33 +95,33 @@ class Region {
   bool touches_boundary(const Face& face) const;
   struct Grade {
     double of_angles = -1.0;
-    double quality = -1.0;  ///< of the size, too
+    double quality = -1.0;  ///< includes the quality of the size
   };
   Grade grade(const TetShape& shape, const Corners& c, double weights) const;
   Grade grade(const Corners& c) const;
   Grade grade(const Face& face, const Vec3& apex) const;
   void add(const Corners& c);
-  /// Of a vertex that is added within a tetrahedron.
+  /// Size weight of a vertex that is added within a tetrahedron.
   double mean_weight(const Corners& c) const;
   double cost_of(double quality, bool is_boundary) const;
-  /// Of what is below the target.
+  /// Cost factor of a tetrahedron below the target.
   double weight_of(double quality, bool is_boundary) const;
-  /// How fast the cost falls with quality.
+  /// Derivative of the cost with respect to decreasing quality.
   double slope_of_cost(double quality, bool is_boundary) const;
-  /// Sets what new tetrahedra are compared with: the sum of the costs of those that a change removes, and the worst quality allowed after it.
+  /// Sets the reference for new tetrahedra: the sum of the costs of the tetrahedra that a change removes, and the worst quality allowed after it.
   void compare_with(std::span<const std::uint32_t> removed);
-  /// Infinite for a tetrahedron that the change must not make.
+  /// Returns the cost; infinite for a tetrahedron that the change must not make.
   double cost(const Corners& c) const;
   double cost(const Face& face, const Vec3& apex) const;
-  /// Carries a change out if it is proven valid and lowers the sum of costs by more than `least_drop`.
+  /// Applies a change if it is proven valid and lowers the sum of costs by more than `least_drop`.
   bool apply(const Change& change, double least_drop = k_least_drop);
-  /// Takes back all that was applied since `log_` had this length.
+  /// Reverts all changes applied since `log_` had this length.
   void undo(std::size_t log_size);
-  /// Carries out the best change of each kind even if it costs, then helps what is bad around it: kept when all in all the costs are lower.
+  /// Applies the best change of each kind even if it increases the cost, then improves bad tetrahedra around it: kept if the total cost is lower.
   bool detour(std::uint32_t tet);
   bool settle(const Change& change);
 
-  /// Whether nothing helps this tetrahedron as it and its neighbours are now.
+  /// Returns true if no operation helps this tetrahedron with its current neighbours.
   bool is_stuck(std::uint32_t tet) const;
   bool is_given_up(std::uint32_t tet) const;
   bool has_all_neighbours(std::uint32_t tet) const;
@@ -135,33 +137,33 @@ class Region {
   void try_smoothing(std::uint32_t tet, Change& best);
   void try_contractions(std::uint32_t tet, Change& best);
   void try_insertions(std::uint32_t tet, Change& best);
-  /// Tetrahedra that a new point may take the place of.
+  /// Tetrahedra that a new point may replace.
   struct Cavity {
     std::vector<std::uint32_t> tets;
-    std::vector<Face> faces;  ///< around them
+    std::vector<Face> faces;  ///< faces around the tetrahedra
     Vec3 place;
-    double drop = 0.0;  ///< of the sum of costs with the point there
+    double drop = 0.0;  ///< reduction of the sum of costs with the point there
   };
-  /// The best around a tetrahedron for a point there, if any.
+  /// Returns the best cavity around a tetrahedron for a point at `place`, if any.
   std::optional<Cavity> cavity_of(std::uint32_t tet, const Vec3& place) const;
   void try_insertion(const Cavity& cavity, Change& best);
-  /// The place near `start` where the sum of the costs of the tetrahedra between it and the faces is lowest.
+  /// Returns the location near `start` at which the sum of the costs of the tetrahedra between the location and the faces is lowest.
   std::pair<Vec3, double> best_place(std::span<const Face> faces, const Vec3& start) const;
   double sum_of_costs(std::span<const Face> faces, const Vec3& apex, double stop_above) const;
-  /// The face opposite a corner, from which that corner lies on the positive side.
+  /// The face opposite a corner, oriented so that the corner lies on its positive side.
   static Face opposite(const Corners& c, std::size_t corner);
 
   QualityLimits limits_;
   double cost_before_ = 0.0;
   double worst_allowed_ = 0.0;
-  double apex_weight_ = 1.0;  ///< size weight of the vertex whose place is looked for
+  double apex_weight_ = 1.0;  ///< size weight of the vertex whose location is optimised
   std::vector<Vec3> points_;
   std::vector<VertexRole> roles_;
   std::vector<double> size_weights_;
   std::vector<LayerFace> layer_faces_;
-  std::uint32_t n_boundary_ = 0;  ///< vertices, the first ones; where there are layer faces
+  std::uint32_t n_boundary_ = 0;  ///< number of boundary vertices, which come first; if there are layer faces
   std::vector<Tet> tets_;
-  std::vector<std::vector<std::uint32_t>> incident_;  ///< living tetrahedra of each vertex
+  std::vector<std::vector<std::uint32_t>> incident_;  ///< living tetrahedra at each vertex
   std::vector<std::uint32_t> changed_;                ///< clock of the last change at each vertex
   std::uint32_t clock_ = 1;
   mutable std::uint64_t effort_ = 0;  ///< tetrahedra graded since assign()
@@ -170,10 +172,10 @@ class Region {
     std::size_t n_added = 0;
     std::uint32_t moved = k_none;
     bool is_new = false;
-    Vec3 place;  ///< of `moved` before
+    Vec3 place;  ///< previous location of `moved`
     double drop = 0.0;
   };
-  std::vector<Applied> log_;  ///< while a detour is under way
+  std::vector<Applied> log_;  ///< used during a detour
   bool is_logging_ = false;
 };
 

@@ -21,8 +21,8 @@ struct Remaining {
   std::uint32_t tet = 0;
   double smallest = 0.0;  ///< dihedral angles, radians
   double largest = 0.0;
-  std::uint32_t triangle = k_unforced;  ///< of the boundary, that forces it
-  /// How far beyond its limits, for the order.
+  std::uint32_t triangle = k_unforced;  ///< boundary triangle that forces the tetrahedron
+  /// Distance beyond the limits, used for sorting.
   double badness(const ImproveOptions& options) const { return std::max(options.improve_min_angle - smallest, largest - options.improve_max_angle); }
 };
 
@@ -47,12 +47,12 @@ class Surroundings {
     }
   }
 
-  /// The boundary triangle with this side, seen from the domain; k_unforced when there is none.
+  /// Returns the boundary triangle with this side, seen from the domain; k_unforced if there is none.
   std::uint32_t triangle_at(std::uint32_t a, std::uint32_t b) const {
     const auto found = triangle_.find({a, b});
     return found == triangle_.end() ? k_unforced : found->second;
   }
-  /// Boundary triangles that are faces of a tetrahedron.
+  /// Returns the boundary triangles that are faces of a tetrahedron.
   std::vector<std::uint32_t> faces(const Corners& c) const {
     constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     std::vector<std::uint32_t> result;
@@ -62,7 +62,7 @@ class Surroundings {
     }
     return result;
   }
-  /// Smallest angle between boundary triangles, through the domain, at an edge of the tetrahedron.
+  /// Returns the smallest angle between boundary triangles, through the domain, at an edge of the tetrahedron.
   double smallest_between(const Corners& tet) const {
     double smallest = k_none;
     for (const std::uint32_t a : tet)
@@ -82,7 +82,7 @@ class Surroundings {
     const auto& v = boundary_.triangles[triangle];
     return (point(v[0]) + point(v[1]) + point(v[2])) / 3.0;
   }
-  static constexpr double k_none = 7.0;  ///< more than any angle
+  static constexpr double k_none = 7.0;  ///< larger than any angle
 
  private:
   Vec3 point(std::uint32_t v) const { return boundary_.points[v]; }
@@ -98,11 +98,11 @@ class Surroundings {
   }
 
   const TetraBoundary& boundary_;
-  std::vector<double> corner_;                                      ///< smallest at each wanted vertex
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangle_;  ///< at each wanted side
+  std::vector<double> corner_;                                      ///< smallest corner angle at each requested vertex
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangle_;  ///< triangle at each requested side
 };
 
-/// Finds what forces each, of the boundary triangles that they lie on.
+/// Finds the boundary triangle that forces each bad tetrahedron, from the boundary triangles below it.
 void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const Surroundings& surroundings, const ImproveOptions& options,
                   std::vector<Remaining>& bad, const RunContext& context) {
   std::vector<std::uint32_t> wanted;

@@ -9,14 +9,14 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_scan_chunk = 1 << 15;
-/// tet_quality() and the angles differ by rounding.
+/// Rounding difference between tet_quality() and the angles.
 constexpr double k_rounding = 1e-9;
 
 }  // namespace
 
 AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets, const QualityLimits& limits, const RunContext& context) {
   struct Part {
-    double max_cosine = -1.0;  ///< of the smallest angle
+    double max_cosine = -1.0;  ///< cosine of the smallest angle
     double min_cosine = 1.0;
     std::int64_t n_at_boundary = 0;
     std::vector<std::uint32_t> bad;
@@ -27,7 +27,7 @@ AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets
       context, tets.tetrahedra.size(), Part{},
       [&](std::size_t begin, std::size_t end) {
         Part part;
-        double quality_of_interest = 1.0;  ///< better ones have no angle that is new
+        double quality_of_interest = 1.0;  ///< tetrahedra of higher quality cannot contain a new extreme angle
         for (std::size_t t = begin; t < end; ++t) {
           const auto& c = tets.tetrahedra[t];
           part.n_at_boundary += std::min({c[0], c[1], c[2], c[3]}) < n_fixed;

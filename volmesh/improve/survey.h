@@ -1,4 +1,4 @@
-// What dihedral angles a mesh of tetrahedra has, and which of them are beyond the limits.
+// Dihedral angles of a tetrahedral mesh, and the tetrahedra beyond the limits.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace sterna::volmesh {
 struct AngleSurvey {
   double smallest = std::numbers::pi;  ///< dihedral angles, radians
   double largest = 0.0;
-  std::int64_t n_at_boundary = 0;  ///< tetrahedra with a vertex on it
+  std::int64_t n_at_boundary = 0;  ///< tetrahedra with a vertex on the boundary
   std::vector<std::uint32_t> bad;  ///< tetrahedra beyond the limits, ascending
 };
 
-/// \pre every tetrahedron positive. Parallel, 60 ns for each.
+/// Computes the survey. \pre every tetrahedron positive. Parallel, 60 ns per tetrahedron.
 AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets, const QualityLimits& limits, const RunContext& context);
 
 }  // namespace sterna::volmesh

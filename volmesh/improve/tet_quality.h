@@ -1,4 +1,4 @@
-// How far a tetrahedron's dihedral angles are from the limits: one number that improvement raises, and what it costs to fall short of the limits.
+// Distance of a tetrahedron's dihedral angles from the limits: one quality number that improvement increases, and the limits on it.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,18 @@
 
 namespace sterna::volmesh {
 
-/// Limits that an improved tetrahedron keeps to, as one threshold on tet_quality().
+/// Limits for improved tetrahedra, as one threshold on tet_quality().
 struct QualityLimits {
-  double target = 0.0;         ///< tetrahedra below are worked on
-  double obtuse_weight = 1.0;  ///< of tet_quality(), such that both angle limits give the target
+  double target = 0.0;         ///< tetrahedra below are improved
+  double obtuse_weight = 1.0;  ///< weight in tet_quality(), such that both angle limits give the target
   double floor = 0.0;          ///< a change may make tetrahedra with angles as bad as this, or as the worst that it removes
-  int max_failures = 255;      ///< tetrahedra are given up after so many tries, if not before
-  /// Volumes may be so many times larger or smaller than those around (size_weight()); beyond it, quality is below the target, too.
+  int max_failures = 255;      ///< tetrahedra are given up after this many attempts, if not before
+  /// Largest ratio, in either direction, of a volume to those around it (size_weight()); beyond it, quality is below the target, too.
   double size_step = std::numeric_limits<double>::infinity();
-  double hard = 0.0;  ///< every tetrahedron beyond the hard limits of gate G14 is below, none that is within the target
+  double hard = 0.0;  ///< threshold between the hard limits of gate G14 and the target: every tetrahedron beyond the hard limits is below, no tetrahedron
+                      ///< within the target is
 };
-/// \p min_angle, \p max_angle of a dihedral, radians.
+/// Returns the limits. \p min_angle, \p max_angle of a dihedral, radians.
 inline QualityLimits quality_limits(double min_angle, double max_angle) {
   const double target = std::sin(min_angle), weight = target / std::sin(max_angle);
   const GateTable gates;
@@ -33,13 +34,14 @@ inline QualityLimits quality_limits(double min_angle, double max_angle) {
 /// Tetrahedra of a lower quality are flat: their angles alone make them the worst of a mesh.
 inline constexpr double k_flat_quality = 1e-6;
 
-/// What the angles of a tetrahedron say of it.
+/// Quality of a tetrahedron's angles, and its volume.
 struct TetShape {
   double quality = -1.0;     ///< see tet_shape()
   double six_volumes = 0.0;  ///< m^3
 };
-/// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is
-/// not positive. A volume that is within rounding in double precision (k_solver_margin) limits it, too, where the angles do not. 0.05 us.
+/// Computes the smallest sine of the six dihedral angles, with those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a
+/// tetrahedron that is not positive. A volume that is within rounding in double precision (k_solver_margin) also limits the quality, where the angles do not.
+/// 0.05 us.
 inline TetShape tet_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   // Twice the faces' area vectors, inwards; face k is opposite corner k. |n_i x n_j| = 6 V times the length of the edge that faces i and j share.
@@ -59,7 +61,7 @@ inline TetShape tet_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   // The largest product of three edges at a corner, squared.
   const double l_ab = norm2(ab), l_ac = norm2(ac), l_ad = norm2(ad), l_bc = norm2(bc), l_bd = norm2(bd), l_cd = norm2(cd);
   const double edges = std::max({l_ab * l_ac * l_ad, l_ab * l_bc * l_bd, l_ac * l_bc * l_cd, l_ad * l_bd * l_cd});
-  // Flat ones are the worst as they are.
+  // Flat tetrahedra are already the worst.
   if (quality < k_flat_quality || det * det > k_solver_margin * k_solver_margin * edges) return {quality, det};
   return {std::min(quality, det / std::sqrt(edges)), det};
 }
@@ -67,11 +69,11 @@ inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return tet_shape(a, b, c, d, obtuse_weight).quality;
 }
 
-/// Of a vertex around which tetrahedra have such volumes, as the mean of their logarithms: six volumes of a tetrahedron times the weights of its vertices are
-/// its volume over the geometric mean of theirs.
+/// Size weight of a vertex, from the mean of the logarithms of the surrounding volumes: six times the volume of a tetrahedron, times the weights of its
+/// vertices, is its volume over the geometric mean of the volumes at these vertices.
 inline double size_weight(double mean_log_of_six_volumes) { return std::exp(-0.25 * mean_log_of_six_volumes); }
-/// The quality of a shape among such sizes (product of the weights of its vertices). A step of volumes beyond the limit is as bad as an angle beyond its limit,
-/// and falls with the fourth root only, which keeps it among the qualities that angles have.
+/// Quality of a shape among given sizes (product of the weights of its vertices). A volume ratio beyond the limit is as bad as an angle beyond its limit. It
+/// reduces the quality with the fourth root only, which keeps it in the range of the angle qualities.
 inline double quality_among(const TetShape& shape, double weights, const QualityLimits& limits) {
   const double ratio = shape.six_volumes * weights, step = std::max(ratio, 1.0 / ratio);
   return shape.quality <= 0.0 || step <= limits.size_step ? shape.quality

@@ -1,7 +1,7 @@
-// Blunt bases: strips between two sharp convex edges that run side by side, as the base of a trailing edge. A layer much taller than the strip is thick leans
-// out over both edges, and the sides of its prisms turn far from the lines between the middles of cells (non-orthogonality).
-// Steps: from the middle of each sharp convex edge straight across the facet beside it, over smooth edges, until the next sharp edge or further than matters;
-//        the strip is a base where that edge runs along the first one.
+// Blunt bases: strips between two nearly parallel sharp convex edges, such as the base of a trailing edge. A layer much taller than the strip is thick leans
+// out over both edges, and the sides of its prisms deviate far from the lines between cell centres (non-orthogonality).
+// Steps: from the middle of each sharp convex edge straight across the adjacent facet, over smooth edges, to the next sharp edge or the largest relevant
+// distance; the strip is a base if that edge is nearly parallel to the first.
 #include <cmath>
 
 #include "geom/base/number_text.h"
@@ -11,14 +11,14 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_taper = 0.05;    ///< sine of the angle between the two edges of a base: beyond it the facet runs to a point, which no thickness mends
-constexpr double k_enough = 0.1;    ///< thickness over height that is advised: hardly a face leans there (docs/inspect.md)
-constexpr int k_most_steps = 1000;  ///< triangles on the way across; more are a surface, not an edge
+constexpr double k_taper = 0.05;    ///< sine of the angle between the two edges of a base: beyond it the facet tapers to a point, which no thickness can repair
+constexpr double k_enough = 0.1;    ///< recommended ratio of thickness to height: hardly any face leans there (docs/inspect.md)
+constexpr int k_most_steps = 1000;  ///< triangles crossed; a wider strip is a surface, not an edge
 
 struct Base {
-  HalfedgeId edge;         ///< of the triangle on the strip
+  HalfedgeId edge;         ///< half-edge of the triangle on the strip
   double thickness = 0.0;  ///< m
-  double height = 0.0;     ///< m, of the layer as asked for
+  double height = 0.0;     ///< m, requested height of the layer
 };
 
 class BaseSurvey {
@@ -58,10 +58,10 @@ class BaseSurvey {
   Vec3 along(HalfedgeId h) const { return wall_.points[topology_.to(h)] - wall_.points[topology_.from(h)]; }
 
   bool is_sharp(HalfedgeId h) const { return dot(normal(h), normal(topology_.twin(h))) < sharp_cosine_; }
-  /// A sharp convex edge inside of the walls with layers.
+  /// Returns true for a sharp convex edge inside the walls with layers.
   bool is_ridge(HalfedgeId h) const { return !topology_.is_boundary(h) && is_sharp(h) && dot(cross(normal(h), normal(topology_.twin(h))), along(h)) > 0.0; }
 
-  /// Of the strip on whose border the half-edge lies, at its middle; 0: there is none, or it is thicker than `most`.
+  /// Thickness of the strip bounded by the half-edge, at its middle; 0: there is none, or it is thicker than `most`.
   double thickness_behind(HalfedgeId first, double most) const {
     const Vec3 edge = normalized(along(first));
     Point place = 0.5 * (wall_.points[topology_.from(first)] + wall_.points[topology_.to(first)]);
@@ -82,11 +82,11 @@ class BaseSurvey {
     return 0.0;
   }
 
-  /// Where a straight line that enters the triangle over the half-edge `h` leaves it; invalid where it runs along an edge.
+  /// Exit point of a straight line that enters the triangle over the half-edge `h`; invalid if the line runs along an edge.
   std::pair<HalfedgeId, Point> across(HalfedgeId h, const Point& place, const Vec3& direction) const {
-    const Vec3 side = cross(normal(h), direction);  // left of the way
+    const Vec3 side = cross(normal(h), direction);  // left of the direction
     const HalfedgeId second = next(h), third = next(second);
-    const Point& corner = wall_.points[topology_.to(second)];  // opposite to the edge that it came over
+    const Point& corner = wall_.points[topology_.to(second)];  // opposite to the entry edge
     const HalfedgeId exit = dot(side, corner - place) > 0.0 ? second : third;
     const Point &a = wall_.points[topology_.from(exit)], &b = wall_.points[topology_.to(exit)];
     const double left = dot(side, a - place), right = dot(side, b - place);

@@ -1,4 +1,4 @@
-// First height and last layer against the edges of the wall, and first height against the flow.
+// Checks first height and last layer against the edges of the wall, and the first height against the flow.
 #include <cmath>
 
 #include "geom/base/number_text.h"
@@ -11,15 +11,15 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_noticed_area = 0.01;  ///< share of the area from which on a misfit of the last layer is told
-constexpr double k_growth_step = 0.005;  ///< added to an advised growth, so that it is enough when rounded
-constexpr double k_steep_growth = 1.5;   ///< beyond it no growth is advised: solvers lose the boundary layer's profile
-constexpr int k_most_layers = 1000;      ///< that are advised; more are no option
-constexpr double k_y_plus_factor = 2.0;  ///< off the wanted y+, that the estimate of a flat plate cannot tell better
+constexpr double k_noticed_area = 0.01;  ///< share of the area above which a mismatch of the last layer is reported
+constexpr double k_growth_step = 0.005;  ///< added to a recommended growth, so that it is sufficient when rounded
+constexpr double k_steep_growth = 1.5;   ///< no larger growth is recommended: solvers lose the boundary layer's profile
+constexpr int k_most_layers = 1000;      ///< largest recommended number; more layers are no option
+constexpr double k_y_plus_factor = 2.0;  ///< factor on the target y+ within which a flat-plate estimate is uncertain
 
-/// What the layer asks for at a vertex by eq. (1) and the caps, before anything lowers it.
+/// Requested layer cells at a vertex by eq. (1) and the caps, before any reduction.
 struct Cells {
-  double first = 0.0, last = 0.0;  ///< m
+  double first = 0.0, last = 0.0;  ///< first and last height, m
   double edge = 0.0;               ///< m
   double top_ratio() const { return last / (k_regular_height * edge); }
 };
@@ -30,7 +30,7 @@ double height_of(const LayerBase& base, const EnvelopeScale& scale, VertexId v, 
   return std::min(height, scale.max_thickness(v));
 }
 
-/// With n layers.
+/// Computes the cells for n layers.
 Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
   const double h0 = scale.h0(v), edge = base.mean_edge[v];
   const double height = height_of(base, scale, v, n);
@@ -42,7 +42,7 @@ Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { 
 
 struct Misfit {
   std::vector<Suspect<VertexId>> places;
-  double area = 0.0;  ///< share
+  double area = 0.0;  ///< share of the area
 };
 
 class CellSurvey {
@@ -99,7 +99,7 @@ class CellSurvey {
     add_finding(survey_.report, std::move(finding), where);
   }
 
-  /// The vertex beyond which one tenth of the misfits are worse: what advice is made for, so that single places do not decide.
+  /// Returns the vertex at which one tenth of the mismatches are worse: recommendations are made for it, so that single locations do not decide.
   VertexId typical(const Misfit& misfit) const { return worst(misfit.places, misfit.places.size() / 10 + 1).back().id; }
 
   void add_tall(const Misfit& tall) const {
@@ -130,10 +130,10 @@ class CellSurvey {
     add(std::move(finding), thin, true);
   }
 
-  /// The least number of layers, more than there are, with which the last one is not thinner than the limit allows; 0 where none does (another cap is reached
-  /// first).
+  /// Returns the least number of layers, more than the current one, with which the last layer is not thinner than the limit; 0 if there is none (another cap is
+  /// reached first).
   int enough_layers(VertexId v, double ratio) const {
-    if (!is_automatic(scale_.total_height(v))) return 0;  // more layers of a given height are thinner
+    if (!is_automatic(scale_.total_height(v))) return 0;  // with a given total height, more layers are thinner
     for (int n = scale_.n(v) + 1; n <= k_most_layers; ++n)
       if (cells_at(base_, scale_, v, n).top_ratio() * ratio >= 1.0) return n;
     return 0;

@@ -1,4 +1,4 @@
-// Pairs of triangles that cross or touch, by the exact test.
+// Pairs of triangles that intersect or touch, by the exact test.
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
 #include "volmesh/inspect/survey.h"
@@ -6,7 +6,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Pairs kept for the picture: more tell nobody more.
+/// Pairs kept for the picture: more are of no use.
 constexpr std::size_t k_kept_pairs = 200000;
 
 }  // namespace
@@ -26,7 +26,7 @@ bool survey_crossings(const Survey& survey) {
     where.push_back(first);
     where.push_back(second);
     if (finding.places.size() >= survey.n_places()) continue;
-    // The smaller triangle is the nearer hint at the place; one place for each, that the list does not stay with one large triangle.
+    // The smaller triangle gives the more precise location. Each location is listed once, so that the list is not filled by one large triangle.
     const auto area = [&](TriangleId t) {
       return triangle_area(mesh.points[mesh.triangles[t][0]], mesh.points[mesh.triangles[t][1]], mesh.points[mesh.triangles[t][2]]);
     };

@@ -1,4 +1,4 @@
-// Needles: triangles with a small angle, whatever their neighbours.
+// Sliver triangles (needles and caps): triangles with a small angle, independent of their neighbours.
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "volmesh/inspect/survey.h"
@@ -6,7 +6,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Opposite the shortest edge.
+/// Angle opposite the shortest edge.
 double smallest_angle(const std::array<Point, 3>& p) {
   const std::array<double, 3> opposite = {norm2(p[2] - p[1]), norm2(p[0] - p[2]), norm2(p[1] - p[0])};
   const std::size_t k = opposite[0] <= opposite[1] ? (opposite[0] <= opposite[2] ? 0 : 2) : (opposite[1] <= opposite[2] ? 1 : 2);
@@ -21,7 +21,7 @@ void survey_needles(const Survey& survey) {
   const auto needles = find_suspects<TriangleId>(survey.context, survey.mesh.n_triangles(), [&](TriangleId t, auto& list) {
     const double angle = smallest_angle(corners(survey.mesh, t));
     angles[t.index()] = static_cast<float>(angle / k_degree);
-    if (!(angle >= limit)) list.push_back({t, -angle});  // also where coordinates are not finite
+    if (!(angle >= limit)) list.push_back({t, -angle});  // also true for non-finite coordinates
   });
   survey.add_field("smallest_angle", "smallest angle of the triangle", "deg", false, std::move(angles));
   if (needles.empty()) return;

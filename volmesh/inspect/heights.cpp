@@ -1,8 +1,8 @@
-// What will become of the layer: the first steps of the envelope, in a short form, on the very walls and demands that volume_mesh would have.
-// Steps: targets and directions; directions smoothed as the envelope does, but where elements are tangled once only; heights where growth lines meet and where
-//        elements are warped, grown back as far as they are valid; gaps between opposing walls shared, room kept.
-// Left out: smoothing of heights and of the envelope itself (they keep 0.94 of the target), the exact tests for collisions (gaps stand for most of them), the
-//        optimiser, which raises what these steps lower too much. docs/inspect.md compares the prediction with finished meshes.
+// Prediction of the layer: a short form of the first steps of the envelope, on the same walls and with the same requirements as in volume_mesh.
+// Steps: targets and directions; directions smoothed as in the envelope, but only once where elements are tangled; heights where growth lines meet and where
+// elements are warped, increased again as far as they are valid; gaps between opposing walls shared, clearance kept.
+// Left out: smoothing of heights and of the envelope itself (they keep 0.94 of the target), the exact tests for collisions (gaps represent most of them), the
+// optimiser, which raises heights that these steps lower too much. docs/inspect.md compares the prediction with finished meshes.
 #include <array>
 #include <cmath>
 
@@ -17,9 +17,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_full_share = 0.9;   ///< of the target that counts as full, as in the report of a mesh
-constexpr int k_predicted_sweeps = 3;  ///< of directions everywhere, as in the envelope's smoothing step
-/// Of the wide smoothing around concave places: a third of the envelope's, which costs most of the time and changes the coverage by less than 1 % of the area.
+constexpr double k_full_share = 0.9;   ///< share of the target that counts as full height, as in the report of a mesh
+constexpr int k_predicted_sweeps = 3;  ///< sweeps over all directions, as in the envelope's smoothing step
+/// Sweeps of the wide smoothing around concave locations: a third of the envelope's number, which takes most of the time and changes the coverage by less than
+/// 1 % of the area.
 constexpr int k_concave_sweeps = 16;
 constexpr int k_tangled_rings = 6;  ///< as in the envelope
 constexpr int k_tangled_sweeps = 32;
@@ -29,7 +30,7 @@ struct Heights {
   std::vector<WallGap> gaps;
 };
 
-/// One round of what smooth_tangled_regions does in up to six.
+/// One round of smooth_tangled_regions, which makes up to six.
 void smooth_tangled(const LayerBase& base, const Classification& classes, Envelope& envelope, const RunContext& context) {
   const std::vector<TriangleId> bad = invalid_macros(base, envelope, context);
   if (bad.empty()) return;
@@ -61,7 +62,7 @@ Heights predict(MeshingSite& site, const RunContext& context) {
   return heights;
 }
 
-/// What kind of trouble a reason is, for the advice.
+/// Groups of reasons, for the advice.
 enum class Cause : std::uint8_t { gap, corner, other };
 Cause cause_of(HeightLimit limit) {
   switch (limit) {
@@ -146,10 +147,10 @@ class HeightSurvey {
   }
 
  private:
-  /// By the length of the line: what leans here is turned to the normal by the optimiser.
+  /// Returns true if the length of the growth line is sufficient: the optimiser later turns leaning lines to the normal.
   bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_share * envelope_.target[v]; }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && envelope_.height[v] < room(v); }
-  /// m, what the first cell of the line needs (EnvelopeScale::room_for_first_cell).
+  /// m, space that the first cell of the growth line needs (EnvelopeScale::room_for_first_cell).
   double room(VertexId v) const { return scale_.room_for_first_cell(v, scale_.n(v)); }
   double share_of(VertexId v) const { return envelope_.target[v] > 0.0 ? envelope_.height[v] / envelope_.target[v] : k_no_value; }
   const std::string& patch_of(VertexId v) const { return survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(v).front()))); }
@@ -178,7 +179,7 @@ class HeightSurvey {
 
   void add_lowered(const std::vector<Suspect<VertexId>>& lowered) const {
     std::array<double, 3> area{};
-    double least = 0.0;  // m, what the gaps leave at the worst place
+    double least = 0.0;  // m, space left by the gaps at the worst location
     std::string patch;
     double least_share = 2.0;
     for (const auto& s : lowered) {

@@ -1,4 +1,4 @@
-// The driver: shape first, then the layer on the walls that volume_mesh would give it.
+// The driver: shape first, then the layer on the walls as volume_mesh would build it.
 #include "volmesh/inspect/inspect.h"
 
 #include <memory>
@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// First height for what needs some and does not depend on it: share of the body length.
+/// Placeholder first height for steps that require one but do not depend on it: share of the body length.
 constexpr double k_stand_in_height = 1e-6;
 
 InspectReport start(const TriMesh& surface) {
@@ -44,7 +44,7 @@ std::vector<TriangleId> triangles_at_holes(const Survey& survey) {
   return list;
 }
 
-/// What volume_mesh would throw at its start.
+/// Adds a finding for an error that volume_mesh would throw at its start.
 void add_refusal(const Survey& survey, const Error& error) {
   const ErrorInfo& info = error.info();
   Finding finding{.kind = FindingKind::refused,
@@ -54,7 +54,7 @@ void add_refusal(const Survey& survey, const Error& error) {
                   .advice = info.hint};
   std::vector<TriangleId> where;
   if (info.code == ErrorCode::open_surface) {
-    where = triangles_at_holes(survey);  // one for each edge
+    where = triangles_at_holes(survey);  // one triangle per edge
     finding.kind = FindingKind::open;
     finding.count = static_cast<std::int64_t>(where.size());
   }
@@ -70,7 +70,7 @@ std::string first_height_advice(const Survey& survey) {
   return "first_height = " + number_text(first.height, k_advice_digits) + " (" + describe(first) + ")";
 }
 
-/// The walls with their outer boundary, as volume_mesh makes them; null where it refuses them, which is told.
+/// Returns the walls with their outer boundary, as volume_mesh makes them; null if volume_mesh rejects them, which is reported.
 std::unique_ptr<MeshingSite> site_of(const Survey& survey, const MeshCase& options) {
   try {
     return std::make_unique<MeshingSite>(survey.mesh, options, survey.context);
@@ -81,7 +81,7 @@ std::unique_ptr<MeshingSite> site_of(const Survey& survey, const MeshCase& optio
   }
 }
 
-/// Of a surface without walls that a layer could stand on: what needs no layer.
+/// Runs the checks that need no layer, for a surface without walls with layers.
 void survey_shape(const Survey& survey) {
   const LayerBase base(survey.mesh, survey.context);
   const WallMap map(survey.mesh);
@@ -90,7 +90,7 @@ void survey_shape(const Survey& survey) {
   if (!survey.report.find(FindingKind::crossing)) survey_contacts(survey, base, Collider(base, nullptr, survey.context), map);
 }
 
-/// The surface's own topology, unless that of the walls is the same.
+/// Returns the surface's own topology, unless it equals that of the walls.
 std::optional<Topology> topology_beside(const TriMesh& mesh, const MeshingSite* site, const RunContext& context) {
   if (site && site->domain.wall.triangles == mesh.triangles) return std::nullopt;
   return Topology(mesh, context);
@@ -118,7 +118,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   context.progress(0.1);
   const bool is_known = has_first_height(request.volume);
   MeshCase options = request.volume;
-  options.needles.split_needles = 0.0;  // what is told is of the surface as it was given
+  options.needles.split_needles = 0.0;  // findings refer to the surface as it was given
   if (!is_known) options.envelope.first_height = k_stand_in_height * report.length;
   const std::unique_ptr<MeshingSite> site = site_of(survey, options);
   context.progress(0.5);

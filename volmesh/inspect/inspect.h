@@ -1,4 +1,4 @@
-// The pre-flight inspection: will volume_mesh succeed, and with full layers? In seconds, before anything is meshed.
+// The pre-flight inspection: predicts in seconds, before meshing, if volume_mesh will succeed with full layers.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,24 @@
 namespace sterna::volmesh {
 
 struct InspectRequest {
-  MeshCase volume;  ///< as volume_mesh gets them; without a first height (of its own or of a rule) what needs one is left out, and the report says so
+  MeshCase volume;  ///< as volume_mesh receives them; without a first height (global or in a rule), checks that need one are skipped, and the report lists this
   InspectOptions limits;
   std::optional<FlowState> flow;  ///< for y+
 };
 
-/// Looks at a joined surface: closed or open, crossing or not. Never throws for a bad surface: what volume_mesh would say is a finding. Cost: about 10 s of
-/// processor time per million triangles. The same report for any number of threads.
-/// \pre manifold, consistently oriented, finite coordinates, no triangle with a repeated vertex (what surfmesh::stitch_surface gives with allow_open and
+/// Inspects a joined surface, closed or open, with or without intersections. Never throws for a bad surface: errors of volume_mesh are findings. Cost: about 10
+/// s of processor time per million triangles. The report is the same for any number of threads.
+/// \pre manifold, consistently oriented, finite coordinates, no triangle with a repeated vertex (the result of surfmesh::stitch_surface with allow_open and
 /// without check_intersections)
 /// \throws Error(cancelled)
 InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request, const RunContext& context);
 
-/// Of triangles that could not be joined: only what needs no neighbours.
-/// \pre indices in range; coordinates may be anything.
+/// Inspects triangles that could not be joined: only checks that need no neighbours.
+/// \pre indices in range; coordinates may be arbitrary.
 /// \throws Error(cancelled)
 InspectReport inspect_triangles(const TriMesh& triangles, const InspectRequest& request, const RunContext& context);
 
-/// Adds a finding in its place and marks the triangles in the field "finding".
+/// Inserts a finding at its position and marks the triangles in the field "finding".
 void add_finding(InspectReport& report, Finding finding, const std::vector<TriangleId>& where);
 
 }  // namespace sterna::volmesh

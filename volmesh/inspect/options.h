@@ -1,4 +1,4 @@
-// Limits of the pre-flight inspection: from what value on something is told.
+// Limits of the pre-flight inspection: values above which a finding is reported.
 #pragma once
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// Private to volmesh/inspect: the parts of an inspection, one file each, and what they write to.
+// Private to volmesh/inspect: the parts of an inspection, one file each, and their common output.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 
 namespace sterna::volmesh {
 
-/// A place that is over its limit, before the worst are named.
+/// A location beyond its limit, before the worst are selected.
 template <class Id>
 struct Suspect {
   Id id;
   double badness = 0.0;  ///< larger is worse
 };
 
-/// The worst suspects first, by index where they are equally bad; at most `n`.
+/// Returns the worst suspects first, by index if they are equally bad; at most `n`.
 template <class Id>
 std::vector<Suspect<Id>> worst(std::vector<Suspect<Id>> suspects, std::size_t n) {
   const auto is_worse = [](const Suspect<Id>& a, const Suspect<Id>& b) { return a.badness != b.badness ? a.badness > b.badness : a.id < b.id; };
@@ -33,7 +33,7 @@ std::vector<Suspect<Id>> worst(std::vector<Suspect<Id>> suspects, std::size_t n)
   return suspects;
 }
 
-/// The surface with what all parts need of it.
+/// The surface with the common data of all parts.
 struct Survey {
   const TriMesh& mesh;
   const InspectRequest& request;
@@ -43,7 +43,7 @@ struct Survey {
   std::size_t n_places() const { return static_cast<std::size_t>(request.limits.max_places); }
   const std::string& patch_of(TriangleId t) const { return mesh.patches[mesh.triangle_patch[t]].name; }
   Point middle(TriangleId t) const;
-  /// A finding whose worst places are triangles, with its field "finding".
+  /// Adds a finding whose worst locations are triangles, with its field "finding".
   void add(Finding finding, const std::vector<Suspect<TriangleId>>& suspects, const std::function<FindingPlace(const Suspect<TriangleId>&)>& place_of) const;
   void add_field(std::string name, std::string title, std::string unit, bool is_at_vertices, std::vector<float> values) const {
     report.fields.push_back({std::move(name), std::move(title), std::move(unit), is_at_vertices, std::move(values)});
@@ -57,7 +57,7 @@ std::vector<T> joined_lists(std::vector<T> a, std::vector<T> b) {
   return a;
 }
 
-/// Suspects of [0, n) in ascending order: test(i, list) appends.
+/// Returns suspects of [0, n) in ascending order: test(i, list) appends.
 template <class Id, class Test>
 std::vector<Suspect<Id>> find_suspects(const RunContext& context, std::size_t n, const Test& test) {
   using List = std::vector<Suspect<Id>>;
@@ -71,60 +71,60 @@ std::vector<Suspect<Id>> find_suspects(const RunContext& context, std::size_t n,
       joined_lists<Suspect<Id>>);
 }
 
-/// From the walls with layers to the surface that they are part of.
+/// Maps the walls with layers to the surface that they are part of.
 class WallMap {
  public:
-  /// The surface itself.
+  /// Identity map: the wall is the surface itself.
   explicit WallMap(const TriMesh& surface) : wall_(surface), n_vertices_(surface.n_vertices()) {}
-  /// Both must outlive this.
+  /// Both must outlive this object.
   WallMap(const TriMesh& surface, const Domain& domain);
 
   TriangleId triangle(TriangleId of_wall) const { return wall2surface_ ? (*wall2surface_)[of_wall] : of_wall; }
-  /// Values at the wall's vertices as a field on the surface; NaN elsewhere.
+  /// Returns values at the wall's vertices as a field on the surface; NaN elsewhere.
   std::vector<float> field(const std::vector<double>& at_wall) const;
 
  private:
   const TriMesh& wall_;
   const Column<TriangleId, TriangleId>* wall2surface_ = nullptr;
-  Column<VertexId, VertexId> vertex_;  ///< of the wall: of the surface; empty: the same
+  Column<VertexId, VertexId> vertex_;  ///< wall vertex to surface vertex; empty: identity
   std::size_t n_vertices_;
 };
 
-/// facets.cpp: needles, of any triangles.
+/// facets.cpp: sliver triangles; needs no topology.
 void survey_needles(const Survey& survey);
 /// unit.cpp: body length.
 void survey_unit(const Survey& survey);
-/// edges.cpp: folds, jumps of size, short edges, edges of smooth surfaces (below the feature angle) that bend too much.
+/// edges.cpp: folds, size jumps, short edges, edges of smooth surfaces (below the feature angle) that bend too much.
 void survey_edges(const Survey& survey, const Topology& topology, double feature_angle);
-/// bodies.cpp: connected parts, parts in parts.
+/// bodies.cpp: connected parts, parts inside other parts.
 void survey_bodies(const Survey& survey, const Topology& topology);
 /// contacts.cpp: vertices that nearly touch another wall.
 /// \pre no crossings
 void survey_contacts(const Survey& survey, const LayerBase& base, const Collider& collider, const WallMap& map);
-/// crossings.cpp: pairs of triangles, exact. Returns whether there are none.
+/// crossings.cpp: pairs of intersecting triangles, exact. Returns true if there are none.
 bool survey_crossings(const Survey& survey);
-/// visibility.cpp: how well one growth direction serves all facets of a vertex.
+/// visibility.cpp: visibility of all facets of a vertex from one growth direction.
 void survey_visibility(const Survey& survey, const LayerBase& base, const WallMap& map);
-/// heights.cpp: the layer, by the first steps of its envelope.
+/// heights.cpp: the layer, from the first steps of its envelope.
 void survey_heights(const Survey& survey, MeshingSite& site);
 /// cells.cpp: first height and last layer against the edges.
 void survey_cells(const Survey& survey, const MeshingSite& site);
-/// bases.cpp: blunt bases that are much thinner than the layer that is asked for on them.
+/// bases.cpp: blunt bases that are much thinner than the layer requested on them.
 void survey_bases(const Survey& survey, const MeshingSite& site);
-/// wake.cpp: a body in a farfield without any source.
+/// wake.cpp: a body in a farfield without any size source.
 void survey_wake(const Survey& survey);
-/// cells.cpp: height of the layer as asked for at a vertex, before anything lowers it, m.
+/// cells.cpp: requested height of the layer at a vertex, before any reduction, m.
 double asked_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v);
-/// cells.cpp: first height against the flow.
+/// cells.cpp: checks the first height against the flow.
 void survey_y_plus(const Survey& survey);
 
 /// "12 triangles", "1 triangle".
 std::string count_of(std::int64_t n, const std::string& one, const std::string& many);
-/// "12.4 %", "98 %": a share for people.
+/// "12.4 %", "98 %": a human-readable share.
 std::string percent(double share);
 /// Digits of numbers in messages: lengths up to 9999 without an exponent.
 inline constexpr int k_text_digits = 4;
-/// Digits of suggested values.
+/// Digits of recommended values.
 inline constexpr int k_advice_digits = 2;
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// A body length that no aircraft has: most likely the file is in another unit.
+// A body length outside the range of aircraft: most likely the file has another unit.
 #include <array>
 
 #include "geom/base/number_text.h"

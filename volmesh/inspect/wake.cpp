@@ -1,4 +1,4 @@
-// What the body leaves behind: drag feels how well it is resolved (docs/verification.md).
+// Wake of the body: its resolution affects the drag (docs/verification.md).
 #include "volmesh/case/body_wake.h"
 #include "volmesh/inspect/survey.h"
 

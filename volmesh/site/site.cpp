@@ -34,13 +34,13 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_named_patches = 3;  ///< of a cavity, in messages
+constexpr std::size_t k_named_patches = 3;  ///< patches of a cavity named in messages
 
 bool opens_ridges(const MeshCase& options) {
   return options.ridges.is_on() || std::ranges::any_of(options.patches, [](const PatchRule& rule) { return rule.open_ridges == "always"; });
 }
 
-/// What wake sheets cannot be made together with.
+/// Checks that wake sheets are not combined with incompatible options.
 void require_no_others(const MeshCase& options) {
   if (options.wakes.empty()) return;
   const auto refuse = [](std::string what, std::string hint) { throw_bad_argument("making wake sheets", std::move(what), {}, std::move(hint)); };
@@ -48,7 +48,7 @@ void require_no_others(const MeshCase& options) {
   if (!options.discs.empty()) refuse("there are actuator discs, too", "leave one of them out");
 }
 
-/// Of a rule for the very patch; what is said of "*" is meant for others.
+/// Checks rules for exactly these patches; a rule for "*" is meant for other patches.
 void require_no_layers_on_periodic_sides(const MeshCase& options) {
   for (const PatchRule& rule : options.patches)
     for (const PeriodicNames& pair : options.periodic)
@@ -90,7 +90,7 @@ std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, con
 
 namespace {
 
-/// Of all walls, m.
+/// Least first height of all walls, m.
 double least_first_height(const MeshCase& options) {
   double least = options.envelope.first_height;
   for (const PatchRule& rule : options.patches)
@@ -98,8 +98,8 @@ double least_first_height(const MeshCase& options) {
   return least;
 }
 
-/// Inflow and outflow patches beyond outer edges of walls (a nozzle at the end of its nacelle) carry the walls' layer, unless a rule says layers = 0 for them:
-/// no layer can end there, and the cells around rim vertices without one made an airliner's flow diverge (docs/measurements/solvers.md).
+/// Gives the walls' layer to inflow and outflow patches beyond outer edges of walls (a nozzle at the end of its nacelle), unless a rule sets layers = 0 for
+/// them. No layer can end there, and cells around layer boundary vertices without a layer made an airliner's flow diverge (docs/measurements/solvers.md).
 void go_on_beyond_open_rims(const TriMesh& boundary, const MeshCase& options, const RunContext& context, Column<PatchId, std::uint8_t>& has_layer) {
   for (const PatchId p : flow_patches_beyond_open_rims(boundary, has_layer, context)) {
     const Patch& patch = boundary.patches[p];
@@ -115,7 +115,7 @@ void go_on_beyond_open_rims(const TriMesh& boundary, const MeshCase& options, co
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
-  // Files of triangles know no kinds: all their patches are walls. Periodic sides are none.
+  // Files of triangles contain no kinds: all their patches are walls, except periodic sides.
   const auto is_periodic = [&](const std::string& name) {
     return std::ranges::any_of(options.periodic, [&](const PeriodicNames& pair) { return pair.first == name || pair.second == name; });
   };
@@ -124,7 +124,7 @@ Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const
   return has_layer;
 }
 
-/// A boundary on which no layer grows: of inviscid flow where walls are to have none. \throws where there is no wall for the layers that are requested
+/// Checks a boundary without layers: inviscid flow if walls are meant to have none. \throws if there is no wall for the requested layers
 void require_no_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
   const bool has_walls = std::ranges::any_of(boundary.patches, [](const Patch& patch) { return patch.kind == PatchKind::wall; });
   if (options.envelope.layers > 0 && !has_walls)
@@ -137,7 +137,7 @@ void require_no_layers(const TriMesh& boundary, const MeshCase& options, const R
   else context.warn(text + "; layers = " + std::to_string(options.envelope.layers) + " has no effect, as the rules of all patches say layers = 0");
 }
 
-/// The closed boundary of the fluid with the kinds of its patches; planes that were added and on which no layers end have vertices of their own.
+/// The closed boundary of the fluid with the kinds of its patches; added planes on which no layers end have separate vertices.
 struct WholeBoundary {
   TriMesh mesh;
   Column<PatchId, std::uint8_t> has_layer;
@@ -153,7 +153,7 @@ WholeBoundary completed(const TriMesh& given, const MeshCase& options, const Run
   return whole;
 }
 
-/// Lengths of edges that the user gives for planes, of those on which layers end.
+/// Applies user-specified edge lengths of planes to the adjacent patches among them.
 void limit_edges(std::span<const AddedPlane> planes, Domain& domain) {
   for (EndPatch& end : domain.ends)
     for (const TriangleId t : domain.outer.triangles.ids()) {
@@ -177,11 +177,11 @@ void warn_of_cavities(const Domain& domain, const RunContext& context) {
   if (!domain.cavities.empty()) context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
 }
 
-/// \param given_ends as the user gave them, to warn where no patch is triangulated by them; null: no warning
+/// \param given_ends as given by the user, for a warning if no patch is triangulated with them; null: no warning
 Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed, const EndOptions* given_ends) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
-  std::vector<PatchRule> of_given;  // the others are meant for what is added
+  std::vector<PatchRule> of_given;  // the other rules are for added patches
   std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const PatchRule& rule) {
     return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
@@ -190,7 +190,7 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
   TriMesh& boundary = whole.mesh;
   Column<PatchId, std::uint8_t>& has_layer = whole.has_layer;
   require_used_requests(boundary.patches, has_layer, options, context);
-  if (closed.empty()) warn_of_sources_outside(boundary, options, context);  // else warned of already
+  if (closed.empty()) warn_of_sources_outside(boundary, options, context);  // otherwise the warning was already given
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {

@@ -1,4 +1,4 @@
-// Where a volume mesh is made: the wall that carries layers and the outer boundary, with what every step needs of them. Surface -> complete -> cut -> split.
+// Layer domain: the wall that carries layers and the outer boundary, with the common data of all steps. Surface -> complete -> cut -> split.
 #pragma once
 
 #include <cstddef>
@@ -15,33 +15,33 @@
 
 namespace sterna::volmesh {
 
-/// The options of the member of the family that is asked for, with the layers that are solved for.
-/// \throws Error(bad_argument) for options that are required or do not agree; Error(empty_surface)
+/// Returns the options of the requested family member, with the layers solved for.
+/// \throws Error(bad_argument) for missing required options and for inconsistent options; Error(empty_surface)
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context);
 
-/// The fluid's boundary: completed, its needles split, cut by discs, made periodic, taken apart, its ridges opened.
-/// \p closed: vertices of the wall that get no fan of lines
+/// Builds the fluid's boundary: completed, its sliver triangles split, cut by discs, made periodic, split into walls and the rest, its ridges opened.
+/// \p closed: vertices of the wall that get no multi-normal fan
 /// \pre options validated
 Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed = {});
 
-/// The walls with layers, and what is asked of the layer on them.
+/// Returns the walls with layers, and the layer requirements on them.
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context);
 
-/// Edge lengths that the user's sources ask for on patches that are triangulated anew; empty where nothing does. `options` must outlive it.
+/// Returns the edge lengths that the user's sources request on re-meshed patches; empty if no source does. `options` must outlive the result.
 std::function<double(const Point&)> end_sizes(const MeshCase& options);
 
-/// The discs that end on no wall. \p on_walls: indices of the others
+/// Returns the discs that end on no wall. \p on_walls: indices of the others
 std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls);
 
-/// Wall and outer boundary with what every step needs of them.
+/// Wall and outer boundary with the common data of all steps.
 struct MeshingSite {
-  /// \throws as volume_mesh() for what no step can repair
+  /// Builds the layer domain. \throws as volume_mesh() for errors that no step can repair
   MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context, std::span<const VertexId> closed = {});
   MeshingSite(const MeshingSite&) = delete;
   MeshingSite& operator=(const MeshingSite&) = delete;
 
-  MeshCase options;                ///< with the feature angle
-  EnvelopeOptions given_envelope;  ///< without it, unless the user gave it
+  MeshCase options;                ///< including the feature angle
+  EnvelopeOptions given_envelope;  ///< without the feature angle, unless the user gave it
   Domain domain;
   LayerBase base;
   Collider collider;

@@ -11,12 +11,12 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_triangles_drawn = 1000;
-/// TetGen counts with int and needs room for the points it adds.
+/// TetGen counts with int and needs space for the points that it adds.
 constexpr std::size_t k_count_limit = std::size_t{1} << 29;
 
 using Offenders = std::vector<std::size_t>;
 
-/// All i in [0, n) with is_bad(i), ascending.
+/// Returns all i in [0, n) with is_bad(i), ascending.
 template <class F>
 Offenders find_all(const RunContext& context, std::size_t n, const F& is_bad) {
   return parallel_reduce(
@@ -101,7 +101,7 @@ void check_no_twin_points(const TetraBoundary& boundary, const RunContext& conte
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = boundary.points[v];
-    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are one place
+    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are the same location
   };
   parallel_sort(context, order, [&](std::uint32_t a, std::uint32_t b) {
     const auto ka = key(a), kb = key(b);
@@ -116,7 +116,7 @@ void check_no_twin_points(const TetraBoundary& boundary, const RunContext& conte
                    boundary, twins, "lies on another point");
 }
 
-/// Collinear iff the projections on all three coordinate planes are.
+/// Returns true if the points are collinear: if and only if the projections on all three coordinate planes are.
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   return orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 && orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
          orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;

@@ -13,9 +13,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_inside_winding = 0.5;  ///< winding numbers come out as 0 or 1 within 0.05
+constexpr double k_inside_winding = 0.5;  ///< limit between outside and inside: computed winding numbers are 0 or 1 within 0.05
 
-/// Number of the component of each vertex; components in order of their first triangle.
+/// Returns the component number of each vertex; components in order of their first triangle.
 std::vector<std::int32_t> number_components(std::size_t n_points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t& n_components) {
   DisjointSets components(n_points);
   for (const auto& t : triangles) {
@@ -32,8 +32,8 @@ std::vector<std::int32_t> number_components(std::size_t n_points, std::span<cons
   return number;
 }
 
-/// Volume that each component encloses, m^3: negative when its normals point inwards. Relative to a point of its own, so that a distant small body keeps its
-/// digits.
+/// Returns the volume that each component encloses, m^3: negative if its normals point inwards. Computed relative to a point of the component, so that a
+/// distant small body keeps its digits.
 std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const std::vector<std::int32_t>& component,
                                      const std::vector<std::uint32_t>& first_vertex) {
   std::vector<CompensatedSum> sums(first_vertex.size());
@@ -46,7 +46,7 @@ std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const std::v
   return volumes;
 }
 
-/// A region's outer surface, for asking what lies inside.
+/// A region's outer surface, for inside tests.
 class Shell {
  public:
   Shell(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::int32_t number, const RunContext& context)
@@ -87,7 +87,7 @@ class Regions {
   }
   std::int32_t of(std::int32_t component) const { return of_component_[static_cast<std::size_t>(component)]; }
 
-  /// The smallest region that holds a point.
+  /// Returns the smallest region that contains a point.
   std::int32_t around(std::uint32_t v, const std::string& what) const {
     std::int32_t region = outer_.size() == 1 ? 0 : -1;
     for (std::size_t r = 0; r < shells_.size(); ++r) {
@@ -106,7 +106,7 @@ class Regions {
   const TetraBoundary& boundary_;
   std::vector<double> volumes_;
   std::vector<std::int32_t> of_component_;
-  std::vector<std::size_t> outer_;  ///< of each region: the component that encloses it
+  std::vector<std::size_t> outer_;  ///< for each region: the component that encloses it
   std::vector<Shell> shells_;
 };
 

@@ -21,25 +21,25 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Power of two that brings the largest coordinate into [1, 2).
+/// Power of two that scales the largest coordinate into [1, 2).
 double unit_scale(std::span<const Vec3> points) {
   double largest = 0.0;
   for (const Vec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   return std::ldexp(1.0, -std::ilogb(largest));
 }
 
-// How long an engine may compute where the user sets no limit. The slowest runs of docs/tetrahedra.md made 67 000 tetrahedra in a
-// second; long, thin triangles cost 25 s more, whatever their number. Seven times that is taken for a run without end.
+// Default limit of an engine's computing time. The slowest runs of docs/tetrahedra.md made 67 000 tetrahedra in a second; long, thin triangles cost 25 s more,
+// whatever their number. A run that takes seven times as long is treated as endless.
 constexpr double k_least_seconds = 60.0;
 constexpr double k_seconds_per_tetrahedron = 1e-4;
-/// As many as there are on clean surfaces; those that sources ask for come with the size field.
+/// Ratio on clean surfaces; tetrahedra required by sources are estimated from the size field.
 constexpr double k_tetrahedra_per_triangle = 10.0;
-/// Of the size field (docs/tetrahedra.md).
+/// Ratio for the size field (docs/tetrahedra.md).
 constexpr double k_tetrahedra_per_leaf = 30.0;
-/// With splits for quality triangles become many.
+/// With splits for quality, the number of triangles increases strongly.
 constexpr double k_splits_factor = 10.0;
 
-/// Points and facets as they are sent.
+/// Points and facets in the form sent to the engine.
 struct Sent {
   explicit Sent(const EngineInput& input)
       : points(input.joined ? std::span<const Vec3>(input.joined->points) : input.boundary.points),
@@ -48,7 +48,7 @@ struct Sent {
   std::span<const std::array<std::uint32_t, 3>> facets;
 };
 
-/// The request in shared memory, laid out as wire.h says.
+/// The request in shared memory, in the layout of wire.h.
 class Request {
  public:
   Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
@@ -91,7 +91,7 @@ class Request {
     put(parts.surface2second.data(), sizeof(std::int32_t) * parts.surface2second.size());
   }
   const SharedBlock& block() const { return block_; }
-  std::span<const Vec3> points() const { return {points_, n_points_}; }  ///< as the engine got them
+  std::span<const Vec3> points() const { return {points_, n_points_}; }  ///< in the form received by the engine
   double scale() const { return scale_; }
 
  private:
@@ -106,7 +106,7 @@ class Request {
   std::size_t n_points_ = 0;
 };
 
-/// TetGen's codes as terminatetetgen() in tetgen.h names them; the other engines have none.
+/// Returns the name of TetGen's code as in terminatetetgen() of tetgen.h; the other engines have no codes.
 std::string text_of_code(EngineKind kind, int code) {
   if (kind != EngineKind::tetgen) return "failed";
   const std::string number = " (code " + std::to_string(code) + ")";
@@ -135,7 +135,7 @@ EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string pro
   return {failure_kind, {.code = ErrorCode::tetra_engine_failed, .attempted = attempt(kind), .problem = std::move(problem), .hint = std::move(hint)}};
 }
 
-/// Why a helper did not answer with a mesh; none when it did.
+/// Returns the reason why a helper did not return a mesh; nothing if it did.
 std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit, const wire::ReplyHeader& header, const TetraOptions& options) {
   const bool is_reply = header.magic == wire::k_reply_magic;
   if (exit.is_success() && is_reply && header.outcome == wire::Outcome::ok) return std::nullopt;
@@ -170,7 +170,7 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
                  "the helper may be of another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
 }
 
-/// A mesh with more points than the user wants.
+/// Returns a failure for a mesh with more points than the user allows.
 std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeader& header, const Request& request, const TetraOptions& options) {
   const double n_new = static_cast<double>(header.n_points) - static_cast<double>(request.points().size());
   if (is_automatic(options.max_new_points) || n_new <= options.max_new_points) return std::nullopt;
@@ -185,7 +185,7 @@ std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeade
                .places = std::move(places)});
 }
 
-/// Boundary points come right after the boundary's own, in the engine's order; those in the volume follow.
+/// Stores the splits. Boundary points come right after the input's boundary points, in the engine's order; points in the volume follow.
 void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> parents,
                   TetraResult& result) {
   const std::size_t n_old = boundary.points.size();
@@ -248,7 +248,7 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
   return result;
 }
 
-/// The proof of verify.h, for the boundary as the engine has split it.
+/// Verifies the result as in verify.h, for the boundary as split by the engine.
 void verify(const TetraBoundary& boundary, const TetraResult& result, const RunContext& context) {
   if (result.splits.empty()) return verify_tetrahedra(boundary, result, context);
   std::vector<Vec3> points(boundary.points.begin(), boundary.points.end());

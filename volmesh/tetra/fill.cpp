@@ -17,12 +17,12 @@
 
 namespace sterna::volmesh {
 
-/// One attempt.
+/// One attempt: an engine and its permission to split.
 struct LadderRung {
   EngineKind engine;
   SplitMode splits = SplitMode::none;
   bool is_two_pass = false;
-  /// Whether the engine splits because it was told to; what it cannot take back is no reason to leave it out.
+  /// Returns true if the engine splits on request; leftover points are no reason to skip it.
   bool has_splits() const { return splits == SplitMode::recovery || splits == SplitMode::quality; }
 };
 
@@ -40,12 +40,12 @@ std::string text_of(const LadderRung& rung) {
          (rung.is_two_pass ? " in two passes" : "");
 }
 
-/// Corner below which a triangle of the boundary is a needle to our engine: it leaves some more bad tetrahedra beside those than HXT does.
+/// Corner angle below which a boundary triangle counts as a sliver for sterna's own engine: beside slivers it leaves somewhat more bad tetrahedra than HXT.
 constexpr double k_needle_cosine = 0.990268;  // 8 degrees
-/// Where needles are at most this share, our engine is no worse than HXT (docs/tetrahedra.md).
+/// Up to this share of slivers, sterna's own engine is at least as good as HXT (docs/tetrahedra.md).
 constexpr double k_most_needles = 0.02;
 
-/// On tops of wake sheets more of its tetrahedra than this, flat and long, are worse than what HXT makes of it.
+/// Limit of the share of flat and long tetrahedra on tops of wake sheets: above it, the result of sterna's own engine is worse than that of HXT.
 constexpr double k_most_stuck = 1e-3;
 
 bool is_needle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -56,7 +56,7 @@ bool is_needle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return has_narrow_corner(a, b, c) || has_narrow_corner(b, c, a) || has_narrow_corner(c, a, b);
 }
 
-/// Whether our engine is tried first where the choice is ours.
+/// Returns true if sterna's own engine is tried first when the choice is automatic.
 bool is_own_first(const TetraBoundary& boundary, const RunContext& context) {
   const std::size_t n = boundary.triangles.size();
   const auto count = [&](std::size_t begin, std::size_t end) {
@@ -69,7 +69,7 @@ bool is_own_first(const TetraBoundary& boundary, const RunContext& context) {
   return static_cast<double>(n_needles) <= k_most_needles * static_cast<double>(n);
 }
 
-/// What is to be tried, in this order.
+/// Returns the attempts in order.
 std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, const TetraOptions& options, const RunContext& context) {
   std::vector<LadderRung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
@@ -105,8 +105,8 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
   return rungs;
 }
 
-/// Whether this attempt may follow after these failures: the last one of an engine that is there decides. An engine that did not end has used up the time for
-/// splits, too: after it only the other one is tried.
+/// Returns true if this attempt may follow after these failures: the last failure of an available engine decides. An engine that exceeded its time has also
+/// used up the time for splits: after it only the other engine is tried.
 bool may_follow(const LadderRung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
   const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
   if (last == failures.rend()) return !rung.has_splits() && options.engine == "automatic";
@@ -115,7 +115,7 @@ bool may_follow(const LadderRung& rung, const std::vector<EngineFailure>& failur
   return options.try_other_engine && (!is_over || last->is_own_limit);
 }
 
-/// One run of an engine, or two.
+/// Runs an engine once or twice.
 EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const JoinedBoundary* joined, const BoundaryParts& parts, SizeSupply* sizes,
                   const TetraOptions& options, const RunContext& context) {
   if (!rung.is_two_pass) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);
@@ -126,7 +126,7 @@ EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const J
   context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
   const SizeSource samples = nodal_sizes(boundary, *first.result, context);
   if (samples.points.empty())
-    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);  // nothing in the volume to take sizes from
+    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);  // no nodes in the volume to take sizes from
   const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
   SizeSupply second_sizes(field);
   EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits, joined}, options, context);
@@ -137,7 +137,7 @@ EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const J
   return second;
 }
 
-/// What became of each attempt, for the user who has waited for all of them, and the remedy.
+/// Adds the result of each attempt, and the remedy, to the error.
 void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
   error.attempted = "filling the volume with tetrahedra";
   error.problem = "no engine has an answer";
@@ -147,7 +147,7 @@ void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
       "tetrahedra.time_limit (seconds) lets engines go on";
 }
 
-/// What engines are to fill, parts counted. \throws Error for a boundary that is not closed, not manifold or crosses itself
+/// Checks the boundary for the engines and finds its parts. \throws Error for a boundary that is not closed, not manifold or intersects itself
 BoundaryParts checked_parts(const TetraBoundary& boundary, const std::optional<JoinedBoundary>& joined, PreflightReport& seen, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/boundary");
   const TetraBoundary closed =
@@ -169,7 +169,7 @@ struct TetraLadder::State {
         rungs(rungs_of(of, size_supply != nullptr, tetra_options, run_context)),
         joined(of.has_sheets ? std::optional(join_sheets(of, run_context)) : std::nullopt),
         parts(checked_parts(of, joined, seen, run_context)) {
-    // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.
+    // For a boundary known to be clear, preflight only reports what is difficult for engines: this can run beside the first engine.
     if (!boundary.is_clear) return;
     look.emplace(context, [this](const RunContext& side) {
       if (sizes) sizes->wait();  // the engine needs them sooner
@@ -203,7 +203,7 @@ struct TetraLadder::State {
     throw_failures();
   }
 
-  /// With what became of the attempts before it.
+  /// Returns the result, with the failures of the attempts before it.
   TetraResult taken(TetraResult result) {
     ++next_rung;
     second_best.reset();
@@ -214,7 +214,7 @@ struct TetraLadder::State {
     return result;
   }
 
-  /// Whether another engine is to be asked, although there is an answer.
+  /// Returns true if another engine should be tried although there is a result.
   bool is_stuck(const LadderRung& rung, const EngineOutcome& outcome) const {
     return rung.engine == EngineKind::sterna && boundary.has_wakes && outcome.stuck_share > k_most_stuck && options.engine == "automatic" &&
            options.try_other_engine && next_rung + 1 < rungs.size();
@@ -234,7 +234,7 @@ struct TetraLadder::State {
   }
 
   [[noreturn]] void throw_failures() const {
-    // An engine that is not there explains less than one that failed.
+    // An engine that failed explains more than an engine that is missing.
     const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
     std::vector<std::string> problems;
     for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
@@ -253,11 +253,11 @@ struct TetraLadder::State {
   std::vector<LadderRung> rungs;
   std::size_t next_rung = 0;
   PreflightReport seen;
-  std::optional<JoinedBoundary> joined;  // a sheet's two sides are one for the engines
+  std::optional<JoinedBoundary> joined;  // the two sides of a sheet are one for the engines
   BoundaryParts parts;
   std::optional<Alongside<PreflightReport>> look;
   std::vector<EngineFailure> failures;
-  std::optional<TetraResult> second_best;  ///< a sound answer that got stuck, until another engine has one
+  std::optional<TetraResult> second_best;  ///< a valid result with stuck refinement, kept until another engine has a result
 };
 
 TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context)

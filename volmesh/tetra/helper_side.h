@@ -1,4 +1,4 @@
-// What the mains of the engine helpers have in common: reading the request, writing the reply, limits. Everything of a helper's process is here or in its main.
+// Common code of the engine helpers' mains: reading the request, writing the reply, limits. All code of a helper process is here or in its main.
 #pragma once
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@
 
 namespace sterna::volmesh::helper {
 
-/// Last words for the parent, which quotes them.
+/// Writes a final message for the parent, which quotes it.
 inline void say(std::string_view text) {
   if (write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(3);
 }
@@ -40,7 +40,7 @@ inline void write_all(const void* data, std::size_t size) {
   }
 }
 
-/// High-water mark of this process; ru_maxrss would not do, it starts at the parent's size after a vfork.
+/// Peak memory of this process; ru_maxrss is unsuitable, because after a vfork it starts at the parent's size.
 inline double peak_bytes() {
   double kilobytes = 0.0;
   if (std::FILE* status = std::fopen("/proc/self/status", "r")) {
@@ -53,7 +53,7 @@ inline double peak_bytes() {
   return 1024.0 * kilobytes;
 }
 
-/// Wall time since its making.
+/// Wall time since construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -62,7 +62,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Writes a reply without mesh. Returns the exit status that goes with it.
+/// Writes a reply without a mesh. Returns the corresponding exit status.
 inline int reply_failure(wire::Outcome outcome, int engine_code, double seconds) {
   wire::ReplyHeader reply;
   reply.outcome = outcome;
@@ -77,11 +77,11 @@ inline int reply_failure(wire::Outcome outcome, int engine_code, double seconds)
 /// A boundary with split triangles, for the reply.
 struct SplitBoundary {
   const int* triangles = nullptr;
-  const int* parents = nullptr;  ///< of each triangle: that of the request, from 0
+  const int* parents = nullptr;  ///< for each triangle: its parent in the request, from 0
   std::size_t n_triangles = 0;
 };
 
-/// Writes the mesh and ends the process: the kernel frees a few hundred megabytes faster than destructors do.
+/// Writes the mesh and ends the process: the kernel frees a few hundred megabytes faster than destructors.
 [[noreturn]] inline void reply_mesh(const double* points, std::size_t n_points, const int* tetrahedra, std::size_t n_tetrahedra, double seconds,
                                     const SplitBoundary& boundary = {}) {
   wire::ReplyHeader reply;
@@ -99,7 +99,7 @@ struct SplitBoundary {
   std::_Exit(0);
 }
 
-/// A private mapping: the engine may write where it likes.
+/// A private mapping of the request: the engine may modify it.
 struct Request {
   const wire::RequestHeader* header = nullptr;  ///< nullptr: not a request
   double* points = nullptr;
@@ -131,7 +131,7 @@ inline Request map_request() {
   return request;
 }
 
-/// The limit of the process, in seconds of the processor; a static for its signal handler.
+/// The processor time limit of the process, s; static for its signal handler.
 inline double& processor_limit() {
   static double seconds = 0.0;
   return seconds;
@@ -145,8 +145,8 @@ inline void on_out_of_time(int) {
   std::_Exit(1);
 }
 
-/// So much time from the start of the process: the same work has the same limit on a machine that is busy. The kernel counts whole seconds.
-/// A lower limit that the process was started with stays.
+/// Limits the processor time from the start of the process: the same work has the same limit on a busy machine. The kernel counts whole seconds. A lower limit
+/// that was set before the process started is kept.
 inline void limit_processor(double seconds) {
   static const rlimit before = [] {
     rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
@@ -159,7 +159,7 @@ inline void limit_processor(double seconds) {
   setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// The size field, which the parent may still be making: it is waited for at the first question.
+/// The size field, which the parent may still be building: the first evaluation waits for it.
 class LateSizes {
  public:
   /// Sizes in the request's units.
@@ -192,7 +192,7 @@ class LateSizes {
   double waited_ = 0.0;
 };
 
-/// The helper never outlives its parent, leaves no core, and may not take more than its memory and its time.
+/// Ensures that the helper does not outlive its parent, writes no core file, and stays within its memory and time limits.
 inline void limit_resources(const wire::RequestHeader& header) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};

@@ -20,11 +20,11 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Of the size field: a third more tetrahedra than there are in the mean (docs/tetrahedra.md). What is not used costs no memory.
-// Shares of the time: before the recovery the sizes are made, on one thread with nothing beside it.
+// Shares of the time: sizes are made before the recovery, on one thread and not in parallel with other steps.
 constexpr double k_begins = 0.15, k_begins_alone = 0.45, k_recovery = 0.12, k_refinement_ends = 0.97;
+/// Expected tetrahedra per leaf of the size field: a third more than the mean (docs/tetrahedra.md). Unused capacity costs no memory.
 constexpr double k_places_per_leaf = 40.0;
-constexpr double k_most_places = 5e7;  ///< to begin with
+constexpr double k_most_places = 5e7;  ///< initial limit
 
 EngineOutcome failed(FailureKind kind, ErrorInfo error) { return {std::nullopt, {kind, std::move(error)}}; }
 
@@ -34,14 +34,14 @@ EngineOutcome no_sizes() {
                                              .problem = "there is no size field, without which it puts no points into the volume"});
 }
 
-/// The boundary's own points with those that recovery needed in the volume.
+/// Returns the boundary's points and the points that recovery added in the volume.
 std::vector<Vec3> all_points(const TetraBoundary& boundary, const TetraResult& result) {
   std::vector<Vec3> points(boundary.points.begin(), boundary.points.end());
   points.insert(points.end(), result.new_points.begin(), result.new_points.end());
   return points;
 }
 
-/// By our own kernel. Without mesh: why, in the log and in `failures`.
+/// Recovers the boundary with sterna's own kernel. If there is no mesh, the reason is logged and added to `failures`.
 std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<std::string>& failures, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/recovery");
   const TetraBoundary& boundary = input.boundary;
@@ -67,12 +67,12 @@ std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<
   return tets::connect(all_points(boundary, result), result.tetrahedra, context);
 }
 
-/// By another engine: the first that has an answer; else the first failure that explains something.
+/// Recovers the boundary with another engine: the first that succeeds; otherwise the first informative failure.
 EngineOutcome recover_elsewhere(const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/recovery");
   const EngineInput recovery{.boundary = input.boundary, .parts = input.parts, .joined = input.joined, .is_recovery_only = true};
   EngineOutcome first = run_engine(EngineKind::hxt, recovery, options, context);
-  if (first.result || first.failure.kind == FailureKind::limit) return first;  // no limit of time or memory may decide between engines
+  if (first.result || first.failure.kind == FailureKind::limit) return first;  // time and memory limits must not decide between engines
   context.warn("recovery of the boundary: " + first.failure.error.attempted + ": " + first.failure.error.problem + "; trying TetGen");
   EngineOutcome second = run_engine(EngineKind::tetgen, recovery, options, context);
   if (second.result) second.result->failures.push_back("recovery of the boundary: " + first.failure.error.problem);
@@ -89,7 +89,7 @@ std::string told(const tets::RefineReport& report, std::size_t n_tets, double re
   return text;
 }
 
-/// A context that is stopped after some time, too; without limit the caller's own.
+/// A context that is also stopped after some time; without a limit, the caller's context.
 class Deadline {
  public:
   Deadline(double seconds, const RunContext& context) : outer_(context), context_(context) {
@@ -103,13 +103,13 @@ class Deadline {
     });
   }
   const RunContext& context() const { return context_; }
-  /// Whether a stop was its doing, not the user's.
+  /// Returns true if the deadline caused the stop, not the user.
   bool is_over() const { return source_.stop_requested() && !outer_.stop_token().stop_requested(); }
 
  private:
   RunContext outer_, context_;
   std::stop_source source_;
-  std::jthread clock_;  ///< last: ends before what it uses
+  std::jthread clock_;  ///< last member: ends before the members that it uses
 };
 
 EngineOutcome over_limit(std::string problem, const char* option) {
@@ -127,7 +127,7 @@ std::string rounded(double value, const char* unit) {
 
 double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
 
-/// The mesh of the boundary with points in the volume. False: it would need more than `most_bytes`.
+/// Refines the mesh of the boundary with points in the volume. Returns false if it would need more than `most_bytes`.
 bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes, EngineOutcome& outcome, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/refinement");
   const auto start = std::chrono::steady_clock::now();

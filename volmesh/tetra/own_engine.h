@@ -1,4 +1,4 @@
-// Our own engine (geom/tets): recovers the boundary, then makes the points in the volume, in this process and on all threads.
+// Sterna's own engine (geom/tets): recovers the boundary, then inserts the points in the volume, in this process and on all threads.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -6,9 +6,10 @@
 
 namespace sterna::volmesh {
 
-/// recover() makes tetrahedra of the boundary's points; where it cannot, HXT, or TetGen where that fails, in its helper process, which log and result tell.
-/// refine() fits them to the sizes. Of several regions and of sheets each face of the boundary has a tetrahedron on one side only, so the kernel needs to know
-/// nothing of them. \pre check_boundary() passed; sizes \post the result is proven \throws as run_engine() does
+/// Runs recover(), which makes tetrahedra of the boundary's points, then refine(), which adapts them to the sizes. If recover() fails, HXT recovers the
+/// boundary in its helper process, or TetGen if HXT fails; log and result report this. With several regions and with sheets, each face of the boundary has a
+/// tetrahedron on one side only, so the kernel needs no information about them. \pre check_boundary() passed; sizes \post the result is verified \throws as
+/// run_engine() does
 EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -15,11 +15,11 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_triangle_chunk = 512;   ///< triangles per task: about 2 ms
-constexpr std::int64_t k_findings_kept = 1000;  ///< of each kind
-constexpr int k_angle_digits = 3;               ///< of numbers in messages
-/// A triangle flatter than this (height over longest edge) has no normal that could separate it from others.
+constexpr std::int64_t k_findings_kept = 1000;  ///< findings of each kind
+constexpr int k_angle_digits = 3;               ///< digits of numbers in messages
+/// A flatter triangle (height over longest edge) has no normal that could separate it from others.
 constexpr double k_flat_sine = 1e-6;
-/// Rounding error of a distance to a plane over the largest coordinate, generously.
+/// Conservative bound of the rounding error of a distance to a plane over the largest coordinate.
 constexpr double k_rounding = 1e-12;
 
 struct Shape {
@@ -99,7 +99,7 @@ PreflightReport joined(PreflightReport a, const PreflightReport& b) {
   return a;
 }
 
-/// Looks at pairs of triangles.
+/// Tests pairs of triangles.
 class Inspector {
  public:
   Inspector(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context)
@@ -149,7 +149,7 @@ class Inspector {
   bool crosses(std::uint32_t a, std::uint32_t b) const {
     return !limits_.is_clear && triangles_cross(boundary_.points, boundary_.triangles[a], boundary_.triangles[b]);
   }
-  /// All of q on one side of p's plane, farther than `margin`.
+  /// Returns true if all of q is on one side of p's plane, farther than `margin`.
   static bool is_apart(const std::array<Vec3, 3>& p, const Vec3& normal, const std::array<Vec3, 3>& q, double margin) {
     const double d0 = dot(q[0] - p[0], normal), d1 = dot(q[1] - p[0], normal), d2 = dot(q[2] - p[0], normal);
     return std::min({d0, d1, d2}) > margin || std::max({d0, d1, d2}) < -margin;  // never for a flat p: its normal is zero
@@ -170,7 +170,7 @@ class Inspector {
     if (crosses(a, b)) return findings.add(Trouble::crossing, a, b, 0.0);
     const Vec3 &n = shapes_[a].normal, &m = shapes_[b].normal;
     if (norm2(n) == 0.0 || norm2(m) == 0.0) return;
-    const double angle = std::atan2(norm(cross(n, m)), -dot(n, m));  // of consistently oriented triangles: pi when flat, 0 when back to back
+    const double angle = std::atan2(norm(cross(n, m)), -dot(n, m));  // for consistently oriented triangles: pi if flat, 0 if back to back
     if (angle < limits_.fold_angle) findings.add(Trouble::folded, a, b, angle);
   }
 

@@ -1,4 +1,4 @@
-// Our own look at a boundary before any engine sees it: what no engine survives, and what it will have trouble with.
+// Check of a boundary before an engine runs: defects that no engine survives, and defects that make an engine's work difficult.
 #pragma once
 
 #include <array>
@@ -16,42 +16,41 @@ namespace sterna::volmesh {
 enum class Trouble : std::uint8_t {
   crossing,   ///< two triangles meet in more than their shared vertices (exact)
   duplicate,  ///< two triangles have the same three vertices
-  folded,     ///< two triangles lie nearly on each other along a common edge; value: angle between them, rad
+  folded,     ///< two triangles nearly coincide along a common edge; value: angle between them, rad
   sliver,     ///< value: smallest height over longest edge
   gap,        ///< two triangles without common vertex are close to each other; value: distance over the mean edge of the smaller one
 };
-/// "triangles that cross another one", ...
+/// Returns "triangles that cross another one", ...
 std::string_view to_string(Trouble trouble);
 
 struct PreflightLimits {
   double fold_angle = 1.0 * std::numbers::pi / 180.0;  ///< rad
   double sliver = 1e-3;                                ///< height over longest edge
   double gap = 0.01;                                   ///< share of the mean edge of the smaller triangle
-  bool is_clear = false;                               ///< the caller has proven that there are no crossings: they are not looked for
+  bool is_clear = false;                               ///< the caller has verified that there are no intersections: they are not searched
 };
 
 struct PreflightFinding {
   Trouble trouble = Trouble::crossing;
-  std::array<std::uint32_t, 2> triangles{};  ///< ascending; of a sliver twice the same
+  std::array<std::uint32_t, 2> triangles{};  ///< ascending; for a sliver, twice the same
   double value = 0.0;
 };
 
 struct PreflightReport {
-  std::array<std::int64_t, 5> counts{};    ///< by trouble
+  std::array<std::int64_t, 5> counts{};    ///< indexed by trouble
   std::vector<PreflightFinding> findings;  ///< the first thousand of each trouble, in order of the triangles
   std::int64_t count(Trouble trouble) const { return counts[static_cast<std::size_t>(trouble)]; }
 };
 
-/// Parallel over a BoxTree; the same report for any number of threads. The two sides of a sheet count once.
+/// Checks a boundary. Parallel over a BoxTree; the same report for any number of threads. The two sides of a sheet count once.
 /// \pre check_boundary() passed.
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context);
 
-/// Where an engine that says no place may have met its trouble: adds the triangles found (folded ones, then gaps, then slivers; the
-/// worst of each first) to an error without places.
+/// Adds likely locations to an error of an engine that reports none: the triangles found (folded ones, then gaps, then slivers; the worst of each first).
 void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error);
 
-/// Logs a warning for each kind of trouble that an engine may survive, with the number and the first place.
-/// \throws Error(self_intersection) for crossings and duplicates, with places and geometry.
+/// Logs a warning for each kind of trouble that an engine may survive, with the number and the first location.
+/// \throws Error(self_intersection) for intersections and duplicates, with locations and geometry.
 void judge(const PreflightReport& report, const TetraBoundary& boundary, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,5 +1,5 @@
-// Parting: the corners of tetrahedra at a point with two sides are joined over faces that are not the sheet's; what is joined lies on one side, and a face of
-// the sheet tells which.
+// Separation: the corners of tetrahedra at a point with two sides are joined over faces that do not belong to the sheet; each joined set lies on one side, and
+// a face of the sheet identifies the side.
 
 #include "volmesh/tetra/sheets.h"
 
@@ -25,7 +25,7 @@ constexpr std::uint32_t k_no_node = 0xffffffffu;
                .hint = std::move(hint)});
 }
 
-/// Ascending corners, and whether it takes an odd permutation to get there.
+/// Corners in ascending order, and the parity of the permutation that sorts them.
 struct SortedFace {
   Triangle corners;
   bool is_odd = false;
@@ -41,13 +41,13 @@ struct SortedFace {
   }
 };
 
-/// Number of the place of each point, in order of their first points.
+/// Returns the number of each point's location, in order of their first points.
 std::vector<std::uint32_t> number_places(const TetraBoundary& boundary, JoinedBoundary& joined) {
   std::vector<std::uint32_t> order(boundary.points.size()), place(boundary.points.size(), k_no_node), first(boundary.points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = boundary.points[v];
-    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are one place
+    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are the same location
   };
   std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     const auto ka = key(a), kb = key(b);
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> number_places(const TetraBoundary& boundary, JoinedBo
       joined.sources.push_back({v, v});
     } else {
       place[v] = place[first[v]];
-      joined.sources[place[v]][1] = v;  // which side it is on is known once the sheets are
+      joined.sources[place[v]][1] = v;  // the side is determined later, from the sheets
     }
   }
   return place;
@@ -82,7 +82,7 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
   const std::vector<std::uint32_t> place = number_places(boundary, joined);
   context.check_stop();
 
-  // Triangles with a twin at each corner or a rim's: only they can lie back to back.
+  // Candidates have a twin or a boundary vertex of the sheet at each corner: only they can lie back to back.
   struct Candidate {
     SortedFace face;
     std::uint32_t triangle;
@@ -116,7 +116,7 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
   };
   for (std::uint32_t t = 0; t < boundary.triangles.size(); ++t)
     if (!is_sheet[t]) add(t);
-  // The first side of a sheet is that of the patch that comes first: so are the sides of its points.
+  // The first side of a sheet is that of the patch that comes first; the same holds for its points.
   std::vector<std::uint8_t> is_known(joined.points.size(), 0);
   for (const auto& [front, back] : sides) {
     add(front);
@@ -143,12 +143,12 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
 
 namespace {
 
-/// Corners of tetrahedra at points with two sides, numbered 4 * place in the list + corner, joined over faces.
+/// Corners of tetrahedra at points with two sides, numbered 4 * index in the list + corner, joined over faces.
 class Sides {
  public:
   explicit Sides(std::size_t n_tets) : sets_(4 * n_tets), side_(4 * n_tets, 0) {}
   void join(std::uint32_t a, std::uint32_t b) { sets_.join(a, b); }
-  /// After all were joined. `side` 1: first, 2: second.
+  /// Only after all corners were joined. `side` 1: first, 2: second.
   void mark(std::uint32_t a, std::uint8_t side) { side_[sets_.root(a)] |= side; }
   std::uint8_t side(std::uint32_t a) { return side_[sets_.root(a)]; }
 
@@ -171,7 +171,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
 
   struct Entry {
     SortedFace face;
-    std::uint32_t tet;  ///< place in `tets`, or k_no_node: a triangle of a sheet
+    std::uint32_t tet;  ///< index in `tets`, or k_no_node: a triangle of a sheet
     bool operator<(const Entry& b) const { return face.corners != b.face.corners ? face.corners < b.face.corners : tet < b.tet; }
   };
   std::vector<Entry> entries;
@@ -202,7 +202,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
   for_each_face([&](std::span<const Entry> same) {
     if (same.back().tet != k_no_node) return;
     for (const Entry& e : same.first(same.size() - 1)) {
-      // Seen from the tetrahedron on the first side, the outward face is the sheet's triangle turned over.
+      // Seen from the tetrahedron on the first side, the outward face is the sheet's triangle with reversed orientation.
       const std::uint8_t side = e.face.is_odd != same.back().face.is_odd ? 1 : 2;
       for (const std::uint32_t v : e.face.corners)
         if (has_sides(v)) sides.mark(corner(e.tet, v), side);

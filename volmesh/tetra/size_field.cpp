@@ -1,8 +1,8 @@
-// The octree of a size field. Steps: sites from boundary and samples; refine level by level, every cell of a level in parallel, until no leaf is longer than
-// allowed by the size at its centre; values at the corners; pack.
+// The octree of a size field. Steps: collect sites from boundary and samples; refine level by level, every cell of a level in parallel, until no leaf is longer
+// than allowed by the size at its centre; compute values at the corners; pack.
 //
-// No source is missed however small it is: within a cell of edge e it lies at most e sqrt(3)/2 from the centre, where it asks for at most
-// its size + slope e sqrt(3)/2; the cell is split as long as that is below e / k_edge_over_size, and k_edge_over_size is lowered for steep slopes.
+// No source is missed, however small: within a cell of edge e it lies at most e sqrt(3)/2 from the centre, where it requests at most its size + slope e
+// sqrt(3)/2; the cell is split as long as that is below e / k_edge_over_size, and k_edge_over_size is lowered for steep slopes.
 
 #include "volmesh/tetra/size_field.h"
 
@@ -18,19 +18,19 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Largest edge of a leaf over the size at its centre. 2 keeps the leaves at about a thirtieth of the tetrahedra; along a plane wall, where sizes grow
-/// linearly, interpolation is exact whatever the edge.
+/// Largest ratio of a leaf's edge to the size at its centre. 2 keeps the number of leaves at about a thirtieth of the tetrahedra; along a plane wall, where
+/// sizes grow linearly, interpolation is exact for any edge.
 constexpr double k_edge_over_size = 2.0;
-/// Room around the boundary's box, as a share of its edge: places on the boundary are inside of the root to rounding and beyond.
+/// Margin around the boundary's box, as a share of its edge: locations on the boundary are inside the root despite rounding.
 constexpr double k_margin = 1e-3;
-/// About 1 GB of buffer and a minute's work; a mesh of half a billion tetrahedra.
+/// About 1 GB of buffer and a minute of computing; a mesh of half a billion tetrahedra.
 constexpr std::uint64_t k_max_leaves = 1u << 24;
-/// Leaves per task, consecutive along a space-filling curve: a compact block, so that most of their corners are shared within it.
+/// Leaves per task, consecutive along a space-filling curve: a compact block, so that leaves share most of their corners within it.
 constexpr std::size_t k_leaf_chunk = 1024;
 
 struct Octant {
-  std::uint32_t x = 0, y = 0, z = 0;  ///< place in units of its level's edge
-  std::uint32_t hint = 0;             ///< site that was nearest to its parent's centre
+  std::uint32_t x = 0, y = 0, z = 0;  ///< position in units of its level's edge
+  std::uint32_t hint = 0;             ///< site that was nearest to the parent's centre
 };
 
 class Builder {
@@ -56,7 +56,7 @@ class Builder {
 
  private:
   static std::vector<SizeSite> sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources);
-  /// The field itself, as exact as it gets.
+  /// The exact field, before interpolation.
   double size_at(const Vec3& p, std::uint32_t& hint) const {
     double size = std::min(sites_.smallest(p, hint), largest_);
     for (const SizeSource& source : sources_) size = std::min(size, size_of(source, p, slope_));
@@ -80,13 +80,13 @@ class Builder {
   std::vector<std::uint8_t> leaf_level_;
 };
 
-/// Boundary vertices with the geometric mean of their edges (of long and short edges it favours neither; slivers have no short edge), and the samples.
+/// Sites: boundary vertices with the geometric mean of their edges (it favours neither long nor short edges; slivers have no short edge), and the samples.
 std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources) {
   std::vector<double> logs(boundary.points.size(), 0.0);
   std::vector<std::uint32_t> counts(boundary.points.size(), 0);
   for (const auto& t : boundary.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      // In a closed surface each edge comes once in each direction.
+      // In a closed surface each edge appears once in each direction.
       const double length = distance(boundary.points[t[k]], boundary.points[t[(k + 1) % 3]]);
       logs[t[k]] += std::log(length);
       ++counts[t[k]];
@@ -101,7 +101,7 @@ std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span
   return sites;
 }
 
-/// Children of a level follow in the order of their parents, so every level is sorted along the same space-filling curve.
+/// Refines the octree. Children of a level follow in the order of their parents, so every level is sorted along the same space-filling curve.
 void Builder::refine() {
   std::vector<Octant> level{Octant{}};
   nodes_.assign(1, 0);
@@ -213,7 +213,7 @@ void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sou
 
 double SizeField::volume_over_cubes() const {
   const SizeFieldView::Header& header = view_.header();
-  // The buffer is laid out as size_field_view.h says.
+  // The buffer layout is described in size_field_view.h.
   const auto* nodes = reinterpret_cast<const std::uint32_t*>(bytes().data() + sizeof(SizeFieldView::Header));
   const auto* values = reinterpret_cast<const float*>(bytes().data() + sizeof(SizeFieldView::Header) + 8 * ((header.n_nodes + 1) / 2));
   struct Place {

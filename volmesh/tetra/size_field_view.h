@@ -1,9 +1,9 @@
-// Evaluation of a size field that was built elsewhere: reads a flat buffer, includes nothing of sterna, allocates nothing, so that an engine's process
-// can use it as it came out of its memory block.
+// Evaluation of a size field that was built elsewhere: reads a flat buffer, includes no header of sterna, allocates nothing, so that an engine's process can
+// use the memory block as received.
 //
 // Buffer, native byte order: Header; n_nodes uint32, padded to a multiple of 8 bytes; 8 floats per leaf.
-// Node: with k_leaf_bit the number of a leaf, else the number of the first of eight consecutive children. Child and corner k lie at the upper end of
-// x, y, z for bits 1, 2, 4 of k. Node 0 is the root: the cube [origin, origin + edge].
+// Node: with k_leaf_bit the number of a leaf, otherwise the number of the first of eight consecutive children. Child and corner k lie at the upper end of x, y,
+// z for bits 1, 2, 4 of k. Node 0 is the root: the cube [origin, origin + edge].
 #pragma once
 
 #include <cstddef>
@@ -23,17 +23,17 @@ class SizeFieldView {
     std::uint64_t n_nodes = 0;
     std::uint64_t n_leaves = 0;
     double origin[3] = {0.0, 0.0, 0.0};  ///< m
-    double edge = 0.0;                   ///< of the root, m
-    double smallest = 0.0;               ///< over all corners, m
+    double edge = 0.0;                   ///< edge of the root, m
+    double smallest = 0.0;               ///< smallest value over all corners, m
     double largest = 0.0;
-    double growth = 0.0;  ///< the growth limit it was built with
+    double growth = 0.0;  ///< growth limit of the field
   };
   static_assert(sizeof(Header) == 80);
 
   static constexpr std::size_t size_bytes(std::uint64_t n_nodes, std::uint64_t n_leaves) { return sizeof(Header) + 8 * ((n_nodes + 1) / 2) + 32 * n_leaves; }
 
   SizeFieldView() = default;
-  /// \pre `data` is aligned to 8 bytes and outlives the view. is_valid() tells whether it is such a buffer; the nodes themselves are trusted.
+  /// \pre `data` is aligned to 8 bytes and outlives the view. is_valid() returns true for such a buffer; the nodes themselves are not checked.
   SizeFieldView(const std::byte* data, std::size_t size) {
     if (size < sizeof(Header)) return;
     Header header;
@@ -49,7 +49,7 @@ class SizeFieldView {
   bool is_valid() const { return nodes_ != nullptr; }
   const Header& header() const { return header_; }
 
-  /// Wanted edge length at a place, both in metres; outside the root cube that of the nearest point of the cube. Positive.
+  /// Returns the target edge length at a location, both in metres; outside the root cube, that of the nearest point of the cube. Positive.
   /// \pre is_valid(), coordinates finite.
   double operator()(double x, double y, double z) const {
     constexpr double k_steps = 1 << k_max_depth;
@@ -72,7 +72,7 @@ class SizeFieldView {
   }
 
  private:
-  /// In [0, 1): share of the root's edge.
+  /// Position in the root cube as a share of its edge, in [0, 1).
   double place(double x, int axis) const {
     constexpr double k_below_one = 1.0 - 0x1p-40;
     const double u = (x - header_.origin[axis]) * inverse_edge_;

@@ -1,4 +1,4 @@
-// A size field that may still be in the making while an engine works on the boundary.
+// A size field that may still be under construction while an engine processes the boundary.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,28 @@ namespace sterna::volmesh {
 
 class SizeSupply {
  public:
-  /// One that is ready. `field` must outlive it.
+  /// A finished field. `field` must outlive this object.
   explicit SizeSupply(const SizeField& field) : field_(&field) {}
-  /// Begins to build one (build_size_field) beside the caller; boundary and sources must outlive it.
-  /// \p judge: looks at what is made, and may throw: get() throws that
+  /// Starts building a field (build_size_field) in parallel to the caller; boundary and sources must outlive this object.
+  /// \p judge: checks the finished field, and may throw: get() rethrows
   SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context,
              std::function<void(const SizeField&, const RunContext&)> judge = {});
 
   bool is_ready() const { return field_ || making_->is_done(); }
-  /// From any thread.
+  /// Thread-safe.
   void wait() const;
-  /// Waits.
-  /// \throws what build_size_field() has thrown.
+  /// Waits for the field and returns it.
+  /// \throws the errors of build_size_field().
   const SizeField& get();
-  /// A field that asks for these sizes, too, where they are smaller; sizes grow as in this one. Waits, throws as get() does.
+  /// Returns a field that also includes these sizes, where they are smaller; sizes grow as in this field. Waits, throws as get() does.
   SizeField with(const SizeSource& samples, const TetraBoundary& boundary, const RunContext& context);
 
  private:
   const SizeField* field_ = nullptr;
-  std::span<const SizeSource> sources_;  ///< of the one that is built here
+  std::span<const SizeSource> sources_;  ///< sources of the field built here
   SizeFieldOptions options_;
   std::optional<SizeField> made_;
-  std::optional<Alongside<SizeField>> making_;  ///< last: ends first
+  std::optional<Alongside<SizeField>> making_;  ///< last member: ends first
 };
 
 }  // namespace sterna::volmesh

@@ -1,24 +1,22 @@
-// sterna-tet-tetgen: one call of TetGen in a process of its own. Reads the request from file descriptor 3, writes the reply to 4 (wire.h).
+// sterna-tet-tetgen: one call of TetGen in a separate process. Reads the request from file descriptor 3, writes the reply to 4 (wire.h).
 //
-// Why a process: TetGen's licence (AGPL), its crashes on input it does not like, its memory, and symbols that it shares with libgmsh.
-// What it prints goes to the parent through stdout and stderr. It never outlives its parent.
+// Reasons for the process: TetGen's licence (AGPL), its crashes on unsuitable input, its memory, and symbols that it shares with libgmsh. Its output goes to
+// the parent through stdout and stderr. The process never outlives its parent.
 //
-// What is known of TetGen 1.5.0 as Debian builds it (all measured):
-// - Its vertices must be farther apart than -T (default 1e-8) of the longest side of the box, which the farfield makes long; closer ones are merged, and
-//   then it crashes. -M stops the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
-// - With -Y the boundary stays as it is, triangle for triangle, on nearly everything tried so far. Around needles and folds some of the points that it puts on
-//   edges for a while may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the answer's faces tell where.
-// - Self-intersecting, duplicate or degenerate facets make it crash, or answer with facets missing; it rarely reports them.
-// - An open boundary gives 0 tetrahedra and no error; an index out of range is read as it is.
-// - Points that it adds and removes again during boundary recovery are left out of the answer, but not with -J (pygeo_bwb).
-// - A tetunsuitable callback is asked for every tetrahedron, and obeyed; its volume argument is nothing.
-// - Without -Y it splits boundary triangles; each face of the answer has the marker of the facet that it is a part of. Even without -q it splits thousands on
-// an
-//   envelope of bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y points in the volume do that.
-// - -q with -Y next to strips of triangles that are 2000 times longer than wide does not end: every new point's cavity holds thousands of points, and it is
-// rejected
-//   because it encroaches upon the boundary (NACA0012).
-// - Its tetrahedra are positive in CGNS order; two runs are identical to the bit.
+// Known properties of TetGen 1.5.0 as built by Debian (all measured):
+// - Its vertices must be farther apart than -T (default 1e-8) of the longest side of the box, which the farfield makes long; closer vertices are merged, and
+//   then it crashes. -M disables the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
+// - With -Y the boundary stays unchanged, triangle for triangle, on nearly everything tried so far. Around slivers and folds, some of the points that it
+//   temporarily inserts on edges may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the faces of the result show where.
+// - Self-intersecting, duplicate or degenerate facets make it crash, or return a result with facets missing; it rarely reports them.
+// - An open boundary gives 0 tetrahedra and no error; an index out of range is read without a check.
+// - Points that it adds and removes again during boundary recovery are omitted from the result, but not with -J (pygeo_bwb).
+// - A tetunsuitable callback is called for every tetrahedron, and its result is used; its volume argument is meaningless.
+// - Without -Y it splits boundary triangles; each face of the result has the marker of its source facet. Even without -q it splits thousands on an envelope of
+//   bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y, points in the volume ensure this.
+// - -q with -Y next to strips of triangles that are 2000 times longer than wide does not terminate: every new point's cavity holds thousands of points, and the
+//   point is rejected because it encroaches upon the boundary (NACA0012).
+// - Its tetrahedra are positive in CGNS order; two runs are bit-identical.
 
 #include <tetgen.h>
 #include <array>
@@ -36,7 +34,7 @@ namespace {
 using namespace sterna::volmesh;
 using helper::Request;
 
-/// A closed surface in the request or in an answer of TetGen.
+/// A closed surface in the request or in a result of TetGen.
 struct Surface {
   double* points = nullptr;
   std::size_t n_points = 0;
@@ -50,7 +48,7 @@ struct Facets {
     for (std::size_t t = 0; t < facets.size(); ++t) {
       polygons[t] = {surface.triangles + 3 * t, 3};
       facets[t] = {&polygons[t], 1, nullptr, 0};
-      markers[t] = static_cast<int>(t) + 1;  // 1-based boundary triangle: TetGen's messages name it
+      markers[t] = static_cast<int>(t) + 1;  // 1-based boundary triangle: TetGen's messages use this number
     }
   }
   std::vector<tetgenio::polygon> polygons;
@@ -58,7 +56,7 @@ struct Facets {
   std::vector<int> markers;
 };
 
-/// The input borrows all its arrays; they must be gone before tetgenio's destructor would delete them.
+/// The input borrows all its arrays; the pointers must be reset before tetgenio's destructor would delete the arrays.
 struct BorrowedInput {
   BorrowedInput(const Request& request, const Surface& surface, Facets& facets) {
     io.firstnumber = 0;
@@ -74,11 +72,11 @@ struct BorrowedInput {
   tetgenio io;
 };
 
-/// A tetrahedron is split when its circumradius over the wanted edge length exceeds this: then the geometric mean of the edges is the wanted length (measured
-/// in a field of constant size). A regular tetrahedron of that length has 0.61.
+/// A tetrahedron is split if its circumradius over the target edge length exceeds this value: then the geometric mean of the edges is the target length
+/// (measured in a field of constant size). A regular tetrahedron of that length has 0.61.
 constexpr double k_radius_limit = 1.1 / 1.46;
 
-/// What TetGen's callback, which gets no data of ours, needs; set once, before TetGen runs.
+/// Data for TetGen's callback, which has no user argument; set once, before TetGen runs.
 helper::LateSizes*& sizes_of_callback() {
   static helper::LateSizes* sizes = nullptr;
   return sizes;
@@ -100,15 +98,15 @@ double circumradius(const double* a, const double* b, const double* c, const dou
   return std::sqrt(dot(sum, sum)) / (2.0 * std::abs(dot(u, vw)));
 }
 
-/// TetGen asks for every tetrahedron that it might refine.
+/// Callback of TetGen for every tetrahedron that it might refine.
 bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
   const auto middle = [&](std::size_t k) { return 0.25 * (a[k] + b[k] + c[k] + d[k]); };
   const double wanted = (*sizes_of_callback())(middle(0), middle(1), middle(2));
   return circumradius(a, b, c, d) > k_radius_limit * wanted;
 }
 
-/// -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing (every edge of the boundary stays one), -F write no faces, -Q quiet,
-/// -T tolerance below the rounding error of the box's size: never call a feature too small (error 4).
+/// -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing (every edge of the boundary stays a single edge), -F write no faces, -Q quiet, -T
+/// tolerance below the rounding error of the box's size: never report a feature as too small (error 4).
 std::string switches(const char* format, double radius_edge) {
   char text[64];
   std::snprintf(text, sizeof text, format, radius_edge);
@@ -120,9 +118,9 @@ constexpr const char* k_recover_only = "pYMFQT1e-16";
 constexpr const char* k_split_for_quality = "pq%.9gMQT1e-16";
 constexpr const char* k_split_to_recover = "pMQT1e-16";
 
-/// The new boundary in an answer with faces.
+/// The new boundary in a result with faces.
 struct SplitSurface {
-  /// Points in the volume are left out where `is_boundary_only`.
+  /// Points in the volume are left out if `is_boundary_only` is set.
   SplitSurface(const tetgenio& out, std::size_t n_kept, bool is_boundary_only)
       : triangles(out.trifacelist, out.trifacelist + 3 * static_cast<std::size_t>(out.numberoftrifaces)) {
     const auto n_points = static_cast<std::size_t>(out.numberofpoints);
@@ -154,7 +152,8 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
   tetrahedralize(text.data(), &in.io, &out);
 }
 
-/// One run of TetGen, or two: with splits for recovery the first one splits the boundary where it must, the second one keeps what came out. Replies.
+/// Runs TetGen once or twice, and replies: with splits for recovery, the first run splits the boundary where necessary, and the second run keeps the split
+/// boundary.
 [[noreturn]] void mesh(const Request& request, const helper::Stopwatch& watch) {
   const Surface whole{request.points, request.header->n_points, request.triangles, request.header->n_triangles};
   const double radius_edge = request.header->radius_edge;
