@@ -106,7 +106,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
 }
 
 /// Returns true if this attempt may follow after these failures: the last failure of an available engine decides. An engine that exceeded its time has also
-/// used up the time for splits: after it only the other engine is tried.
+/// used up the time for splits: after it only the other engine is tried, unless fall_back_on_limits is set.
 bool may_follow(const LadderRung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
   const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
   if (last == failures.rend()) return !rung.has_splits() && options.engine == "automatic";

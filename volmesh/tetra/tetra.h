@@ -93,9 +93,9 @@ class TetraLadder {
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and verifies its result (verify.h).
 ///
 /// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "sterna", sterna's own engine (own_engine.h), then the others; "automatic" is
-/// hxt, or tetgen if hxt is not built in (docs/tetrahedra.md). All keep the boundary and make edges of about the length that the size field requires. Without a
-/// size field (nullptr), TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary. Coordinates are first scaled by a power of two, so a mesh
-/// in other units is the same mesh.
+/// sterna's own engine where there is a size field and few boundary triangles are slivers, else hxt, or tetgen if hxt is not built in (docs/tetrahedra.md). All
+/// keep the boundary and make edges of about the length that the size field requires. Without a size field (nullptr), TetGen's sizes follow from the
+/// radius-edge ratio, HXT's from the boundary. Coordinates are first scaled by a power of two, so a mesh in other units is the same mesh.
 ///
 /// Before any engine runs, the boundary is checked, exactly where necessary (preflight.h); defects that are difficult for engines are logged. For a clear
 /// boundary, these are searched while the first engine runs.
@@ -104,8 +104,8 @@ class TetraLadder {
 /// with permission to split triangles of the boundary that it cannot keep (`boundary_splits` "ladder", and a boundary that may be split). The few points on
 /// edges that TetGen could not remove after recovering the boundary then count as splits, not as a failed verification. With "always" TetGen comes first and
 /// also splits triangles where this improves tetrahedra. A user's time or memory limit ends the call unless `fall_back_on_limits` is set. After the engine's
-/// default limit of processor time, which is proportional to boundary and sizes, the other engine is tried, but no splits. Every step is logged as a warning
-/// and kept in the result.
+/// default limit of processor time, which is proportional to boundary and sizes, the other engine is tried, and splits only with `fall_back_on_limits`. Every
+/// step is logged as a warning and kept in the result.
 ///
 /// Sheets are one layer of facets for the engines (sheets.h); the result is separated into both sides. No engine may split triangles then. With `two_pass`
 /// TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smaller of the smoothed sizes at its nodes and the size field. A stop
