@@ -1,4 +1,4 @@
-// What domain/wake_sheets.h has added to a wall: sheets behind trailing edges, one side for each side of the wing.
+// Wake sheets that domain/wake_sheets.h has added to a wall: behind trailing edges, one side for each side of the wing.
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace sterna::volmesh {
 
-/// Both sides of a sheet have vertices of their own, raised off their common foot by a hundredth of the first height, so that the wall is a thin body; the
-/// finished mesh has them on the foot again (layer/close_wakes.h). On its free rims both sides share vertices, whose lines have no height.
+/// Wake sheets whose two sides have separate vertices, raised off their common base vertex by a hundredth of the first height, so that the wall is a thin
+/// body; in the finished mesh they coincide with the base vertex again (layer/close_wakes.h). On the free edges of a sheet both sides share vertices, whose
+/// growth lines have no height.
 struct DoubledSheets {
   struct Foot {
-    std::array<VertexId, 2> sides;       ///< that on the left of the trailing edge, which is a given vertex on the edge itself; that on the right, always added
+    std::array<VertexId, 2> sides;       ///< left of the trailing edge: on the edge itself a given vertex; right of the trailing edge: always added
     Point point;                         ///< m
     std::array<VertexId, 2> start = {};  ///< of the trailing edge, on the same line, by sides
     int row = 0;                         ///< along the stream; 0: on the trailing edge
