@@ -6,11 +6,12 @@
 
 namespace sterna::volmesh {
 
-/// Where the growth lines of an edge converge, limits both heights by the law of sines, eq. (2) corrected (docs/method/envelope.md, "Untangling"), to
-/// untangle_share of the height where they would meet; then heights beside limited vertices get no steeper than level_steps() allows, three rings far.
+/// Limits both heights of an edge with converging growth lines by the law of sines, eq. (2) corrected (docs/method/envelope.md, "Untangling"), to
+/// untangle_share of the height where the growth lines would meet. Then limits the slope of heights beside limited vertices to that of level_steps(), three
+/// rings far.
 void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
-/// Lowers heights so that they rise by at most one edge length per edge beside lower (standing) neighbours, `sweeps` rings far.
+/// Lowers heights so that they rise by at most one edge length per edge beside lower (not collapsed) neighbours, `sweeps` rings far.
 void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope, const RunContext& context);
 
 /// Returns the limits of eq. (2) for one edge: heights at both ends where the growth lines meet, infinity where they do not converge.

@@ -21,7 +21,7 @@ MacroElement macro_element(const LayerBase& base, const EnvelopeShape& envelope,
 /// projected area (g_1 of eq. (6)) and its angle to each growth edge is not too flat, unless the wall triangle itself has such an angle.
 bool is_macro_valid(const MacroElement& element);
 
-/// A prism: no collapsed corner.
+/// Returns true for a prism: no collapsed corner.
 bool is_prism(const MacroElement& element);
 /// Returns the quality of a macro-element that is a prism (wedge_quality).
 double scaled_jacobian(const MacroElement& element);

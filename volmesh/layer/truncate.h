@@ -38,7 +38,7 @@ class LayerNumbers {
 
   const LayerBase& base_;
   std::vector<std::uint16_t> layers_;
-  std::vector<std::uint16_t> least_, thin_from_;  ///< largest number of a growth line; number from which on no neighbour may have fewer
+  std::vector<std::uint16_t> least_, thin_from_;  ///< smallest allowed number of a growth line; number from which on no neighbour may have fewer
   std::vector<std::uint16_t> asked_;              ///< on wake sheets the numbers of neighbours differ by one
   std::vector<std::uint8_t> is_fixed_;
 };
