@@ -14,7 +14,7 @@ namespace sterna::volmesh {
 
 /// A closed part whose triangles are all walls with layers, at the location given by its placement.
 struct WholePart {
-  std::size_t part = 0;            ///< of the options' parts
+  std::size_t part = 0;            ///< index in the options' parts
   std::size_t first_triangle = 0;  ///< first triangle in the wall
   std::size_t first_vertex = 0;
 };

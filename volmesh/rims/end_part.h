@@ -34,7 +34,7 @@ void check_closed(const EndRegion& region, const EndTriangles& result, std::span
 /// \pre check_closed
 std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> edges);
 
-/// Meshes the part and proves it (end_surface.h); adds new points and triangles to the result.
+/// Meshes the part and proves the result (end_surface.h); adds new points and triangles to the result.
 void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& options, EndTriangles& result, const RunContext& context);
 
 }  // namespace sterna::volmesh
