@@ -19,7 +19,7 @@ constexpr double k_on_bound = 1e-12;     ///< share of h_u; clamp() meets bounds
 /// Least cosine between mean facet normal and vertex normal for the mean normal to be a growth direction.
 constexpr double k_min_rise = 0.5;
 
-/// Returns the component of d within the constraint without change of length.
+/// Returns the component of d within the constraint, not normalised.
 Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
   switch (constraint.freedom) {
     case Freedom::free: return d;

@@ -15,7 +15,7 @@ constexpr double k_min_area_share = 0.01;
 /// Smallest cosine between envelope normal and growth edge (warp, docs/method/validity.md, "Margins"), unless the wall triangle itself has a flatter angle.
 constexpr double k_min_warp_cosine = 0.05;
 constexpr double k_warp_share_of_wall = 0.2;
-/// 1/k_list_share is the share of the vertices up to which it is cheaper to list their triangles than to test all triangles.
+/// Reciprocal of the share of vertices up to which listing the triangles at these vertices is cheaper than testing all triangles.
 constexpr std::size_t k_list_share = 16;
 /// Cosine between neighbouring normals above which no edge is folded: 60 degrees between the triangles.
 constexpr double k_open_fold_cosine = -0.5;
