@@ -17,14 +17,14 @@ struct DoubledSheets {
   struct Foot {
     std::array<VertexId, 2> sides;       ///< left of the trailing edge: on the edge itself a given vertex; right of the trailing edge: always added
     Point point;                         ///< m
-    std::array<VertexId, 2> start = {};  ///< of the trailing edge, on the same line, by sides
+    std::array<VertexId, 2> start = {};  ///< vertices of the trailing edge on the same streamwise row of base vertices, by sides
     int row = 0;                         ///< along the stream; 0: on the trailing edge
-    double height_growth = 1.0;          ///< ratio of first heights from row to row that is asked for
+    double height_growth = 1.0;          ///< target ratio of first heights from row to row
     bool is_on_base = false;             ///< on the edge of a blunt base: one side is a corner there, and may have a lower layer
   };
-  std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< of the wall; what sheets have added follows
-  std::vector<Foot> feet;                                   ///< ascending by their first
-  std::vector<VertexId> rims;                               ///< free rims of the sheets, ends of the opened edges on the wall included; ascending
+  std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< of the wall; vertices and triangles added by sheets follow
+  std::vector<Foot> feet;                                   ///< ascending by their first vertex
+  std::vector<VertexId> rims;                               ///< free edges of the sheets, ends of the opened edges on the wall included; ascending
   bool is_empty() const { return feet.empty(); }
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Least cosine between the start direction and the face normals, as a share of the best possible cosine.
 constexpr double k_start_cosine = 0.7;
-/// Least cosine between a direction and the face normals, as a share of the best cosine, when directions are smoothed.
+/// Least cosine between a direction pulled into the visibility cone and the face normals, as a share of the best cosine.
 constexpr double k_cone_share = 0.5;
 constexpr int k_pull_steps = 20;  ///< halvings: 1e-6 of the angle
 /// Cosines below this are rounding errors: there is no direction from which all faces are visible.

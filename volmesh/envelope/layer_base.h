@@ -22,7 +22,7 @@ inline constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): sq
 double layer_edge_of(double equilateral_edge, double mean_edge);
 
 struct LayerBase {
-  /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its rims if it has a boundary.
+  /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its open boundaries, if there are any.
   /// `wall` and `ridges` (those of the wall; null: none) must outlive this.
   LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {}, const OpenedRidges* ridges = nullptr);
 

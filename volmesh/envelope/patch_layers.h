@@ -33,7 +33,8 @@ struct PatchLayers {
   bool carries_layers() const { return layers > 0; }
 };
 
-/// Returns the layer settings of a patch of this kind: the options of the envelope, overridden by the rules in their order. Automatic values stay automatic.
+/// Returns the layer settings of a patch of this kind: the options of the envelope, overridden by the rules in their order. No setting is derived from the
+/// others.
 PatchLayers request_of(const Patch& patch, const EnvelopeOptions& options, std::span<const PatchRule> rules);
 
 /// Returns the layer settings per patch: the options of the envelope, overridden by the rules in their order. Patches of kinds other than wall carry no

@@ -12,10 +12,10 @@ struct WallGap {
   VertexId vertex;
   TriangleId opposite;  ///< invalid: the outer boundary, which carries no layer
   double gap = 0.0;     ///< m, along the vertex's growth line
-  double share = 0.0;   ///< share of the target heights on both sides for which there is room
+  double share = 0.0;   ///< share of the heights on both sides for which there is room
 };
 
-/// Shares the gap between opposing walls: where a growth line meets an opposing wall, both heights are lowered, in proportion to their targets, until a gap
+/// Shares the gap between opposing walls: where a growth line meets an opposing wall, both heights are lowered by the same factor until a gap
 /// of k_kept_edges (layer_room.h) of the longer of the two local envelope edges remains (half the gap, where it is narrower). Limits `cap` too. With `group`,
 /// only walls of different groups oppose each other, and vertices of group 0 have been tested against the outer boundary: all other gaps were shared before.
 /// \post every macro-element valid. Returns the gaps found, by vertex.

@@ -42,7 +42,7 @@ inline bool is_good(const SideShape& shape) { return shape.cut_share >= k_good_c
 /// Returns the centre of a column's prism in a layer, m.
 using PrismCentre = std::function<Point(int layer)>;
 /// Returns the shape of a side in layers from `first` on, below n_layers. Empty functions: the means of the corners are used, which are close to the centres.
-/// \pre no line ends below n_layers
+/// \pre no growth line ends below n_layers
 SideShape side_shape(const SideLines& lines, int first, int n_layers, const PrismCentre& own_centre = {}, const PrismCentre& centre_beyond = {});
 
 /// Returns the first layer whose sides have to be evaluated: the layers at the top, and all layers if the column gets narrow towards the top.

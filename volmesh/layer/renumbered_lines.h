@@ -67,9 +67,7 @@ class RenumberedLines {
     std::vector<BoundaryQuad> quads;
     for (BoundaryQuad quad : mesh.boundary_quads) {
       for (NodeId& n : quad.nodes) n = moved(n, node);
-      if (quad.nodes[0] == quad.nodes[1])
-        faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // between growth lines with a common
-                                                                                       // base vertex
+      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // lines with one base vertex
       else quads.push_back(quad);
     }
     mesh.boundary_triangles = std::move(faces);

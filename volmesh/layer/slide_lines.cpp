@@ -332,9 +332,7 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
           if (tet_on[column] == k_no_tet) continue;
           const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
           if (excess <= 1.0) continue;
-          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]])
-            add(excess, v, found);  // the three growth lines of the column, and possibly one across
-                                    // a fold
+          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);  // the column\'s three, or one more across a fold
         }
       },
       k_search_chunk));

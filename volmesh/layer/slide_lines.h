@@ -32,7 +32,8 @@ class LineSlider {
   /// stay.
   /// \pre tets fill the boundary, every cell valid.
   /// \post the same, by exact tests of all cells at growth lines that moved; no growth line grows faster than before or than requested.
-  /// Returns the growth lines that moved, ascending. Parallel: growth lines with disjoint stars move at the same time. At most k_most_lines; some ms each.
+  /// Returns the growth lines that moved, ascending. Parallel: growth lines that do not affect each other's costs move at the same time. At most k_most_lines;
+  /// some ms each.
   std::vector<std::uint32_t> slide(const TetraResult& tets);
   std::size_t n_moved() const { return moved_.size(); }  ///< growth lines, in all rounds
 

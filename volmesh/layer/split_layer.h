@@ -14,7 +14,7 @@ namespace sterna::volmesh {
 /// Surfaces and layer around the tetrahedra after an engine has split boundary triangles.
 struct SplitLayer {
   std::unique_ptr<const TriMesh> wall;    ///< original vertices first, then the new ones; parts of a triangle have its patch
-  std::unique_ptr<const TriMesh> outer;   ///< numbered like wall
+  std::unique_ptr<const TriMesh> outer;   ///< vertices and patches as for `wall`
   std::unique_ptr<const LayerBase> base;  ///< of the wall
   Envelope envelope;
   Extrusion extrusion;

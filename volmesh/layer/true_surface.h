@@ -1,4 +1,4 @@
-// Where a wall really is, between its vertices.
+// The true position of a wall between its vertices.
 #pragma once
 
 #include <array>

@@ -1,8 +1,7 @@
 // Problem: a patch that no single plane can represent (a round tunnel, a sphere), or that has sharp edges, with footprints of layers in it.
 //   1. match        points of the region that are vertices of the original; edges of the region that are the original's border; all others are footprints
 //   2. find_pieces  triangles joined across edges that turn by no more than k_crease; each footprint edge belongs to the piece of the triangle nearest to it
-//   3. choose_cut   for each piece with a footprint: the whole piece if its normals allow; otherwise the neighbourhood of the footprint, as far as it has a
-// projection
+//   3. choose_cut   for each piece with a footprint: the whole piece if its normals allow; otherwise the largest neighbourhood with a projection
 //   4. drop_covered removes the remainder beyond the footprint, under the layer
 //   5. make_part    border of each connected cut, its projection, the sizes allowed by the curvature
 #include "volmesh/rims/curved_parts.h"

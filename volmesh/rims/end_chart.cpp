@@ -64,7 +64,8 @@ EndFrame frame_through(const Vec3& normal, const std::vector<Point>& points) {
   return end_frame_along(normal, centre + median(std::move(heights)) * normal);
 }
 
-/// Returns the normal of an original that is flat to rounding, exactly along an axis if it is nearly so; empty if the original is not flat.
+/// Returns the normal of an original that is flat to rounding, exactly along a coordinate axis if the original lies across one; empty if the original is not
+/// flat.
 std::optional<Vec3> flat_normal(const TriMesh& original) {
   Vec3 area{};
   for (const TriangleId t : original.triangles.ids()) {
