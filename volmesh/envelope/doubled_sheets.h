@@ -22,7 +22,7 @@ struct DoubledSheets {
     double height_growth = 1.0;          ///< target ratio of first heights from row to row
     bool is_on_base = false;             ///< on the edge of a blunt base: one side is a corner there, and may have a lower layer
   };
-  std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< of the wall; vertices and triangles added by sheets follow
+  std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< counts of the wall; vertices and triangles added by sheets follow
   std::vector<Foot> feet;                                   ///< ascending by their first vertex
   std::vector<VertexId> rims;                               ///< free edges of the sheets, ends of the opened edges on the wall included; ascending
   bool is_empty() const { return feet.empty(); }

@@ -30,7 +30,7 @@ struct FoldLimit {
 struct Fold {
   Vec3 n1, n2;  ///< normals, with the length of the triangles' doubled areas
   double length1 = 0.0, length2 = 0.0;
-  double cosine = 1.0;  ///< between the normals: -1 where the triangles are folded onto each other
+  double cosine = 1.0;  ///< cosine between the normals: -1 where the triangles are folded onto each other
   bool is_concave = false;
 };
 inline Fold fold_of(const FoldPoints& p) {

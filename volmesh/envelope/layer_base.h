@@ -32,7 +32,7 @@ struct LayerBase {
   Column<VertexId, VertexConstraint> constraint;                   ///< constraints of directions and envelope points; all free by default
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< indexed by VertexConstraint::on
   Column<VertexId, std::uint64_t> near;                            ///< Constraints::near
-  Column<TriangleId, Vec3> unit_normal;                            ///< of each triangle
+  Column<TriangleId, Vec3> unit_normal;                            ///< unit normal per triangle
   Column<TriangleId, double> area;                                 ///< m^2
   Column<VertexId, Vec3> vertex_normal;      ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
   Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; the direction with the largest worst cosine with the incident normals: axis of

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int k_max_descent_halvings = 6;    ///< halvings of a step that raises the objective, before the vertex waits for changes of its neighbours
 constexpr std::size_t k_max_incident = 64;   ///< triangles at a vertex that moves; beyond it the vertex stays
-constexpr double k_max_step = 0.5;           ///< of h_u
+constexpr double k_max_step = 0.5;           ///< in units of h_u
 constexpr double k_sufficient = 1e-4;        ///< Armijo condition: share of the predicted decrease
 constexpr double k_min_turning_share = 0.2;  ///< least curvature against turning, as a share of that of a vertex on a plane
 constexpr std::size_t k_visit_chunk = 256;   ///< vertices of a colour per task: a visit costs some microseconds

@@ -66,7 +66,7 @@ struct LayerElement {
   Vec3 n_top, n_middle;  ///< Bernstein coefficients of the normal over the height; n_wall * wall_area2 is the first
   double top_area2 = 0.0, area = 0.0;
   std::array<double, 3> wall_cosine{}, top_cosine{}, middle{};
-  std::array<double, 3> least_sine{}, corner{};  ///< of the envelope's corners: least sine, and sine over it less one
+  std::array<double, 3> least_sine{}, corner{};  ///< corners of the envelope: least sine, and sine over the least sine, less one
 
   void set_growth(std::size_t k, const Vec3& g) {
     length[k] = norm(g);

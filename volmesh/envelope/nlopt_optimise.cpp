@@ -218,7 +218,7 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
   report.run.n_evaluations = run.n_evaluations;
   report.run.stopped = reason_of(result);
   report.is_time_limit = result == NLOPT_MAXTIME_REACHED;
-  if (report.run.history.empty()) {  // even the start is outside the slack
+  if (report.run.history.empty()) {  // the start itself is outside the slack
     report.is_feasible = false;
     report.run.stopped = "no feasible point found";
     return start;

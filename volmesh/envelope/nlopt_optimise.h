@@ -10,10 +10,10 @@ enum class NloptMethod { mma, ccsaq };
 
 struct NloptSettings {
   NloptMethod method = NloptMethod::mma;
-  int max_evaluations = 300;         ///< of the objective; evaluations of the walk to feasibility are counted separately, with the same limit
+  int max_evaluations = 300;         ///< evaluations of the objective; evaluations of the walk to feasibility are counted separately, with the same limit
   double max_seconds = k_automatic;  ///< wall clock; makes runs irreproducible, so it is off by default and reported if it was reached
   double tolerance = 1e-6;           ///< relative change of the variables (sums of absolute values) that ends the run
-  double g1_min = 0.01;              ///< of (6); is_macro_valid requires the same value
+  double g1_min = 0.01;              ///< lower limit in (6); is_macro_valid requires the same value
   /// NLopt gets (5) as "sum of violated g <= this times the number of elements". With 0, value and gradient vanish inside the feasible set and there is
   /// nothing to approximate: the separable model rho sum dz^2 <= 0 admits no step, and NLopt stops at the start and reports convergence (measured; then the
   /// gain is 0). Elements that the slack makes invalid are repaired at the end. Among 1e-4 ... 1e-1 this value is best or nearly best on all of five
@@ -29,7 +29,7 @@ struct NloptReport {
   OptimiseReport run;                 ///< history: f_1 and f_2 at the start, then of every feasible point better than all before
   std::vector<Violation> violations;  ///< violations at the points of run.history
   std::size_t n_variables = 0;
-  int n_feasibility_evaluations = 0;  ///< of the walk to feasibility; 0: the start was feasible
+  int n_feasibility_evaluations = 0;  ///< evaluations during the walk to feasibility; 0: the start was feasible
   int n_shrunk = 0;                   ///< additional height reductions during the walk
   bool is_feasible = true;            ///< false: the walk reached no feasible point, and the start is returned
   bool is_time_limit = false;         ///< the wall clock ended the run: the result is not reproducible

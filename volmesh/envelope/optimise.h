@@ -17,7 +17,7 @@ enum class OptimiseMethod {
 
 struct OptimiseSettings {
   OptimiseMethod method = OptimiseMethod::descent;
-  int max_evaluations = 30;  ///< of the objective; a sweep of the descent counts as one
+  int max_evaluations = 30;  ///< evaluations of the objective; a sweep of the descent counts as one
   /// Lower limits, m, for the lengths of growth vectors that are longer at the start; empty: no limit.
   Column<VertexId, double> height_floor = {};
   double tolerance = 1e-3;  ///< the run ends if an iteration gains less than this share of the total gain so far

@@ -1,4 +1,4 @@
-// Turning of growth lines that are inclined so far from a facet normal that flat cells there are unfit for solvers (docs/heights.md).
+// Turning of growth lines whose inclination to a facet normal makes flat cells there unfit for solvers (docs/heights.md).
 #pragma once
 
 #include "volmesh/envelope/collide.h"

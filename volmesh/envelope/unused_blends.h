@@ -1,4 +1,4 @@
-// Requests for blends of layers that have no effect on this model.
+// Blends of layers that are requested but have no effect on this model.
 #pragma once
 
 #include <span>

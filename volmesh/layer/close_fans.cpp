@@ -212,7 +212,7 @@ class FanCloser {
   HybridMesh& mesh_;
   FillBoundary& boundary_;
   const LayerBlock given_;  ///< on the opened wall
-  std::size_t n_lines_;     ///< of the given wall
+  std::size_t n_lines_;     ///< growth lines of the given wall
   std::vector<std::uint8_t> is_end_;
   RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;

@@ -24,7 +24,7 @@ struct LaidLayer {
   std::optional<HybridMesh> opened = {};         ///< for opened ridges or wake sheets: the layer before close_opened()
   std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
   LayerReport report;
-  EnvelopeCertificate certificate;  ///< of the envelope, proved; the layer's cells are not yet counted
+  EnvelopeCertificate certificate;  ///< certificate of the envelope, proved; the layer's cells are not yet counted
 };
 
 /// Returns the layer under the present envelope; may lower the envelope.

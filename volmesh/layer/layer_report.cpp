@@ -29,7 +29,7 @@ std::string_view reason_text(std::size_t reason) {
 /// Areas by state, m^2.
 struct Areas {
   double all = 0.0, full = 0.0, compressed = 0.0, thin = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0, truncated = 0.0;
-  int least_layers = std::numeric_limits<int>::max();  ///< of growth lines that are not collapsed
+  int least_layers = std::numeric_limits<int>::max();  ///< least number on growth lines that are not collapsed
   LostArea lost{};
 };
 

@@ -24,7 +24,7 @@ struct PatchLayerReport {
   double attainable = 0.0;                                ///< where the geometry permits the full height (geom/mesh/layer_room.h)
   double attained = 0.0;                                  ///< at least 0.9 of the height that the geometry permits
   double truncated = 0.0;                                 ///< fewer layers than requested (truncate.h)
-  int least_layers = 0;                                   ///< of a growth line that is not collapsed; 0: all are collapsed
+  int least_layers = 0;                                   ///< least number on growth lines that are not collapsed; 0: all are collapsed
   std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
 };
 

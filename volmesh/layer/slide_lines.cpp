@@ -20,14 +20,14 @@ namespace {
 
 /// Trial steps, relative to the largest allowed step; the next smaller one is tried if none improves the cost.
 constexpr std::array k_tried_steps = {0.5, 0.25, 0.1, 0.04, 0.015};
-constexpr int k_most_moves = 8;  ///< of one growth line in a sweep
+constexpr int k_most_moves = 8;  ///< most moves of one growth line in a sweep
 constexpr int k_sweeps = 3;
 constexpr double k_reserve = 0.75;                         ///< share of a hard limit above which a location is improved
 constexpr double k_regular_volumes = 3.0;                  ///< target ratio of the volume of a prism to that of the tetrahedron that fits it (G9)
 constexpr double k_cut_slope = 5.0;                        ///< excess of a side per difference of its share below k_good_cut_share
 constexpr double k_least_win = 0.02;                       ///< least relative reduction of the cost for which a growth line moves
 constexpr double k_far_reach = 2.5;                        ///< factor on slide_share: where slide_share was not sufficient for a hard limit
-constexpr double k_farthest = 0.6;                         ///< of a height: no top moves by more, unless slide_share is larger
+constexpr double k_farthest = 0.6;                         ///< largest displacement of a top, as a share of its height, unless slide_share is larger
 constexpr double k_still_share = 0.02;                     ///< share of a growth line's height: displacement of the nodes within it decreases towards the wall
 constexpr double k_still_share_of_flat = 0.1;              ///< same share if flat cells of all growth lines have the same growth
 constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no exact centres
@@ -332,7 +332,7 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
           if (tet_on[column] == k_no_tet) continue;
           const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
           if (excess <= 1.0) continue;
-          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);  // the column\'s three, or one more across a fold
+          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);  // the column's three, and possibly one across a fold
         }
       },
       k_search_chunk));

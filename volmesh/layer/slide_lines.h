@@ -59,7 +59,7 @@ class LineSlider {
   /// Original state of a growth line at the beginning of the first round, and its present displacement.
   struct Moved {
     std::vector<Point> nodes;
-    double share = 1.0;  ///< of the original height
+    double share = 1.0;  ///< share of the original height
     Vec3 shift;          ///< additional displacement of its top, m
     double reach = 0.0;  ///< limit of share and shift, over the height
   };
@@ -102,7 +102,7 @@ class LineSlider {
   double largest_step_ = 0.0;  ///< limit of the volume ratio of tetrahedra with a common face; the weight of a face is that of their volumes
   const RunContext& context_;
   std::vector<std::uint8_t> is_locked_;  ///< per growth line
-  std::vector<Side> sides_;              ///< of all columns, sorted
+  std::vector<Side> sides_;              ///< sides of all columns, sorted
   std::map<Line, Moved> moved_;
   int n_rounds_ = 0;
 };

@@ -16,7 +16,7 @@ using Origin = BoundarySplits::Origin;
 /// Splits of one of the two surfaces that form the tetrahedra's boundary.
 struct SplitPart {
   const TriMesh& mesh;
-  std::size_t first_triangle;            ///< of the boundary
+  std::size_t first_triangle;            ///< first triangle of the surface in the boundary
   std::vector<std::size_t> points = {};  ///< indices into splits.points of the points on this surface
   bool has_triangle(std::size_t t) const { return t >= first_triangle && t < first_triangle + mesh.n_triangles(); }
   TriangleId triangle(const Origin& origin) const { return TriangleId(origin.triangle - first_triangle); }

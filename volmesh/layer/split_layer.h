@@ -15,11 +15,11 @@ namespace sterna::volmesh {
 struct SplitLayer {
   std::unique_ptr<const TriMesh> wall;    ///< original vertices first, then the new ones; parts of a triangle have its patch
   std::unique_ptr<const TriMesh> outer;   ///< vertices and patches as for `wall`
-  std::unique_ptr<const LayerBase> base;  ///< of the wall
+  std::unique_ptr<const LayerBase> base;  ///< layer base of the new wall
   Envelope envelope;
   Extrusion extrusion;
   FillBoundary boundary;
-  EnvelopeCertificate certificate;  ///< of the envelope, proved; the layer's cells are not yet counted
+  EnvelopeCertificate certificate;  ///< certificate of the envelope, proved; the layer's cells are not yet counted
   bool is_filled = false;           ///< true: the tetrahedra remain proved with the present tops; false: heights were lowered because of invalid cells in split
                                     ///< columns
 };

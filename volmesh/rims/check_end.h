@@ -17,7 +17,7 @@ struct EndCheck {
   std::vector<EndEdge> repeated;  ///< half-edges of more than one triangle
   std::int64_t n_components = 0;  ///< sets of triangles joined by edges
   std::int64_t n_loops = 0;       ///< closed walks along border half-edges, within fans of triangles
-  std::int64_t euler_number = 0;  ///< of the surface in which each fan of triangles at a vertex has its own vertex
+  std::int64_t euler_number = 0;  ///< Euler number of the surface in which each fan of triangles at a vertex has its own vertex
   /// Returns true if the triangles are pieces of the plane: each a disc with holes.
   bool is_planar() const { return euler_number == 2 * n_components - n_loops; }
   /// Returns true if the border is right, no half-edge occurs twice, and the triangles are planar. The final check.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double k_least_chain = 1e-6;  ///< share of a chain's length that the layers must leave free
 
-using Edge = std::array<VertexId, 2>;  ///< of the result
+using Edge = std::array<VertexId, 2>;  ///< vertices of the result
 
 /// Position along a polygon by arc length.
 class Polyline {
@@ -339,7 +339,7 @@ class Closer {
   const EnvelopeShape& envelope_;
   const CloseEndsOptions& options_;
   const RunContext& context_;
-  Topology topology_;                                          ///< of domain_.outer
+  Topology topology_;                                          ///< topology of domain_.outer
   Column<VertexId, VertexId> new_of_, top_of_;                 ///< by vertex of domain_.outer without a growth line; by growth line
   std::map<std::uint64_t, Edge> lines_of_;                     ///< by edge between ridge base vertices, in the sense of the adjacent patch: its growth lines,
                                                                ///< where there is a multi-normal fan

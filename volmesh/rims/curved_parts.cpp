@@ -84,7 +84,7 @@ class CurvedEndSplitter {
   void drop_covered(const std::vector<std::uint32_t>& triangles);
   struct Side {
     double distance2 = std::numeric_limits<double>::infinity();  ///< from the nearest footprint edge, m^2
-    bool is_covered = false;                                     ///< beyond it, under the layer
+    bool is_covered = false;                                     ///< beyond the footprint edge, under the layer
   };
   Side side_of(std::uint32_t t) const;
   std::vector<std::vector<TriangleId>> connected(const std::vector<std::uint32_t>& triangles, State state) const;
@@ -107,7 +107,7 @@ class CurvedEndSplitter {
   std::vector<std::uint8_t> is_replaced_;  ///< border half-edges of the original that are no edges of the region
   std::vector<EndEdge> footprints_;        ///< edges of the region that are not the original's
   std::vector<std::uint32_t> footprint_piece_;
-  std::vector<std::uint32_t> footprint_triangle_;  ///< nearest to its middle
+  std::vector<std::uint32_t> footprint_triangle_;  ///< nearest to the middle of the footprint edge
   std::vector<std::uint32_t> piece_;               ///< per triangle
   std::uint32_t n_pieces_ = 0;
   std::vector<std::uint8_t> is_touched_;       ///< pieces

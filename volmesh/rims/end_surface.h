@@ -26,7 +26,7 @@ struct EndRegion {
   const TriMesh* original = nullptr;
   /// Longest target edge at a location, metres; empty: as long as the growth from the loops allows.
   std::function<double(const Point&)> size;
-  std::string name;  ///< of the patch, for messages
+  std::string name;  ///< name of the patch, for messages
 };
 
 struct EndTriangles {

@@ -15,7 +15,7 @@ namespace {
 
 /// One side of a disc (baffle), upstream, between its outlines and free edges.
 struct Sheet {
-  std::vector<VertexId> lines;  ///< of the wall: growth lines of the first points
+  std::vector<VertexId> lines;  ///< growth lines of the wall under the first points
   std::size_t n_rim = 0;        ///< number of the following points that are on free edges
   std::vector<Point> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< normals upstream

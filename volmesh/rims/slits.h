@@ -36,7 +36,7 @@ void close_slits(const Domain& domain, const LayerBase& base, const EnvelopeShap
 /// An edge between two growth lines at which columns end on a patch, oriented as in the base triangle.
 struct LayerSide {
   std::uint32_t from = 0, to = 0;  ///< growth lines
-  PatchId patch;                   ///< of the outer boundary
+  PatchId patch;                   ///< patch of the outer boundary
 };
 
 /// Returns the edges at which columns end on patches without layers: open boundaries of the wall, and outlines of discs on both sides.
