@@ -17,7 +17,7 @@ struct DoubledSheets {
   struct Foot {
     std::array<VertexId, 2> sides;       ///< left of the trailing edge: on the edge itself a given vertex; right of the trailing edge: always added
     Point point;                         ///< m
-    std::array<VertexId, 2> start = {};  ///< vertices of the trailing edge on the same streamwise row of base vertices, by sides
+    std::array<VertexId, 2> start = {};  ///< vertices of the trailing edge on the same streamwise line, by sides
     int row = 0;                         ///< along the stream; 0: on the trailing edge
     double height_growth = 1.0;          ///< target ratio of first heights from row to row
     bool is_on_base = false;             ///< on the edge of a blunt base: one side is a corner there, and may have a lower layer

@@ -32,8 +32,7 @@ struct OptimiseReport {
   std::string_view stopped;             ///< stopping criterion
 };
 
-/// Returns the upper heights for the optimisation: the heights of stage 5 where layers or gaps limit them, otherwise the cap (docs/method/optimisation.md,
-/// "Bounds").
+/// Returns the upper heights: the heights of stage 5 where layers or gaps limit them, otherwise the cap (docs/method/optimisation.md, "Bounds").
 Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& envelope);
 
 /// Share of the start's smallest scaled Jacobian that every element keeps (docs/method/optimisation.md, "Acceptance").

@@ -45,7 +45,7 @@ using PrismCentre = std::function<Point(int layer)>;
 /// \pre no growth line ends below n_layers
 SideShape side_shape(const SideLines& lines, int first, int n_layers, const PrismCentre& own_centre = {}, const PrismCentre& centre_beyond = {});
 
-/// Returns the first layer whose sides have to be evaluated: the layers at the top, and all layers if the column gets narrow towards the top.
+/// Returns the first layer from which on sides of a column's prisms have to be evaluated: the first of the top layers, or the first narrow layer below them.
 int first_layer_to_look_at(const ColumnLines& lines);
 
 /// Result of the exact tests of all cells of a layer.

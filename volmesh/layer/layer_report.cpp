@@ -163,7 +163,7 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
     report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_report_digits) + ", " + vertex_text(base, envelope, v)});
 }
 
-/// Warns of layers that are thinner than their own first cells: the usual cause is a wrong unit, not a difficult shape.
+/// Warns of layers that are thinner than their own first cells: a wrong unit is a more frequent cause than a difficult shape.
 /// \param thin_area share of the wall area with such layers
 void warn(const Envelope& envelope, const Classifier& classifier, double thin_area, LayerReport& report) {
   // The vertex with the largest ratio of the target to the total of the first heights.

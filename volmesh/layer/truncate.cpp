@@ -18,7 +18,7 @@ constexpr double k_used_growth = 0.98;     ///< share of max_growth: the remaind
 
 /// Possible numbers of layers of a growth line.
 struct LineChoice {
-  int wanted = 0;     ///< without neighbours
+  int wanted = 0;     ///< without regard to neighbours
   int least = 0;      ///< beside neighbours with fewer layers
   int thin_from = 0;  ///< from this number on the last cell has less than k_least_step
 };

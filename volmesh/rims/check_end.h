@@ -20,7 +20,7 @@ struct EndCheck {
   std::int64_t euler_number = 0;  ///< Euler number of the surface in which each fan of triangles at a vertex has its own vertex
   /// Returns true if the triangles are pieces of the plane: each a disc with holes.
   bool is_planar() const { return euler_number == 2 * n_components - n_loops; }
-  /// Returns true if the border is right, no half-edge occurs twice, and the triangles are planar. The final check.
+  /// Returns true if the border is correct, no half-edge occurs twice, and the triangles are planar. The final check.
   bool is_valid() const { return missing.empty() && open.empty() && repeated.empty() && is_planar(); }
 };
 
