@@ -18,9 +18,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_wanted_last = 0.5;          ///< of the height of a regular tetrahedron on the triangle
+constexpr double k_wanted_last = 0.5;          ///< share of the height of a regular tetrahedron on the triangle
 constexpr double k_area_share = 0.9;           ///< share of the area
-constexpr int k_most_automatic_layers = 1000;  ///< as the option's own range
+constexpr int k_most_automatic_layers = 1000;  ///< as the range of the option
 constexpr int k_too_many = k_most_automatic_layers + 1;
 
 struct WantedLayers {
@@ -28,14 +28,14 @@ struct WantedLayers {
   double area = 0.0;
 };
 
-/// Of cells of first height h0 that grow by g to at least `last`; k_too_many where k_most_automatic_layers do not reach it.
+/// Returns the number of cells of first height h0 that grow by g to at least `last`; k_too_many if k_most_automatic_layers do not reach `last`.
 int layers_to_height(double h0, double growth, double last) {
   if (last <= h0) return 1;
   const double layers = growth > 1.0 ? 1.0 + std::ceil(std::log(last / h0) / std::log(growth)) : std::numeric_limits<double>::infinity();
   return layers <= k_most_automatic_layers ? static_cast<int>(layers) : k_too_many;
 }
 
-/// The least number that is enough on k_area_share of the area.
+/// Returns the least number that is sufficient on k_area_share of the area.
 int enough(std::vector<WantedLayers>& wanted) {
   std::ranges::sort(wanted, {}, [](const WantedLayers& w) { return std::pair(w.layers, w.area); });
   double all = 0.0, below = 0.0;

@@ -1,4 +1,4 @@
-// The number of layers where it is automatic.
+// Automatic number of layers.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -7,14 +7,15 @@
 
 namespace sterna::volmesh {
 
-/// The fewest layers with which the last cell, growing by the ratio that is asked for, is at least half as tall as a regular tetrahedron on its triangle, on
-/// nine tenths of the area: of the walls that ask for the same first height and growth, and of all such walls the largest number. Patches whose number of
-/// layers or total height a rule gives do not count. Where no other carries layers: the largest number that a rule gives. At least 1 where there are no walls.
-/// \throws Error(bad_argument) where 1000 layers do not get as tall
-/// \pre `options` are those of the member of a mesh family that is meshed (refined())
+/// Returns the smallest number of layers with which the last cell, growing by the requested ratio, is at least half as tall as a regular tetrahedron on its
+/// triangle, on nine tenths of the area. The number is computed for each set of walls with the same requested first height and growth; the largest one is
+/// returned. Patches whose number of layers or total height is given by a rule do not count. If no other patch carries layers: the largest number given by a
+/// rule. If there are no walls: at least 1.
+/// \throws Error(bad_argument) if 1000 layers do not reach this height
+/// \pre `options` belong to the member of a mesh family that is meshed (refined())
 int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunContext& context);
 
-/// The options with that number where layers are automatic, which is told; else as they are.
+/// Returns the options with this number, which is also logged, if the number of layers is automatic; otherwise returns the options unchanged.
 MeshCase with_automatic_layers(const TriMesh& surface, MeshCase options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -5,7 +5,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Tasks of a search: enough to balance them over many threads.
+/// Least number of tasks of a search: enough to balance them over many threads.
 constexpr std::size_t k_tasks = 1024;
 /// As in BoxTree::for_each_overlap: median splits of at most 2^31 items.
 constexpr int k_pair_stack = 64;

@@ -1,4 +1,4 @@
-// The envelope from start to end: the list of steps of docs/method/envelope.md and docs/method/optimisation.md.
+// Complete construction of the envelope: the steps of docs/method/envelope.md and docs/method/optimisation.md in their order.
 #pragma once
 
 #include "volmesh/envelope/classify.h"
@@ -7,8 +7,9 @@
 
 namespace sterna::volmesh {
 
-/// \post every macro-element valid with margin (or collapsed), envelope free of self-intersection.
-/// With a Collider that knows an outer boundary, clear of that too.
+/// Builds the envelope of the wall.
+/// \post every macro-element is valid with margin (or collapsed), and the envelope is free of self-intersection; if the Collider has an outer boundary, the
+/// envelope is clear of the outer boundary too
 Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, const RunContext& context);
 Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 

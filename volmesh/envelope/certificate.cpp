@@ -13,7 +13,7 @@ namespace {
 
 Point centre(const std::array<Point, 3>& p) { return (p[0] + p[1] + p[2]) / 3.0; }
 
-/// Smallest Jacobian over the corners of a tet, scaled by the three edges there.
+/// Returns the smallest Jacobian over the corners of a tet, scaled by the three edges there.
 double tet_quality(const std::array<Point, 4>& p) {
   const double volume6 = 6.0 * tet_volume(p[0], p[1], p[2], p[3]);
   double worst = 1.0;
@@ -33,7 +33,7 @@ struct MacroVerdict {
   const char* kind = "wedge";
 };
 
-/// By the exact test of the kind that collapsed corners leave, without any margin.
+/// Tests a macro-element by the exact test of the cell type that results from its collapsed corners, without any margin.
 MacroVerdict judge(const LayerBase& base, const EnvelopeShape& shape, TriangleId t) {
   const TriangleVertices& v = base.wall.triangles[t];
   std::array<Point, 3> low, top;

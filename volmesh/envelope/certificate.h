@@ -1,4 +1,4 @@
-// What is proved about an envelope, after all changes: by exact tests, with measured minima.
+// Certificate of an envelope after all changes: results of exact tests, with measured minima.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace sterna::volmesh {
 
-/// How good the worst element is: 1 for a right prism or the corner of a cube, positive iff valid (up to rounding).
+/// Quality of the worst element: 1 for a right prism or the corner of a cube, positive iff valid (up to rounding).
 struct WorstElement {
   double quality = 1.0;
   Point place;
@@ -21,11 +21,11 @@ struct EnvelopeCertificate {
   std::int64_t n_pairs = 0;
   std::int64_t n_crossings = 0;
   std::int64_t n_swallowings = 0;  ///< parts of the boundary within the layer of another part
-  /// Macro-elements tested by the exact wedge, pyramid or tet test (those without height are no cells), and those that failed.
+  /// Macro-elements tested by the exact wedge, pyramid or tet test (elements without height are no cells), and the number of failures.
   std::int64_t n_macro_elements = 0;
   std::int64_t n_invalid_macro_elements = 0;
   WorstElement worst_macro_element;
-  /// Cells of the extruded layer, likewise; filled by the driver after extrusion.
+  /// Cells of the extruded layer, counted in the same way; filled by the driver after extrusion.
   std::int64_t n_layer_cells = 0;
   std::int64_t n_invalid_layer_cells = 0;
   WorstElement worst_layer_cell;
@@ -33,17 +33,17 @@ struct EnvelopeCertificate {
   bool is_proved() const { return n_crossings == 0 && n_swallowings == 0 && n_invalid_macro_elements == 0 && n_invalid_layer_cells == 0; }
 };
 
-/// Refuses what no height of the layer can repair. Returns the number of pairs tested exactly.
-/// \throws Error(self_intersection) with places and geometry when the wall crosses itself or the outer boundary.
+/// Rejects input defects that no layer height can repair. Returns the number of pairs tested exactly.
+/// \throws Error(self_intersection) with locations and geometry if the wall crosses itself or the outer boundary.
 std::int64_t require_clear_input(Collider& collider, const RunContext& context);
 
-/// Tests envelope against itself, sides, wall and outer boundary, and every macro-element. Counts, does not throw.
+/// Tests the envelope against itself, sides, wall and outer boundary, and tests every macro-element. Counts failures, does not throw.
 EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
 
-/// \throws Error(envelope_failed) with counts and the worst places unless everything is proved.
+/// \throws Error(envelope_failed) with counts and the worst locations unless everything is proved.
 void require_proved(const EnvelopeCertificate& certificate);
 
-/// One line, e.g. "proved: 316420 boundary triangles clear of each other (1.2e6 pairs), 79218 macro-elements valid (worst 0.031 at (...)), ...".
+/// Returns one line, e.g. "proved: 316420 boundary triangles clear of each other (1.2e6 pairs), 79218 macro-elements valid (worst 0.031 at (...)), ...".
 std::string to_text(const EnvelopeCertificate& certificate);
 
 }  // namespace sterna::volmesh

@@ -17,18 +17,18 @@ struct VertexClass {
   bool is_convex = false;   ///< an edge bends by more than +feature angle
   bool is_concave = false;  ///< an edge bends by more than -feature angle
   bool is_sharp = false;    ///< a feature edge bends by more than 120 degrees
-  bool is_blunt = false;    ///< a feature edge bends by less than that
+  bool is_blunt = false;    ///< a feature edge bends by at most 120 degrees
   bool is_smooth() const { return !is_ridge && !is_corner; }
 };
 
 struct Classification {
   Column<VertexId, VertexClass> vertex;
-  double feature_angle = 0.0;                   ///< rad, that was used
+  double feature_angle = 0.0;                   ///< rad, the angle used for the classification
   Column<HalfedgeId, std::uint8_t> is_feature;  ///< 1 on both half-edges of a feature edge
 };
 
-/// Signed dihedral deviation of an edge in radians: angle between the normals of its two triangles, positive where convex. A boundary edge on a
-/// constraint surface counts as if the body were mirrored there, as do the edges at its ends; any other boundary edge has 0.
+/// Returns the signed dihedral deviation of an edge in radians: the angle between the normals of its two triangles, positive where convex. A boundary edge on
+/// a constraint surface counts as if the body were mirrored there, as do the edges at its end vertices; any other boundary edge has 0.
 double dihedral_deviation(const LayerBase& base, HalfedgeId h);
 
 Classification classify_vertices(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);

@@ -1,7 +1,8 @@
-// Problem: which plane does each boundary vertex belong to? A rim edge that runs along x may lie in a plane of constant y and in one of constant z.
-// 1. candidates_of_edges: planes through both ends of an edge, but not through the rest of its triangle (a face of a box is no plane that the box ends on);
-// 2. find_planes: of an edge's candidates, the plane in which most of all rims lies; planes are those that some edge chose;
-// 3. constraints_of_planes: vertices take the planes of their edges.
+// Problem: to which plane does each boundary vertex belong? A boundary edge along x may lie in a plane of constant y and in a plane of constant z.
+// 1. candidates_of_edges: planes through both ends of an edge, but not through the rest of its triangle (the body does not end on the plane of a box face);
+// 2. find_planes: of an edge's candidates, the plane that contains the largest length of all boundary edges; the result contains every plane chosen by an
+// edge;
+// 3. constraints_of_planes: vertices get the planes of their edges.
 #include "volmesh/envelope/constrain_rims.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_parallel_sine = 1e-6;  ///< planes at a smaller angle have no line in common that could be computed
+constexpr double k_parallel_sine = 1e-6;  ///< planes at a smaller angle have no computable line of intersection
 constexpr std::string_view k_hint =
     "a wall may end only in planes, as a half model at its symmetry plane x, y or z = constant; close the other rims, or move their vertices into the plane";
 
@@ -32,7 +33,7 @@ std::vector<BorderEdge> boundary_edges(const TriMesh& wall, const Topology& topo
   return edges;
 }
 
-/// Closed polygons of the boundary; edges that share a vertex belong to the same one.
+/// Returns the number of closed polygons of the boundary; edges that share a vertex belong to the same polygon.
 std::size_t count_rims(const TriMesh& wall, const std::vector<BorderEdge>& edges) {
   DisjointSets rims(wall.n_vertices());
   std::size_t n = 0;
@@ -67,7 +68,7 @@ struct AxisPlane {
   double support = 0.0;
 };
 
-/// Planes of constant coordinate that hold boundary edges whose triangle rises from them, with the length of these edges.
+/// Returns planes of constant coordinate that contain boundary edges whose triangle is not in the plane, with the total length of these edges.
 std::vector<AxisPlane> candidates_of_edges(const TriMesh& wall, const std::vector<BorderEdge>& edges, double tolerance) {
   std::vector<AxisPlane> found;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -108,7 +109,7 @@ std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<
   std::vector<ConstraintPlane> planes;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (!is_chosen[k]) continue;
-    // The coordinate that most of the plane's vertices have: snapping then moves the fewest.
+    // The most frequent coordinate of the plane's vertices: snapping then moves the fewest vertices.
     std::vector<double> values;
     for (const BorderEdge& e : edges) {
       const double x = wall.points[e.from][candidates[k].axis];
@@ -130,7 +131,7 @@ std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<
   return planes;
 }
 
-/// The planes with their normals to the side of the wall.
+/// Returns the planes with their normals oriented to the side of the wall.
 std::vector<std::shared_ptr<const ConstraintSurface>> facing_wall(const TriMesh& wall, const std::vector<BorderEdge>& edges,
                                                                   std::span<const ConstraintPlane> planes, double tolerance) {
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;
@@ -157,7 +158,7 @@ Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology,
   const std::vector<BorderEdge> edges = boundary_edges(wall, topology);
   Constraints result;
   if (edges.empty()) return result;
-  // Planes are found within k_rim_tolerance of their lowest vertex, and given ones may lie on either side of theirs.
+  // Detected planes are within k_rim_tolerance of their lowest vertex, and given planes may lie on either side of their vertices.
   const double tolerance = 2.0 * k_rim_tolerance * body_length(wall);
   result.surfaces = facing_wall(wall, edges, planes, tolerance);
   result.vertex.resize(wall.n_vertices());
@@ -189,7 +190,7 @@ Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology,
     constraint.axis = first;
     if (constraint.on[1] < 0) continue;
     const Vec3 line = cross(first, result.surfaces[static_cast<std::size_t>(constraint.on[1])]->normal({}));
-    constraint.freedom = norm(line) > k_parallel_sine ? Freedom::line : Freedom::fixed;  // between parallel planes there is nowhere to go
+    constraint.freedom = norm(line) > k_parallel_sine ? Freedom::line : Freedom::fixed;  // between parallel planes no direction is free
     constraint.axis = normalized(line);
   }
   return result;

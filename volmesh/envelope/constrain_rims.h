@@ -1,4 +1,4 @@
-// Constraints of a wall that ends on planes: the symmetry plane of a half model, the walls of a tunnel.
+// Constraints of a wall whose open boundary lies on planes: the symmetry plane of a half model, the walls of a tunnel.
 #pragma once
 
 #include <span>
@@ -8,16 +8,18 @@
 
 namespace sterna::volmesh {
 
-/// Vertices of the wall's boundary within this of a plane are on it, share of the body length: files keep 6 to 7 digits.
+/// Tolerance for vertices of the wall's boundary to lie on a plane, as a share of the body length: files keep 6 to 7 digits.
 inline constexpr double k_rim_tolerance = 1e-6;
 
-/// Constraints of the wall's boundary vertices to the given planes: in a plane, or on the line of two. Normals are turned to the side where the wall is.
-/// \throws Error(open_surface) with coordinates when a boundary vertex is on none of the planes or on more than two, or when the wall lies on both sides
-/// of a plane that it ends on.
+/// Returns the constraints of the wall's boundary vertices to the given planes: in one plane, or on the intersection line of two. Normals are oriented to the
+/// side of the wall.
+/// \throws Error(open_surface) with coordinates if a boundary vertex lies on none of the planes or on more than two, or if the wall lies on both sides of a
+/// plane on which it ends.
 Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology, std::span<const ConstraintPlane> planes);
 
-/// The same with the planes found: x, y or z = constant, where boundary edges lie in it, and their triangles do not. Empty for a closed wall.
-/// \throws as above; the error names how many rims there are, and where the edges are that lie in no such plane.
+/// Returns the constraints with the planes detected: x, y or z = constant, where boundary edges lie in the plane and their triangles do not. Empty for a
+/// closed wall.
+/// \throws as above; the error states the number of open boundaries and the locations of edges that lie in no such plane.
 Constraints constraints_of_rims(const TriMesh& wall, const Topology& topology);
 
 }  // namespace sterna::volmesh

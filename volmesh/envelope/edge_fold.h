@@ -1,4 +1,4 @@
-// How sharply the envelope may be folded along an edge, on the side of the fluid: tetrahedra must fit in between.
+// Limit of the fold angle of the envelope along an edge, on the side of the fluid: the fold must leave room for tetrahedra.
 #pragma once
 
 #include <algorithm>
@@ -9,27 +9,28 @@
 
 namespace sterna::volmesh {
 
-/// Corners of the two triangles at an edge: start and end of the edge, third corner of the triangle in which it runs so, that of the other one.
+/// Corners of the two triangles at an edge: start and end of the edge, third corner of the triangle in which the edge has this direction, third corner of the
+/// other triangle.
 using FoldPoints = std::array<Point, 4>;
 
-/// Limits of the angle between the two triangles of the envelope, seen from the fluid (180 degrees where they are level).
+/// Limits of the angle between the two triangles of the envelope, seen from the fluid (180 degrees where they are coplanar).
 struct FoldLimit {
-  double cos_least = k_usual_cos_least;  ///< of the least angle
-  double range = k_usual_range;          ///< what the cosine is less by at the angle below which the barrier begins
-  bool is_concave = false;               ///< the wall's triangles rise from each other: those of the envelope must not swap sides
+  double cos_least = k_usual_cos_least;  ///< cosine of the least angle
+  double range = k_usual_range;          ///< difference of the cosine between the least angle and the angle below which the barrier begins
+  bool is_concave = false;               ///< the wall's triangles rise from each other: the envelope's triangles must not swap sides
 
-  static constexpr double k_least_angle = 0.2618;  ///< 15 degrees: a tetrahedron in the fold has an angle of no more
+  static constexpr double k_least_angle = 0.2618;  ///< 15 degrees: a tetrahedron in the fold has no larger angle
   static constexpr double k_onset_angle = 0.6981;  ///< 40 degrees
   static constexpr double k_usual_cos_least = 0.9659258262890683, k_usual_cos_onset = 0.766044443118978;
   static constexpr double k_usual_range = k_usual_cos_least - k_usual_cos_onset;
-  static constexpr double k_share_of_wall = 0.5;  ///< of the wall's angle, where that is less than twice the least one
+  static constexpr double k_share_of_wall = 0.5;  ///< share of the wall's angle, if this angle is less than twice the least one
 };
 
-/// Cosine of the angle between the triangles and whether they rise from each other.
+/// Cosine of the angle between the triangles, and whether they rise from each other.
 struct Fold {
-  Vec3 n1, n2;  ///< normals, as long as the triangles' doubled areas
+  Vec3 n1, n2;  ///< normals, with the length of the triangles' doubled areas
   double length1 = 0.0, length2 = 0.0;
-  double cosine = 1.0;  ///< between the normals: -1 where the triangles are folded onto each other
+  double cosine = 1.0;  ///< cosine between the normals: -1 where the triangles are folded onto each other
   bool is_concave = false;
 };
 inline Fold fold_of(const FoldPoints& p) {
@@ -44,7 +45,7 @@ inline Fold fold_of(const FoldPoints& p) {
   return f;
 }
 
-/// Those of an edge of the envelope over this edge of the wall.
+/// Returns the fold limit for the edge of the envelope over this edge of the wall.
 inline FoldLimit fold_limit(const FoldPoints& wall) {
   FoldLimit limit;
   const Fold fold = fold_of(wall);
@@ -56,14 +57,14 @@ inline FoldLimit fold_limit(const FoldPoints& wall) {
   return limit;
 }
 
-/// Distance from the least angle, 1 where the barrier begins and beyond; not above 0 where the fold is too sharp.
+/// Returns the distance from the least angle, 1 where the barrier begins and beyond; not above 0 where the fold is too sharp.
 inline double fold_slack(const Fold& fold, const FoldLimit& limit) {
   if (fold.cosine > -0.5) return 1.0;
   if (!fold.is_concave) return limit.is_concave && fold.cosine < -FoldLimit::k_usual_cos_onset ? -1.0 : 1.0;
   return std::min(1.0, (fold.cosine + limit.cos_least) / limit.range);
 }
 
-/// Derivatives of the fold's cosine with respect to the four points.
+/// Returns the derivatives of the fold's cosine with respect to the four points.
 inline std::array<Vec3, 4> fold_gradient(const FoldPoints& p, const Fold& f) {
   const Vec3 u1 = f.n1 / f.length1, u2 = f.n2 / f.length2;
   const Vec3 g1 = (u2 - f.cosine * u1) / f.length1, g2 = (u1 - f.cosine * u2) / f.length2;

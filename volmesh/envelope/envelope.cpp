@@ -6,11 +6,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Of the target height: where all lines grow alike, a line that is lower has first cells lower by as much, beside others of a hundred times their height.
+/// Least share of the target height: if all growth lines have the same growth, a lower growth line has proportionally lower first cells, beside others of a
+/// hundred times their height.
 constexpr double k_least_of_target = 0.01;
-/// Of h: the least normal height that the layer law is given (a line at 84 degrees to the wall normal).
+/// Least share of h for the normal height in the growth law (a growth line at 84 degrees to the wall normal).
 constexpr double k_min_normal_share = 0.1;
-/// Share of n h0 below which a layer is no longer worth its cells (docs/method/envelope.md, "Warp").
+/// Share of n h0 below which a layer does not justify the cost of its cells (docs/method/envelope.md, "Warp").
 constexpr double k_min_height_share = 0.2;
 
 }  // namespace

@@ -15,11 +15,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Above the largest smooth turn: single precision and scripts that move the wall change angles a little.
+/// Margin above the largest smooth deviation: single precision and scripts that move the wall change angles slightly.
 constexpr double k_above_smooth = 1.0 * k_degree;
-constexpr std::size_t k_lowest = 20, k_highest = 60;  ///< degrees: flatter edges occur on any coarse curved surface, sharper ones are features on all
-constexpr std::size_t k_window = 2;                   ///< bins to either side that are counted with a bin: single edges do not end a gap
-/// A window with at most this share of all edges is empty: some badly shaped triangles are found on every surface.
+constexpr std::size_t k_lowest = 20, k_highest = 60;  ///< degrees: smaller deviations occur on any coarse curved surface, larger ones are features on all
+                                                      ///< surfaces
+constexpr std::size_t k_window = 2;                   ///< bins on either side that are counted with a bin: single edges do not end a gap
+/// A window with at most this share of all edges is empty: every surface has some badly shaped triangles.
 constexpr double k_quiet_share = 1e-3;
 
 using Histogram = std::array<std::int64_t, 181>;  ///< edges per degree of |deviation|

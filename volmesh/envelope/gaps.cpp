@@ -1,4 +1,4 @@
-// Gaps between opposing walls: each growth line looks for a wall that faces it, as far as both layers reach.
+// Gaps between opposing walls: for each growth line the opposing wall is searched for within the reach of both layers.
 #include <algorithm>
 #include <cmath>
 
@@ -11,12 +11,13 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_remaining_edges = k_kept_edges;  ///< of the longer local envelope edge stays between two layers, for tets
-constexpr double k_remaining_share = k_kept_share;  ///< of a gap that is too narrow for that
-constexpr double k_gap_opposing_cosine = 0.7;       ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
+constexpr double k_remaining_edges = k_kept_edges;  ///< number of lengths of the longer local envelope edge that remain between two layers, for tets
+constexpr double k_remaining_share = k_kept_share;  ///< remaining share of a gap that is too narrow for k_remaining_edges
+constexpr double k_gap_opposing_cosine = 0.7;       ///< walls within 45 degrees of facing the growth line oppose it; all others are left to the exact test
 constexpr int k_level_sweeps = 3;
 
-/// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
+/// Returns the parameter along the segment p + s d (s in [0, 1]) of the intersection with the triangle, or a negative number. Rounding does not matter:
+/// heights keep a reserve.
 double segment_hit(const Point& p, const Vec3& d, const std::array<Point, 3>& t) {
   const Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0];
   const Vec3 q = cross(d, e2);
@@ -38,7 +39,7 @@ class GapFinder {
     parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
   }
 
-  /// Appends the hit of v's growth line when both layers ask for more than the gap leaves them. `buffer` is scratch.
+  /// Appends the hit of v's growth line if the heights of both layers exceed the room in the gap. `buffer` is scratch.
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<WallGap>& hits) const {
     if (envelope_.is_collapsed(v)) return;
     const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_gap_opposing_cosine;
@@ -59,7 +60,7 @@ class GapFinder {
       nearest = t;
     }
     if (!nearest.is_valid() || is_shared_before(v, nearest)) return;
-    // Across the gap an inclined line is longer than the gap that remains.
+    // An inclined growth line has a longer section between the layers than the remaining gap.
     const double edge = std::max(edge_[v], largest(edge_, nearest)) / cosine(v, nearest);
     add_hit(v, nearest, first * look, edge, height_against(v, nearest), hits);
   }
@@ -92,7 +93,7 @@ class GapFinder {
     return cosine(v, t) >= k_gap_opposing_cosine && own[0] != v && own[1] != v && own[2] != v;
   }
   bool is_shared_before(VertexId v, TriangleId t) const { return group_ && (*group_)[v] == (*group_)[base_.wall.triangles[t][0]]; }
-  /// Extent along v's growth line of the layer on t.
+  /// Returns the extent along v's growth line of the layer on t.
   double height_against(VertexId v, TriangleId t) const { return largest(envelope_.height, t) / cosine(v, t); }
   Box box_along(VertexId v, double length) const {
     Box box;
@@ -100,8 +101,8 @@ class GapFinder {
     box.add(base_.wall.points[v] + length * envelope_.direction[v]);
     return box;
   }
-  /// A conflict begins where the line meets the opposite layer, which may be far from the wall under it: first look for layers, then as far as the
-  /// walls under them. 0 when there is none.
+  /// Returns the search length along the growth line; 0 if there is no opposing layer. A conflict begins where the growth line meets the opposite layer,
+  /// which may be far from the wall under it: layers are searched first, then the walls under them.
   double how_far_to_look(VertexId v, double reach, std::vector<std::uint32_t>& buffer) const {
     buffer.clear();
     collider_.find_cells(box_along(v, reach), buffer);

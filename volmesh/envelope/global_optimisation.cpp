@@ -12,12 +12,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Shares of the way to the optimum that vertices try one after the other.
+/// Shares of the displacement to the optimum that are tried one after the other.
 constexpr std::array<double, 4> k_step_shares = {1.0, 0.5, 0.25, 0.125};
 
-/// Of the target, just above the share that counts as full height (layer_report.cpp).
+/// Share of the target just above the share that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.91;
-/// Of the target: what optimisation leaves at least. Evenness is worth a little height, a hole in the layer is not.
+/// Share of the target below which optimisation does not lower a height. Smoothness justifies a small loss of height, but not a hole in the layer.
 constexpr double k_least_optimised_height = 0.8;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
@@ -73,7 +73,7 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
     EnvelopeShape proposal = envelope;
     parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
       const VertexId v(i);
-      if (is_at(best, start, v) || !is_at(envelope, start, v)) return;  // nothing to go for, or on its way already
+      if (is_at(best, start, v) || !is_at(envelope, start, v)) return;  // already at the optimum, or moved by a larger share before
       if (share == 1.0) {
         proposal.height[v] = best.height[v];
         proposal.direction[v] = best.direction[v];
@@ -85,7 +85,7 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
     });
     apply_where_clear(base, collider, envelope, proposal, context);
   }
-  // What nothing else keeps low, the shape of the envelope does: here it was free to rise.
+  // Vertices without any other limit are limited by the shape of the envelope: they were free to rise here.
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
     if (envelope.limit[v] == HeightLimit::none && envelope.height[v] < k_full_height * envelope.target[v]) envelope.limit[v] = HeightLimit::warp;

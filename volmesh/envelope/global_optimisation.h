@@ -1,4 +1,4 @@
-// Stage 6 of the envelope (docs/method/optimisation.md): runs the optimiser that the options name and puts its result in force where the layer stays clear.
+// Stage 6 of the envelope (docs/method/optimisation.md): runs the optimiser selected by the options and applies its result where the layer stays clear.
 #pragma once
 
 #include "volmesh/envelope/collide.h"
@@ -6,7 +6,8 @@
 
 namespace sterna::volmesh {
 
-/// \pre, \post every macro-element valid, envelope free of self-intersection. Where the optimum is not clear, vertices go part of the way.
+/// Optimises heights and directions.
+/// \pre, \post every macro-element valid, envelope free of self-intersection. Where the optimum is not clear, vertices move part of the way.
 /// \throws Error(bad_argument) for an unknown optimiser.
 void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
 

@@ -6,18 +6,20 @@
 
 namespace sterna::volmesh {
 
-inline constexpr double k_rim_slope = 1.0;  ///< of heights beside rims of sheets, 45 degrees: tetrahedra have three quarters of the way around a rim
+inline constexpr double k_rim_slope = 1.0;  ///< largest slope of heights beside free edges of wake sheets, 45 degrees: tetrahedra occupy three quarters of the
+                                            ///< turn around such an edge
 
-/// Directions: the angle-weighted normal, pulled towards the best visible direction where it sees its faces badly. Heights: the target, which is the
-/// largest field with h <= eq. (1), h <= max_thickness (default 0.1 body lengths) and slope <= height_gradient along wall edges.
-/// Vertices without a direction that sees all their faces start collapsed (HeightLimit::invisible).
+/// Returns the initial envelope. Directions: the angle-weighted normal, pulled towards the best visible direction where its visibility of the faces is low.
+/// Heights: the target, which is the largest field with h <= eq. (1), h <= max_thickness (default 0.1 body lengths) and slope <= height_gradient along wall
+/// edges. Vertices without a direction from which all their faces are visible start collapsed (HeightLimit::invisible).
 Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 
-/// The direction nearest to `wanted` on the way to the visible one whose worst cosine with the normals of the facets at v is at least `needed`.
+/// Returns the direction nearest to `wanted`, on the way to the visible direction, whose worst cosine with the normals of the facets at v is at least
+/// `needed`.
 /// \pre the visible direction itself satisfies `needed`.
 Vec3 pull_towards_visible(const LayerBase& base, VertexId v, const Vec3& wanted, double needed);
 
-/// The direction within v's constraint nearest to `wanted` (on the way to the best visible one) that sees every face of v with at least the cosine
+/// Returns the direction within v's constraint nearest to `wanted` (on the way to the best visible one) whose cosine with every face normal at v is at least
 /// min(`cosine`, 0.5 * the best possible).
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
 

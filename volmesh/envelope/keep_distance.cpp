@@ -1,4 +1,4 @@
-// Steps: find near places around every top vertex, share what is missing between both sides, make valid and clear again; a few sweeps.
+// Steps: find near locations around every top vertex, share the missing distance between both sides, make valid and clear again; a few sweeps.
 #include "volmesh/envelope/keep_distance.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_sweeps = 4;
-constexpr double k_facing_cosine = 0.5;  ///< between growth direction (or facet normal) and the way to the other side: within 60 degrees
-constexpr double k_least_share = 0.6;    ///< of a height is left by one sweep
-constexpr double k_good_enough = 0.98;   ///< of the distance: no sweep for rounding
-constexpr double k_outer_share = 0.5;    ///< of the distance, from the outer boundary
+constexpr double k_facing_cosine = 0.5;  ///< between growth direction (or facet normal) and the direction to the other side: within 60 degrees
+constexpr double k_least_share = 0.6;    ///< share of a height that remains after one sweep
+constexpr double k_good_enough = 0.98;   ///< share of the distance that is sufficient: no sweep for rounding
+constexpr double k_outer_share = 0.5;    ///< share of the distance to be kept from the outer boundary
 constexpr std::size_t k_distance_chunk = 256;
 
-/// A vertex and the height that keeps its distance, m.
+/// A vertex and the height at which the top keeps its distance, m.
 using Wanted = std::pair<VertexId, double>;
 
 class NearPlaces {
@@ -31,7 +31,7 @@ class NearPlaces {
     parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
   }
 
-  /// Appends the heights that v's top point and what it faces should have. `buffer` is scratch.
+  /// Appends the target heights of v's top point and of the opposing parts of the layer. `buffer` is scratch.
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<Wanted>& wanted) const {
     if (envelope_.is_collapsed(v)) return;
     const double kept = k_kept_edges * edge_[v];
@@ -49,7 +49,7 @@ class NearPlaces {
   }
 
  private:
-  /// How near a triangle in front of the point is that looks back at it; nothing where it is none or far enough.
+  /// Distance from the point to an opposing triangle in front of it that faces the point; empty if there is none or the distance is sufficient.
   struct Near {
     double distance = 0.0, cosine = 0.0, back = 0.0;
   };
@@ -75,7 +75,7 @@ class NearPlaces {
     for (const VertexId u : w) lower_by(u, missing / found->back, wanted);
   }
   void against_fixed(VertexId v, const Point& p, double kept, const std::array<Point, 3>& t, std::vector<Wanted>& wanted) const {
-    // The outer boundary's triangles look out of the fluid or into it, as they please.
+    // Triangles of the outer boundary may point into the fluid or out of it.
     std::optional<Near> found = near(v, p, kept, t, 1.0);
     if (!found) found = near(v, p, kept, t, -1.0);
     if (found) lower_by(v, (kept - found->distance) / found->cosine, wanted);

@@ -1,4 +1,4 @@
-// What the layer grows from: the wall with its derived geometry, opened ridges included.
+// Base of the layer: the wall with its derived geometry, opened ridges included.
 #pragma once
 
 #include <algorithm>
@@ -18,24 +18,25 @@
 namespace sterna::volmesh {
 
 inline constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): square of the edge of an equilateral triangle over its area
-/// m, l of eq. (1): the edge of the equilateral triangle of the same area (m), of stretched triangles at least a third of their mean edge (m).
+/// Returns l of eq. (1), m: the edge of the equilateral triangle of the same area (m); for stretched triangles at least a third of their mean edge (m).
 double layer_edge_of(double equilateral_edge, double mean_edge);
 
 struct LayerBase {
-  /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its rims if it has a boundary.
+  /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its open boundaries, if there are any.
   /// `wall` and `ridges` (those of the wall; null: none) must outlive this.
   LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {}, const OpenedRidges* ridges = nullptr);
 
   const TriMesh& wall;
   Topology topology;
   double body_length;                                              ///< m
-  Column<VertexId, VertexConstraint> constraint;                   ///< what directions and envelope points obey; all free by default
-  std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< that VertexConstraint::on numbers
+  Column<VertexId, VertexConstraint> constraint;                   ///< constraints of directions and envelope points; all free by default
+  std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< indexed by VertexConstraint::on
   Column<VertexId, std::uint64_t> near;                            ///< Constraints::near
-  Column<TriangleId, Vec3> unit_normal;                            ///< of each triangle
+  Column<TriangleId, Vec3> unit_normal;                            ///< unit normal per triangle
   Column<TriangleId, double> area;                                 ///< m^2
   Column<VertexId, Vec3> vertex_normal;      ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
-  Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; sees the worst incident normal best: axis of the smallest cap that holds them all
+  Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; the direction with the largest worst cosine with the incident normals: axis of
+                                             ///< the smallest cap that contains all of them
   Column<VertexId, double> visibility;       ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
   Column<VertexId, double> facet_cosine;     ///< angle-weighted mean of the cosines between vertex_normal and the incident normals
   Column<VertexId, double> mean_edge;        ///< m, of the edges at the vertex
@@ -43,37 +44,38 @@ struct LayerBase {
   Column<VertexId, double> layer_edge;       ///< m, l_j of eq. (1), see set_layer_edges()
   Column<VertexId, double> vertex_area;      ///< m^2, a third of the incident triangles
 
-  /// Vertices that must grow alike (where walls end on periodic sides), each group ascending; and each vertex's group (empty: there are none), k_no_group where
-  /// it grows by itself.
+  /// Groups of vertices with equal growth (where walls end on periodic sides), each group ascending; and each vertex's group (empty: no groups), k_no_group
+  /// for vertices without a group.
   std::vector<std::vector<VertexId>> groups;
   Column<VertexId, std::uint32_t> group;
   static constexpr std::uint32_t k_no_group = 0xffffffffu;
-  /// Normals, directions and edges of these pairs become those of all their triangles together. Pairs may be chained (two directions of periodicity).
-  /// \pre constraints of partners are equal but for the sense of their axes
+  /// Computes normals, directions and edges of these pairs from the triangles of both partners together. Pairs may be chained (two directions of
+  /// periodicity).
+  /// \pre constraints of partners are equal except for the sense of their axes
   void let_grow_alike(const std::vector<std::array<VertexId, 2>>& partners);
 
-  std::vector<std::array<VertexId, 2>> level;  ///< pairs whose layers must be as high as each other: both sides of wake sheets
+  std::vector<std::array<VertexId, 2>> level;  ///< pairs whose layers must have equal heights: both sides of wake sheets
 
-  /// Free rims of wake sheets, ascending: their lines have no height, but the layer need not be thin beside them, because there is fluid all around.
+  /// Free edges of wake sheets, ascending: their growth lines have no height, but the layer need not be thin beside them, because fluid surrounds them.
   std::vector<VertexId> sheet_rims;
   bool is_sheet_rim(VertexId v) const { return std::binary_search(sheet_rims.begin(), sheet_rims.end(), v); }
 
-  LayerDemand demand;  ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
+  LayerDemand demand;  ///< layer settings of patches that replace the options (patch_layers.h); empty by default
 
-  /// Whether lines may end early, where patches ask for other than PrismOptions::truncate (patch_layers.h); empty: nowhere.
+  /// Truncation per vertex, where patches have a setting other than PrismOptions::truncate (patch_layers.h); empty: no patch has.
   Column<VertexId, Truncation> truncation;
 
-  const OpenedRidges* ridges;  ///< null where nothing is open
-  /// Triangles between lines of one foot: no part of the given wall.
+  const OpenedRidges* ridges;  ///< null if no ridge is opened
+  /// Returns true for triangles between growth lines with a common ridge base vertex: they are no part of the given wall.
   bool is_virtual(TriangleId t) const { return ridges != nullptr && t.index() >= ridges->n_given_triangles; }
-  /// Edges between lines of one foot have next to no length: no mean takes them.
+  /// Returns true if both vertices have a common ridge base vertex. Edges between such vertices have nearly zero length and are excluded from means.
   bool have_one_foot(VertexId a, VertexId b) const { return ridges != nullptr && ridges->foot[a] == ridges->foot[b]; }
-  /// The fan that a vertex is part of; null: none.
+  /// Returns the multi-normal fan of a vertex; null if the vertex belongs to no fan.
   const OpenedRidges::Foot* fan_of(VertexId v) const;
-  /// How well a growth direction may be asked to see the faces at a vertex: lines of a fan must be able to close up towards the end of their ridge, and see no
-  /// more than one line for all would there.
+  /// Returns the visibility of the faces at a vertex that can be required of a growth direction: growth lines of a multi-normal fan must be able to converge
+  /// towards the end of their ridge, where their visibility is no better than that of a single growth line.
   double cone_visibility(VertexId v) const;
-  /// Whether an edge of the wall is beside a virtual triangle: such edges are no features.
+  /// Returns true if an edge of the wall is beside a virtual triangle: such edges are no features.
   bool is_in_gap(HalfedgeId h) const {
     const HalfedgeId twin = topology.twin(h);
     return is_virtual(triangle_of(h)) || (twin.is_valid() && is_virtual(triangle_of(twin)));
@@ -81,29 +83,29 @@ struct LayerBase {
 
   bool concerns(std::size_t surface, VertexId v) const { return near.empty() || (surface < 64 && (near[v] >> surface & 1u) != 0); }
 
-  /// Smallest cosine between d and the normals of v's triangles.
+  /// Returns the smallest cosine between d and the normals of v's triangles.
   double worst_cosine(VertexId v, const Vec3& d) const;
-  /// Copies of the edge v-other that meet at v when the body is mirrored at the surfaces that v is on: 1, 2 or 4. With this weight in every mean
-  /// around v, projected into the constraint, half a body gets what the whole body would.
+  /// Returns the number of copies of the edge v-other that meet at v if the body is mirrored at the surfaces through v: 1, 2 or 4. With this weight in every
+  /// mean around v, projected into the constraint, a half model gives the same results as the full model.
   double mirror_weight(VertexId v, VertexId other) const;
 
  private:
   void derive(std::span<const VertexId> alike);
-  /// The edge that the last prisms are as tall as: of an equilateral triangle with the mean area of those at the vertex, because tetrahedra get that edge, too
-  /// (stretched triangles: at least a third of the mean edge); its logarithm smoothed over some rings, because a layer several edges thick does not follow the
-  /// chance of single triangles, whose steps would tilt the tops of all its prisms.
+  /// Sets the target edge for the height of the last prisms: of an equilateral triangle with the mean area of the triangles at the vertex, because tetrahedra
+  /// get this edge, too (stretched triangles: at least a third of the mean edge). Its logarithm is smoothed over some rings: a layer several edges thick
+  /// cannot follow the scatter between single triangles, whose steps would tilt the tops of all its prisms.
   void set_layer_edges(const RunContext& context);
   void even_out_fans();
 };
 
-/// Calls f(w) for v and all that must grow like it, ascending.
+/// Calls f(w) for v and all vertices that must grow like v, ascending.
 template <class F>
 void for_each_alike(const LayerBase& base, VertexId v, const F& f) {
   if (base.group.empty() || base.group[v] == LayerBase::k_no_group) return f(v);
   for (const VertexId w : base.groups[base.group[v]]) f(w);
 }
 
-/// Calls f(half-edge, other end) once for every edge at v: its outgoing half-edges and, on the boundary, the arriving one that has no twin.
+/// Calls f(half-edge, other end) once for every edge at v: its outgoing half-edges and, on the boundary, the incoming half-edge without a twin.
 template <class F>
 void for_each_edge(const Topology& topology, VertexId v, const F& f) {
   for (const HalfedgeId h : topology.outgoing(v)) {
@@ -113,15 +115,15 @@ void for_each_edge(const Topology& topology, VertexId v, const F& f) {
   }
 }
 
-/// Axis of the smallest spherical cap that holds all `normals`, and the cosine of its half angle (Aubry & Loehner 2008, "most normal normal").
-/// Meaningful for caps below 90 degrees; else the returned cosine (the true minimum over the normals) is not positive.
+/// Axis of the smallest spherical cap that contains all `normals`, and the cosine of its half angle (Aubry & Loehner 2008, "most normal normal").
+/// Meaningful for caps below 90 degrees; otherwise the returned cosine (the true minimum over the normals) is not positive.
 struct Cap {
   Vec3 axis;
   double cosine = -1.0;
 };
 Cap smallest_cap(std::span<const Vec3> normals);
 
-/// The direction within the constraint whose smallest cosine with the normals is largest, and that cosine. O(m^3) for m normals in a plane.
+/// Returns the direction within the constraint with the largest worst cosine with the normals, and this cosine. O(m^3) for m normals in a plane.
 Cap best_seen(const VertexConstraint& constraint, std::span<const Vec3> normals);
 
 }  // namespace sterna::volmesh

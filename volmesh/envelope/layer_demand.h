@@ -1,4 +1,4 @@
-// What is asked of the layer, vertex by vertex, where walls ask for different things.
+// Layer targets per vertex, for walls with different layer settings.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace sterna::volmesh {
 
-/// One entry per wall vertex; all columns empty: what EnvelopeOptions says holds everywhere.
+/// Layer targets, one entry per wall vertex; all columns empty: EnvelopeOptions apply everywhere.
 struct LayerDemand {
   Column<VertexId, double> first_height;   ///< m
   Column<VertexId, double> max_growth;     ///< ratio
   Column<VertexId, double> max_thickness;  ///< m
-  Column<VertexId, double> total_height;   ///< m; automatic: by eq. (1). Empty: nowhere given
-  Column<VertexId, std::uint16_t> layers;  ///< the same for all vertices of a triangle; on wake sheets they differ by one at most
+  Column<VertexId, double> total_height;   ///< m; automatic: by eq. (1). Empty: given for no vertex
+  Column<VertexId, std::uint16_t> layers;  ///< equal for all vertices of a triangle; on wake sheets they differ by one at most
   bool is_empty() const { return first_height.empty(); }
 };
 
-/// The one list of the columns (for_each_column): a new member does not compile until it is here.
+/// Returns the only list of the columns (for_each_column): a new member does not compile until it is listed here.
 template <class Demand>
 requires std::is_same_v<std::remove_const_t<Demand>, LayerDemand>
 auto columns_of(Demand& demand) {

@@ -9,11 +9,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_descent_halvings = 6;    ///< of a step that raises the objective, before the vertex waits for its neighbours
+constexpr int k_max_descent_halvings = 6;    ///< halvings of a step that raises the objective, before the vertex waits for changes of its neighbours
 constexpr std::size_t k_max_incident = 64;   ///< triangles at a vertex that moves; beyond it the vertex stays
-constexpr double k_max_step = 0.5;           ///< of h_u
-constexpr double k_sufficient = 1e-4;        ///< Armijo's share of the predicted decrease
-constexpr double k_min_turning_share = 0.2;  ///< least curvature against turning, of what a vertex on a plane has
+constexpr double k_max_step = 0.5;           ///< in units of h_u
+constexpr double k_sufficient = 1e-4;        ///< Armijo condition: share of the predicted decrease
+constexpr double k_min_turning_share = 0.2;  ///< least curvature against turning, as a share of that of a vertex on a plane
 constexpr std::size_t k_visit_chunk = 256;   ///< vertices of a colour per task: a visit costs some microseconds
 
 /// Solves (B^T H B) c = B^T r for the columns B = directions[0 .. n), by elimination without pivoting (H is positive definite); returns B c.
@@ -41,7 +41,7 @@ Vec3 solve_within(const SymmetricBlock& h, const std::array<Vec3, 3>& directions
 
 }  // namespace
 
-/// What a visit needs for every incident element; one per task, so that nothing is allocated per vertex.
+/// Scratch data of a visit for every incident element; one object per task, so that nothing is allocated per vertex.
 struct LayerObjective::VisitScratch {
   std::vector<LayerElement> elements = std::vector<LayerElement>(k_max_incident);
   std::vector<std::array<Vec3, 2>> fixed = std::vector<std::array<Vec3, 2>>(k_max_incident);  ///< top edges less the moving growth edge
@@ -105,7 +105,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
     fold_corner[f] = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), static_cast<std::uint32_t>(i)) - corners.begin());
   }
   const Vec3& normal = normal_[i];
-  /// The part of the objective that this vertex changes; infinite where an element is infeasible.
+  /// Returns the part of the objective that depends on this vertex; infinite if an element is infeasible.
   const auto local_objective = [&](const Vec3& g) {
     double sum =
         f1_weight * (n_incident_[i] - dot(normal_sum_[i], g) / norm(g)) - height_weight(i) * dot(g, normal) / scale + membrane(i, dot(g, normal), y).energy;
@@ -133,7 +133,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   hessian.add_identity(turning);
   hessian.add(-turning, u);
   hessian.add(even.curvature, normal);
-  hessian.add(height_weight(i) / (scale * scale), u);  // f_2 is linear: a step of one h_u against its slope
+  hessian.add(height_weight(i) / (scale * scale), u);  // f_2 is linear: adds a curvature that limits the step along its slope to one h_u
   for (std::size_t m = 0; m < n; ++m) elements[m].differentiate_corner_0(weights, gradient, hessian);
   for (std::size_t f = 0; f < folds.size(); ++f) {
     const Fold shape = fold_of(fold_points[f]);
@@ -153,7 +153,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   Vec3 step = solve(-gradient);
   const double wanted = dot(start + step, normal) / scale;
   if (wanted > 1.0 || wanted < h_l_share_[i]) {
-    // The model's minimum on the bound: what is missing in height is made up for by the multiplier of the bound.
+    // Minimum of the model on the bound: the multiplier of the bound restores the missing height.
     const Vec3 lifted = solve(normal);
     step += ((std::clamp(wanted, h_l_share_[i], 1.0) - wanted) * scale / dot(lifted, normal)) * lifted;
   }
@@ -164,7 +164,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   double share = 1.0;
   for (int halving = 0; halving <= k_max_descent_halvings; ++halving, share *= 0.5) {
     Vec3 next = (start + share * step) / scale;
-    clamp(i, next);  // the floor, and rounding
+    clamp(i, next);  // lower limit of the length, and rounding
     if (!(local_objective(scale * next) <= before + k_sufficient * share * predicted)) continue;
     const double way = norm(next - y[i]);
     y[i] = next;

@@ -3,14 +3,14 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Derivatives of one quantity with respect to the vectors that it is made of.
+/// Derivatives of one quantity with respect to its input vectors.
 struct Seeds {
   Vec3 to_top, to_middle;           ///< n_top, n_middle
   std::array<Vec3, 3> to_growth{};  ///< growth edges, directly
   std::array<Vec3, 2> to_edge{};    ///< edges of the envelope, directly
 };
 
-/// Of corner k: the sine is twice the area over the two lengths at the corner.
+/// Returns the seeds of corner k: the sine is twice the area over the two lengths at the corner.
 Seeds corner_seeds(const LayerElement& el, std::size_t k) {
   const double sine = (1.0 + el.corner[k]) * el.least_sine[k];
   const Vec3 third = el.top[1] - el.top[0];
@@ -77,7 +77,7 @@ void add_scaled(Seeds& sum, double w, const Seeds& s) {
   for (std::size_t k = 0; k < 2; ++k) sum.to_edge[k] += w * s.to_edge[k];
 }
 
-/// Seeds of f_3 = sum over k of 1 - top_cosine[k].
+/// Adds the seeds of f_3 = sum over k of 1 - top_cosine[k].
 void add_top_seeds(const LayerElement& el, double weight, Seeds& sum) {
   const Vec3 unit_top = el.n_top / el.top_area2;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -86,7 +86,7 @@ void add_top_seeds(const LayerElement& el, double weight, Seeds& sum) {
   }
 }
 
-/// Sum of the seeds of energy(); false when no term is active.
+/// Adds the seeds of energy(); returns false if no term is active.
 bool energy_seeds(const LayerElement& el, const ElementWeights& weights, Seeds& sum) {
   bool is_active = weights.top > 0.0;
   if (is_active) add_top_seeds(el, weights.top, sum);
@@ -165,8 +165,8 @@ void LayerElement::differentiate_corner_0(const ElementWeights& weights, Vec3& g
     Seeds seeds;
     add_top_seeds(*this, weights.top, seeds);
     gradient += seeds.to_growth[0] - to_edge_0(*this, seeds) - to_edge_1(*this, seeds);
-    // 1 - cos is half the square of (growth edge - top normal), both unit (Gauss-Newton): the corner turns the normal by its way along it over the altitude,
-    // which shows at all three growth edges, and turns its own edge.
+    // 1 - cos is half the square of (growth edge - top normal), both unit (Gauss-Newton). The corner turns the normal by its displacement along the normal
+    // over the altitude, which affects all three growth edges, and turns its own edge.
     const Vec3 unit_top = n_top / top_area2;
     hessian.add(3.0 * weights.top * norm2(top[1] - top[0]) / (top_area2 * top_area2), unit_top);
     const double turning = weights.top / (length[0] * length[0]);

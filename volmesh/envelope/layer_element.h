@@ -1,4 +1,4 @@
-// One macro-element as the optimiser sees it: the quantities that keep it valid, each with a barrier, and their derivatives.
+// One macro-element in the optimiser: the quantities that keep the element valid, each with a barrier, and their derivatives.
 #pragma once
 
 #include <algorithm>
@@ -11,30 +11,31 @@
 
 namespace sterna::volmesh {
 
-/// Where each barrier begins; all terms are dimensionless and 1 for a straight prism.
+/// Onset of each barrier; all terms are dimensionless and 1 for a straight prism.
 inline constexpr double k_wall_cosine_onset = 0.2;  ///< cosine between growth edge and wall normal
 inline constexpr double k_area_onset = 0.2;         ///< share of the wall's area that the envelope triangle keeps in projection
 inline constexpr double k_top_cosine_onset = 0.25;  ///< cosine between growth edge and envelope normal
 inline constexpr double k_middle_onset = 0.3;       ///< b_1 + sqrt(b_0 b_2) of the exact wedge test
-inline constexpr double k_corner_onset = 1.0;       ///< sine of an envelope corner over its least one, less one: a straight prism on a needle is there
+inline constexpr double k_corner_onset = 1.0;       ///< sine of an envelope corner over its least sine, less one: a straight prism on a sliver triangle is at
+                                                    ///< this value
 /// Least values of an element's quantities; barriers begin above them.
 struct ElementMargins {
   double area = 0.01;        ///< share of the wall's area
   double top = 0.05;         ///< cosine between growth edge and envelope normal
-  double top_of_wall = 0.2;  ///< the same, of that between growth edge and wall normal, where this is less
+  double top_of_wall = 0.2;  ///< share of the cosine between growth edge and wall normal, if this is less than `top`
   double middle = 0.0;       ///< b_1 + sqrt(b_0 b_2)
 };
-/// Those of is_macro_valid (validity.cpp).
+/// Margins of is_macro_valid (validity.cpp).
 inline constexpr ElementMargins k_least_margins = {};
-/// Those that elements keep which have them at the start: prisms of the extruded layer have room left for their curved lines.
+/// Margins of elements that meet them at the start: prisms of the extruded layer then have room for their curved growth lines.
 inline constexpr ElementMargins k_wide_margins = {.area = 0.06, .top = 0.15, .top_of_wall = 0.5, .middle = 0.1};
 
-/// Of the least sine: envelopes that stand on the limit by the test of validity.cpp are inside by rounding, too.
+/// Factor on the least sine: envelopes on the limit by the test of validity.cpp stay inside despite rounding.
 inline constexpr double k_corner_slack = 1.0 - 1e-9;
-/// Slack below which the scaled Jacobian is looked at: elements further away have large ones, unless the wall triangle itself is a needle.
+/// Slack below which the scaled Jacobian is evaluated: elements with more slack have large scaled Jacobians, unless the wall triangle itself is a sliver.
 inline constexpr double k_quality_onset = 0.3;
 
-/// -(x/onset - 1)^2 ln(x/onset) for 0 < x < onset (Li et al. 2020), with first and second derivative.
+/// Returns -(x/onset - 1)^2 ln(x/onset) for 0 < x < onset (Li et al. 2020), with first and second derivative.
 struct Barrier {
   double value, slope, curvature;
 };
@@ -55,23 +56,23 @@ struct ElementWeights {
 
 struct LayerElement {
   const ElementMargins* margins = &k_least_margins;
-  bool is_virtual = false;     ///< its wall triangle is next to nothing (LayerBase::is_virtual): no quality is asked of it
+  bool is_virtual = false;     ///< its wall triangle has almost no area (LayerBase::is_virtual): exempt from quality limits
   Vec3 n_wall;                 ///< unit
   double wall_area2 = 0.0;     ///< twice the area
   std::array<Vec3, 2> e, top;  ///< edges 0-1 and 0-2 at wall and envelope
   std::array<Vec3, 3> unit;    ///< growth edges
   std::array<double, 3> length{};
-  // The rest is set by measure().
+  // The remaining members are set by measure().
   Vec3 n_top, n_middle;  ///< Bernstein coefficients of the normal over the height; n_wall * wall_area2 is the first
   double top_area2 = 0.0, area = 0.0;
   std::array<double, 3> wall_cosine{}, top_cosine{}, middle{};
-  std::array<double, 3> least_sine{}, corner{};  ///< of the envelope's corners: least sine, and sine over it less one
+  std::array<double, 3> least_sine{}, corner{};  ///< corners of the envelope: least sine, and sine over the least sine, less one
 
   void set_growth(std::size_t k, const Vec3& g) {
     length[k] = norm(g);
     unit[k] = g / length[k];
   }
-  /// wedge_quality(), from what measure() has computed.
+  /// Returns wedge_quality(), from the results of measure().
   double scaled_jacobian() const;
   /// Sets least_sine. \pre wall edges and area are set.
   void set_corners() {
@@ -81,15 +82,15 @@ struct LayerElement {
   double top_margin(std::size_t k) const { return std::min(margins->top, margins->top_of_wall * wall_cosine[k]); }
 
   /// Returns the distance from infeasibility, in the units of the barrier's terms; -1 where infeasible (then the terms are not all set).
-  /// An element near its barriers is infeasible too when its scaled Jacobian (wedge_quality) is below `least_quality`.
+  /// An element near its barriers is also infeasible if its scaled Jacobian (wedge_quality) is below `least_quality`.
   double measure(double least_quality = 0.0);
-  /// Weighted f_3 and barrier.
+  /// Returns weighted f_3 and barrier.
   /// \pre feasible and measured.
   double energy(const ElementWeights& weights) const;
   /// Adds gradient and positive semi-definite Hessian of energy() with respect to the growth edge of corner 0.
   /// \pre as energy().
   void differentiate_corner_0(const ElementWeights& weights, Vec3& gradient, SymmetricBlock& hessian) const;
-  /// Gradient of energy() with respect to all three growth edges; false when it is zero.
+  /// Computes the gradient of energy() with respect to all three growth edges; returns false if it is zero.
   /// \pre as energy().
   bool differentiate(const ElementWeights& weights, Vec3* gradient) const;
 };

@@ -1,4 +1,4 @@
-// The edges of the envelope that may fold, as the optimiser sees them: a barrier on the angle between their two triangles on the side of the fluid.
+// Edges of the envelope that may fold, in the optimiser: a barrier on the angle between their two triangles on the side of the fluid.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@ class LayerFolds {
   using Corners = std::array<std::uint32_t, 4>;  ///< vertices, as FoldPoints
 
   LayerFolds() = default;
-  /// Edges with a moving vertex at their triangles that are concave on the wall or the envelope, with an angle below 120 degrees on one of them.
-  /// Envelopes fold where they are concave at the start; what comes newly is found by invalid_macros().
+  /// Collects edges with a moving vertex at their triangles that are concave on the wall or the envelope, with an angle below 120 degrees on one of them.
+  /// Envelopes fold where they are concave at the start; new folds are found by invalid_macros().
   LayerFolds(const LayerBase& base, const Envelope& start, const std::vector<std::uint8_t>& is_moving, const RunContext& context);
 
   std::size_t size() const { return corners_.size(); }
   const Corners& corners(std::size_t fold) const { return corners_[fold]; }
   const FoldLimit& limit(std::size_t fold) const { return limits_[fold]; }
-  /// Folds of which the vertex is a corner.
+  /// Returns the folds of which the vertex is a corner.
   std::span<const std::uint32_t> at(std::size_t vertex) const {
     return first_.empty() ? std::span<const std::uint32_t>{} : std::span(list_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
   }
-  /// Leaves out folds that are too sharp at the start (by rounding); returns their corners, which must not move.
+  /// Drops folds that are too sharp at the start (by rounding); returns their corners, which must not move.
   std::vector<std::uint32_t> drop_infeasible(const LayerBase& base, const Envelope& start);
 
  private:

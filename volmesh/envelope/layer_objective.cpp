@@ -12,14 +12,14 @@ namespace {
 
 /// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
 constexpr double k_min_bound_ratio = 1.05;
-constexpr double k_far = 0.2;            ///< slack above which hold_back() lets an element have any step
-constexpr double k_wide_reserve = 0.01;  ///< slack above the wide margins that an element has at the start to get them
-constexpr int k_max_halvings = 12;       ///< of a vertex's step before it stays where it is
-constexpr double k_on_bound = 1e-12;     ///< of h_u; clamp() meets bounds to rounding
-/// Cosine between mean facet normal and vertex normal below which the mean normal is no direction to grow in.
+constexpr double k_far = 0.2;            ///< slack above which hold_back() allows an element any step
+constexpr double k_wide_reserve = 0.01;  ///< least slack above the wide margins at the start for an element to get these margins
+constexpr int k_max_halvings = 12;       ///< halvings of a vertex's step before the vertex stays
+constexpr double k_on_bound = 1e-12;     ///< share of h_u; clamp() meets bounds to rounding
+/// Least cosine between mean facet normal and vertex normal for the mean normal to be a growth direction.
 constexpr double k_min_rise = 0.5;
 
-/// What of d lies within the constraint; d itself keeps its length.
+/// Returns the component of d within the constraint, not normalised.
 Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
   switch (constraint.freedom) {
     case Freedom::free: return d;
@@ -31,7 +31,7 @@ Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
   return d;
 }
 
-/// Share of a vertex of the whole body that half or quarter of it has: growth lines there see their own triangles only.
+/// Returns the share of a vertex of the full model that is in this model: half or a quarter; growth lines there count only their own triangles.
 double mirror_share(const LayerBase& base, VertexId v) {
   const VertexConstraint& constraint = base.constraint[v];
   if (constraint.on[0] >= 0 && !base.surfaces[static_cast<std::size_t>(constraint.on[0])]->is_mirror()) return 1.0;
@@ -78,7 +78,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     for (const HalfedgeId half : base.topology.outgoing(v)) {
       const TriangleId t = triangle_of(half);
       if (!stands(t)) {
-        is_moving_[i] = 0;  // pyramids and tets beside collapsed vertices stay as they are
+        is_moving_[i] = 0;  // pyramids and tets beside collapsed vertices stay unchanged
         return;
       }
       normal_sum_[i] += base.unit_normal[t];
@@ -96,7 +96,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
       LayerElement e;
       has_wide_margins_[t] = load(t, y, e) && e.measure() > k_wide_reserve;
     });
-    // Elements that touch the least margins (by rounding) have no barrier: their vertices stay.
+    // Elements exactly on the least margins (by rounding) have no barrier: their vertices stay.
     for (std::size_t t = 0; t < is_element_.size(); ++t) {
       LayerElement e;
       if (has_wide_margins_[t] || !load(t, y, e) || e.measure() > 0.0) continue;
@@ -191,7 +191,7 @@ double LayerObjective::fold_energy(const Fold& shape, std::size_t fold) const {
   return slack > 0.0 ? barrier_value(slack, 1.0) : std::numeric_limits<double>::infinity();
 }
 
-/// Sum of the folds' barriers; their gradients into fold_gradient_.
+/// Returns the sum of the folds' barriers; stores their gradients in fold_gradient_.
 double LayerObjective::add_folds(const Vec3Field& y, bool with_gradient, const RunContext& context) {
   const double weight = element_weights().barrier;
   return parallel_reduce(
@@ -222,7 +222,7 @@ LayerObjective::Membrane LayerObjective::membrane(std::size_t v, double height, 
   if (weights_.membrane == 0.0) return sum;
   for (const VertexId w : base_.topology.neighbours(VertexId(v))) {
     const std::size_t other = w.index();
-    if (y[other] == Vec3{} || base_.have_one_foot(VertexId(v), w)) continue;  // collapsed, or beside each other
+    if (y[other] == Vec3{} || base_.have_one_foot(VertexId(v), w)) continue;  // collapsed, or with a common ridge base vertex
     const double length = distance(base_.wall.points[VertexId(v)], base_.wall.points[w]), weight = membrane_weight(v, other) / (length * length);
     const double rise = height - normal_height(other, y[other]), energy = 0.5 * weight * rise * rise;
     sum.energy += energy;
@@ -321,7 +321,7 @@ std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<f
                                       const RunContext& context) const {
   std::vector<std::uint8_t> dirty(size(), 1), halvings(size(), 0);
   std::size_t n_held = 0;
-  const std::size_t n_elements = is_element_.size();  // then folds
+  const std::size_t n_elements = is_element_.size();  // elements first, then folds
   const auto vertices_of = [&](std::size_t t) -> LayerFolds::Corners {
     if (t >= n_elements) return folds_.corners(t - n_elements);
     const TriangleVertices& v = base_.wall.triangles[TriangleId(t)];

@@ -11,7 +11,7 @@ namespace sterna::volmesh {
 
 using Vec3Field = std::vector<Vec3>;
 
-/// Sum of a[i].b[i], added up in fixed chunks: same bytes for any number of threads.
+/// Returns the sum of a[i].b[i], added in fixed chunks: bitwise equal for any number of threads.
 double field_dot(const Vec3Field& a, const Vec3Field& b, const RunContext& context);
 
 /// Symmetric 3 x 3 matrix: xx, yy, zz, xy, yz, zx.
@@ -25,16 +25,17 @@ struct SymmetricBlock {
   SymmetricBlock inverse() const;
 };
 
-/// Keeps the last `depth` pairs of step and gradient change; all memory is allocated once.
+/// L-BFGS memory of the last `depth` pairs of step and gradient change; all memory is allocated once.
 class LbfgsMemory {
  public:
   LbfgsMemory(std::size_t n, std::size_t depth);
 
-  /// Takes the pair (to - from, gradient_to - gradient_from); skips it when its curvature is not positive, which keeps the approximation positive definite.
+  /// Stores the pair (to - from, gradient_to - gradient_from); skips the pair if its curvature is not positive, which keeps the approximation positive
+  /// definite.
   void push(const Vec3Field& from, const Vec3Field& to, const Vec3Field& gradient_from, const Vec3Field& gradient_to, const RunContext& context);
   void clear() { n_pairs_ = 0; }
   bool empty() const { return n_pairs_ == 0; }
-  /// direction = - H gradient, where H starts from `initial_scale` times the identity when there are no pairs.
+  /// Computes direction = - H gradient, where H starts from `initial_scale` times the identity if there are no pairs.
   void descend(const Vec3Field& gradient, double initial_scale, Vec3Field& direction, const RunContext& context) const;
 
  private:
@@ -43,7 +44,7 @@ class LbfgsMemory {
     double product = 0.0;  ///< step . change
     double square = 0.0;   ///< change . change
   };
-  /// i-th youngest pair.
+  /// Returns the i-th youngest pair.
   const Pair& pair(std::size_t i) const { return pairs_[(next_ + pairs_.size() - 1 - i) % pairs_.size()]; }
 
   std::vector<Pair> pairs_;

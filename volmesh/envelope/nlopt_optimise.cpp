@@ -1,5 +1,5 @@
-// Steps: walk to feasibility where the start is not feasible; minimise under the constraint; keep what is valid. Exceptions of the callbacks are kept and
-// thrown on this side of the C library.
+// Steps: walk to feasibility if the start is not feasible; minimise under the constraint; keep valid elements. Exceptions of the callbacks are stored and
+// thrown after the return from the C library.
 // Based on: S. G. Johnson, The NLopt nonlinear-optimization package; K. Svanberg, A class of globally convergent optimization methods based on conservative
 // convex separable approximations, SIAM J. Optim. 12 (2002).
 #include "volmesh/envelope/nlopt_optimise.h"
@@ -21,10 +21,10 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_walk_end = 1e-6;       ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
-constexpr int k_max_return_halvings = 8;  ///< of a vertex's way from the start, before it goes back there
-constexpr double k_shrink = 0.9;          ///< of a growth edge, per step of the walk's second part
+constexpr int k_max_return_halvings = 8;  ///< halvings of a vertex's displacement from the start, before the vertex is taken back to the start
+constexpr double k_shrink = 0.9;          ///< factor on a growth edge, per step of the walk's second part
 
-/// What the C callbacks see. NLopt gets the sums of (8) and (9) times n_v rather than the means: its estimate of the curvature, rho, starts at 1 and never
+/// Data of the C callbacks. NLopt gets the sums of (8) and (9) times n_v instead of the means: its estimate of the curvature, rho, starts at 1 and never
 /// falls below 1e-5, while that of a mean over a million vertices is 1e-6, which would keep the steps far too short. The minimum is the same.
 struct Run {
   const PaperProblem& problem;
@@ -34,9 +34,9 @@ struct Run {
   bool is_walking = false;  ///< minimises the sum of violated g alone
   nlopt_opt optimiser = nullptr;
   int n_evaluations = 0;
-  PaperObjective last;  ///< at the point of the latest evaluation; NLopt asks for the constraint at a point after the objective
+  PaperObjective last;  ///< at the point of the latest evaluation; NLopt evaluates the constraint at a point after the objective
   double best_value = std::numeric_limits<double>::infinity();
-  std::vector<double> best{};  ///< best feasible point; when walking, the least infeasible one
+  std::vector<double> best{};  ///< best feasible point; during the walk, the least infeasible point
   std::exception_ptr trouble{};
 
   double slack() const { return settings.slack * static_cast<double>(problem.n_elements()); }
@@ -70,7 +70,7 @@ struct Run {
     return g.total() - slack();
   }
 
-  /// No exception may cross NLopt: the first one is kept and the run is stopped.
+  /// Runs f without letting an exception cross NLopt: the first exception is stored and the run is stopped.
   template <class F>
   double guarded(const F& f) noexcept {
     try {
@@ -107,7 +107,7 @@ void require_success(nlopt_result result, std::string_view what) {
        .hint = "use optimiser = \"descent\""});
 }
 
-/// Why the run ended; rounding limits are an end like any other.
+/// Returns the stopping criterion; rounding limits count as a regular end.
 std::string_view reason_of(nlopt_result result) {
   switch (result) {
     case NLOPT_XTOL_REACHED: return "converged";
@@ -120,7 +120,7 @@ std::string_view reason_of(nlopt_result result) {
   }
 }
 
-/// One run of NLopt from z. \post run.best is the best point seen, if there was any.
+/// Makes one run of NLopt from z. \post run.best is the best point evaluated, if there was any.
 nlopt_result minimise(Run& run, std::vector<double> z) {
   const NloptSettings& settings = run.settings;
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
@@ -142,7 +142,8 @@ nlopt_result minimise(Run& run, std::vector<double> z) {
   return result;
 }
 
-/// Minimises the sum of violated g alone; where that ends in a local minimum, shortens the growth edges of what is still violated. Returns whether it arrived.
+/// Minimises the sum of violated g alone; if this ends in a local minimum, shortens the growth edges of elements that are still violated. Returns true if the
+/// result is feasible.
 bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& settings, std::vector<double>& z, NloptReport& report, const RunContext& context) {
   Run run{.problem = problem, .settings = settings, .report = report, .context = context, .is_walking = true};
   minimise(run, z);
@@ -152,8 +153,8 @@ bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& setti
   return problem.constraint(z, {}, context).total() <= run.slack();
 }
 
-/// Vertices of elements that are invalid or worse than `least_quality` go half the way back to `from`, again and again, in the end all the way, until there are
-/// no such elements (or none that are not so in `from`). `optimised` is at z at first. Returns how many vertices went back.
+/// Takes vertices of elements that are invalid or worse than `least_quality` half the way back to `from`, repeatedly and in the end completely, until there
+/// are no such elements (or only elements that are so in `from` too). `optimised` is at z at first. Returns the number of vertices taken back.
 std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const Envelope& from, double least_quality, std::vector<double> z, Envelope& optimised,
                     const RunContext& context) {
   const std::size_t n = base.wall.n_vertices();
@@ -217,7 +218,7 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
   report.run.n_evaluations = run.n_evaluations;
   report.run.stopped = reason_of(result);
   report.is_time_limit = result == NLOPT_MAXTIME_REACHED;
-  if (report.run.history.empty()) {  // not even the start is within the slack
+  if (report.run.history.empty()) {  // the start itself is outside the slack
     report.is_feasible = false;
     report.run.stopped = "no feasible point found";
     return start;

@@ -11,13 +11,13 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_memory = 7;          ///< pairs of the L-BFGS approximation
-constexpr double k_keep = 0.2;               ///< of its slack that an element near the barrier keeps in one step of L-BFGS
-constexpr double k_max_lbfgs_step = 0.5;     ///< of h_u, of a vertex in one step of L-BFGS
-constexpr double k_first_step_share = 0.25;  ///< of the steepest descent step that would undo f_1 on a plane
-constexpr double k_armijo_share = 1e-4;      ///< Armijo's share of the predicted decrease
+constexpr double k_keep = 0.2;               ///< share of its slack that an element near the barrier keeps in one step of L-BFGS
+constexpr double k_max_lbfgs_step = 0.5;     ///< largest displacement of a vertex in one step of L-BFGS, in units of h_u
+constexpr double k_first_step_share = 0.25;  ///< share of the steepest descent step that would eliminate f_1 on a plane
+constexpr double k_armijo_share = 1e-4;      ///< Armijo condition: share of the predicted decrease
 constexpr int k_max_backtracks = 8;
 constexpr int k_patience = 4;    ///< iterations of L-BFGS over which the gain must exceed the tolerance
-constexpr double k_rest = 2e-3;  ///< of h_u: a vertex that moves less rests until a neighbour moves more
+constexpr double k_rest = 2e-3;  ///< in units of h_u: a vertex that moves less is not visited until a neighbour moves more
 
 bool is_converged(const std::vector<ObjectiveValue>& history, std::size_t patience, double tolerance) {
   if (history.size() < patience + 2) return false;
@@ -57,7 +57,7 @@ void run_lbfgs(LayerObjective& objective, const OptimiseSettings& settings, Vec3
     value = next;
     report.history.push_back(value);
   };
-  // The separable optimum first: away from the barriers it is the answer.
+  // The separable optimum first: away from the barriers it is the solution.
   objective.slacks(y, slack, context);
   trial = objective.separable_optimum(y, context);
   objective.hold_back(y, slack, k_keep, trial, context);

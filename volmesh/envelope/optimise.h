@@ -1,4 +1,5 @@
-// Stage 6 by our own methods (docs/method/optimisation.md, "Own objective"): feasible start, barrier on every macro-element, no step that leaves validity.
+// Stage 6 by sterna's own methods (docs/method/optimisation.md, "Own objective"): feasible start, barrier on every macro-element, no step that leaves
+// validity.
 #pragma once
 
 #include <string>
@@ -16,36 +17,36 @@ enum class OptimiseMethod {
 
 struct OptimiseSettings {
   OptimiseMethod method = OptimiseMethod::descent;
-  int max_evaluations = 30;  ///< of the objective; a sweep of the descent counts as one
-  /// Lengths of growth vectors, m, below which those that start longer do not go; empty: none.
+  int max_evaluations = 30;  ///< evaluations of the objective; a sweep of the descent counts as one
+  /// Lower limits, m, for the lengths of growth vectors that are longer at the start; empty: no limit.
   Column<VertexId, double> height_floor = {};
-  double tolerance = 1e-3;  ///< the run ends when an iteration gains less than this share of what was gained so far
+  double tolerance = 1e-3;  ///< the run ends if an iteration gains less than this share of the total gain so far
   ObjectiveWeights weights;
 };
 
 struct OptimiseReport {
   int n_evaluations = 0;
-  std::size_t n_moving = 0;             ///< vertices that take part
-  std::size_t n_taken_back = 0;         ///< vertices that went back to the start because the end was not accepted there
+  std::size_t n_moving = 0;             ///< vertices that participate
+  std::size_t n_taken_back = 0;         ///< vertices taken back to the start because the result was not accepted there
   std::vector<ObjectiveValue> history;  ///< start, then every accepted iterate; total falls monotonically
-  std::string_view stopped;             ///< why
+  std::string_view stopped;             ///< stopping criterion
 };
 
-/// Upper heights for the optimisation: what stage 5 left where layers or gaps limit it, else the cap (docs/method/optimisation.md, "Bounds").
+/// Returns the upper heights: the heights of stage 5 where layers or gaps limit them, otherwise the cap (docs/method/optimisation.md, "Bounds").
 Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& envelope);
 
-/// Of the start's smallest scaled Jacobian, what every element keeps (docs/method/optimisation.md, "Acceptance").
+/// Share of the start's smallest scaled Jacobian that every element keeps (docs/method/optimisation.md, "Acceptance").
 inline constexpr double k_quality_share = 0.9;
-/// Smallest wedge_quality of the macro-elements that are prisms; 1 when there are none.
+/// Returns the smallest wedge_quality of the macro-elements that are prisms; 1 if there are none.
 double smallest_scaled_jacobian(const LayerBase& base, const Envelope& envelope, const RunContext& context);
-/// Takes vertices back to `start` until every macro-element is valid and has a scaled Jacobian of `least_quality`. Returns how many went back.
-/// \pre `start` is so.
+/// Takes vertices back to `start` until every macro-element is valid and has a scaled Jacobian of `least_quality`. Returns the number of vertices taken back.
+/// \pre `start` meets both conditions.
 std::size_t take_back(const LayerBase& base, const Envelope& start, double least_quality, Envelope& envelope, const RunContext& context);
 
-/// h_u: upper bound of the heights along the vertex normals, m; h_l: lower bound, m.
+/// Optimises the envelope. h_u: upper bound of the heights along the vertex normals, m; h_l: lower bound, m.
 /// \pre every macro-element of `start` is valid.
-/// \post every macro-element is valid (exact test and margins); no scaled Jacobian is below 0.9 of the smallest of the start. Collisions are not looked at:
-/// apply_where_clear does.
+/// \post every macro-element is valid (exact test and margins); no scaled Jacobian is below 0.9 of the smallest of the start. Collisions are not tested:
+/// apply_where_clear tests them.
 Envelope optimise(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, const OptimiseSettings& settings,
                   OptimiseReport& report, const RunContext& context);
 

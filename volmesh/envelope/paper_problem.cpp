@@ -1,5 +1,5 @@
-// Steps of an evaluation: growth edges from the unknowns; f over the vertices; g over the elements, whose few violated ones give their gradient in order of
-// their number, so that the sums do not depend on the number of threads.
+// Steps of an evaluation: growth edges from the unknowns; f over the vertices; g over the elements. The gradients of the few violated elements are added in
+// the order of their numbers, so that the sums do not depend on the number of threads.
 #include "volmesh/envelope/paper_problem.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 /// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
 constexpr double k_paper_bound_ratio = 1.05;
-/// Tangential unknowns may reach this many h_u: 63 degrees from the normal at full height. A start further out has room for half as much again.
+/// Range of the tangential unknowns in units of h_u: 63 degrees from the normal at full height. A start outside this range gets 1.5 times its own distance.
 constexpr double k_tangent_reach = 2.0;
 constexpr double k_tangent_reserve = 1.5;
 

@@ -1,5 +1,5 @@
-// Steps of demand_of: layers_of_patches; connected parts and their numbers of layers; groups of patches that ask for the same; how far each group's border is
-// blended; then group by group the distance to it and its share in the vertices within reach.
+// Steps of demand_of: layers_of_patches; connected parts and their numbers of layers; groups of patches with the same settings; blending distance of each
+// group's border; then, group by group, the distance to the group and its weight at the vertices within reach.
 #include "volmesh/envelope/patch_layers.h"
 
 #include <algorithm>
@@ -22,18 +22,19 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_length_digits = 4;       ///< of lengths in the log
-constexpr double k_blend_heights = 3.0;  ///< automatic blend over the taller layer: its top rises by a third of what the border asks for
-constexpr double k_blend_edges = 8.0;    ///< and over the mean edge: neighbouring lines differ by at most a ninth of the whole step (its slope is 0.86 at most)
+constexpr int k_length_digits = 4;       ///< digits of lengths in the log
+constexpr double k_blend_heights = 3.0;  ///< automatic blend over the taller layer: its top rises by a third of the difference at the border
+constexpr double k_blend_edges = 8.0;    ///< and over the mean edge: neighbouring growth lines differ by at most a ninth of the whole step (its slope is 0.86
+                                         ///< at most)
 
-/// The same number, or both automatic.
+/// Returns true if both numbers are equal or both are automatic.
 bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_automatic(b)); }
 
-/// What patches of one group ask for, all the same.
+/// Layer settings common to all patches of one group.
 struct Group {
   double first_height, max_growth, max_thickness;
-  const FirstHeights* by_place;  ///< not null: the first height at each place, not first_height
-  double blend;                  ///< m, automatic at first
+  const FirstHeights* by_place;  ///< not null: supplies the first height at each location, instead of first_height
+  double blend;                  ///< m, automatic initially
   double total_height;           ///< m, automatic: by the edges
   bool asks_as(const Group& other) const {
     return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness &&
@@ -55,7 +56,7 @@ PatchKind kind_of(std::string_view name) {
   throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "there is no kind \"" + std::string(name) + "\""});
 }
 
-/// Number of the connected part of each vertex: its lowest vertex. Vertices that must grow alike connect, too.
+/// Returns the number of the connected part of each vertex: its lowest vertex. Vertices that must grow alike are connected, too.
 Column<VertexId, std::uint32_t> parts_of(const LayerBase& base) {
   const TriMesh& wall = base.wall;
   DisjointSets parts(wall.n_vertices());
@@ -82,7 +83,7 @@ void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>&
   context.info("walls that are connected have one number of layers: " + std::to_string(asked.rbegin()->first) + ", the largest asked for (" + text + ")");
 }
 
-/// Per vertex the largest number of layers that a patch of its connected part asks for.
+/// Returns per vertex the largest number of layers requested by a patch of its connected part.
 Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, PatchLayers>& asked, int otherwise, const RunContext& context) {
   const TriMesh& wall = base.wall;
   const Column<VertexId, std::uint32_t> part = parts_of(base);
@@ -101,12 +102,12 @@ Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const C
   return layers;
 }
 
-/// With a total height: what follows from the rest. What the patch says itself stands; where it leaves both open, the growth gives way (walls that are
-/// connected share the number of layers), or what all walls are solved for.
+/// Derives the remaining setting if a total height is given. Settings of the patch itself are kept. If the patch leaves both layers and growth open, the
+/// growth is derived (connected walls share the number of layers), or the setting that is derived for all walls.
 void solve(const std::string& of_all, const std::string& patch, PatchLayers& layers) {
   if (!layers.carries_layers() || is_automatic(layers.total_height)) return;
   if (!layers.has_own_layers && !layers.has_own_first_height && !layers.has_own_growth && !layers.has_own_height && of_all == "none")
-    return;  // solved with all walls, or proved to agree below
+    return;  // derived for all walls, or proved to be consistent below
   std::string solve_for = of_all == "none" ? "max_growth" : of_all;
   if (layers.has_own_growth && !layers.has_own_layers) solve_for = "layers";
   if (layers.has_own_layers && !layers.has_own_growth) solve_for = "max_growth";
@@ -186,7 +187,7 @@ class Blender {
   }
 
  private:
-  /// Calls f(g) for each group with a triangle at v; some more than once.
+  /// Calls f(g) for each group with a triangle at v; for some groups more than once.
   template <class F>
   void for_each_group_at(VertexId v, const F& f) const {
     for (const HalfedgeId h : base_.topology.outgoing(v)) {
@@ -195,7 +196,7 @@ class Blender {
     }
   }
 
-  /// Automatic blends, by the layers and edges along each group's border.
+  /// Computes automatic blends from the layers and edges along each group's border.
   void decide_blends() {
     std::vector<double> heights(groups_.size(), 0.0), edges(groups_.size(), 0.0), n(groups_.size(), 0.0);
     for (const VertexId v : base_.wall.points.ids()) {
@@ -227,7 +228,7 @@ class Blender {
   }
 
   Column<VertexId, double> distances_to(std::size_t group, double reach) const {
-    constexpr double k_beyond = 1.0;  // of no reach at all
+    constexpr double k_beyond = 1.0;  // of a reach of zero
     Column<VertexId, double> distance(base_.wall.n_vertices(), reach > 0.0 ? reach : k_beyond);
     for (const VertexId v : distance.ids())
       for_each_group_at(v, [&](std::size_t g) {
@@ -237,7 +238,7 @@ class Blender {
     return distance;
   }
 
-  /// 1 on the group's own patches, 0 from `reach` on; level at both ends, so that the blended field has no bend.
+  /// Returns the weight of a group: 1 on the group's own patches, 0 from `reach` on; zero slope at both ends, so that the blended field has no kink.
   static double share_at(double distance, double reach) {
     if (distance == 0.0) return 1.0;
     if (distance >= reach) return 0.0;
@@ -247,7 +248,7 @@ class Blender {
 
   void finish(VertexId v, double weight) {
     if (weight == 1.0 || weight == 0.0) {
-      // Without the way through logarithms: exactly what is asked.
+      // Exactly the requested values, without conversion to logarithms.
       const Group* own = &groups_.front();
       for_each_group_at(v, [&](std::size_t g) { own = &groups_[g]; });
       demand_.first_height[v] = first_height_at(*own, v);
@@ -333,14 +334,14 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
-/// What is asked of the patches of a part with layers. Those of another kind than wall (a nozzle at the end of its nacelle) ask for what a wall of their name
-/// would.
+/// Returns the layer settings of the patches of a part with layers. Patches of kinds other than wall (a nozzle at the end of its nacelle) get the settings of
+/// a wall of their name.
 Column<PatchId, PatchLayers> layers_of_part(Column<PatchId, Patch> patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
   for (Patch& patch : patches) patch.kind = PatchKind::wall;
   return layers_of_patches(patches, options, rules);
 }
 
-/// Vertices that must grow alike ask for the least that one of them asks for; what is automatic asks for nothing.
+/// Gives vertices that must grow alike the least of their requested values; automatic values are not compared.
 template <class T>
 void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Column<VertexId, T>& column) {
   if (column.empty()) return;
@@ -385,7 +386,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
                  layers.blend,
                  layers.total_height};
   };
-  // Patches that meet a patch with other layers.
+  // Patches adjacent to a patch with other layers.
   Column<PatchId, std::uint8_t> differs(patches.size(), 0), is_there(patches.size(), 0);
   for (const VertexId v : base.wall.points.ids()) {
     std::set<PatchId> here;
@@ -405,7 +406,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
       is_used = is_used || differs[p] != 0;
       names += (names.empty() ? "\"" : ", \"") + patches[p].name + "\"";
     }
-    if (is_used || names.empty()) continue;  // without layers it is an error already (ignored_requests.h)
+    if (is_used || names.empty()) continue;  // a rule without layers is an error already (ignored_requests.h)
     context.warn("blend = " + in_metres(rule.blend, k_length_digits) + " of patches[\"" + rule.names + "\"] has no effect: no wall that meets " + names +
                  " has layers of another first height, growth, height or thickness. Leave blend out, or give the neighbours other layers");
   }

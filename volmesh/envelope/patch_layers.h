@@ -1,4 +1,4 @@
-// Walls with their own layers: which patches carry layers, and what each vertex of the wall asks for where patches differ.
+// Layer settings per patch: which patches carry layers, and the layer targets of each wall vertex where patches differ.
 #pragma once
 
 #include <span>
@@ -14,48 +14,51 @@
 
 namespace sterna::volmesh {
 
-/// Sets the kinds of patches that rules name one for; of several the last.
-/// \throws Error(bad_argument) for a rule that no patch has a name like: with the names
+/// Sets the kinds of patches that are given by rules; if several rules give a kind, the last one applies.
+/// \throws Error(bad_argument) for a rule whose name matches no patch: with the patch names
 void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules);
 
-/// The patch with the kind that rules give it.
+/// Returns the patch with the kind given by the rules.
 Patch with_kind(Patch patch, std::span<const PatchRule> rules);
 
-/// What is asked of the layer on one patch.
+/// Layer settings of one patch.
 struct PatchLayers {
-  int layers = 0;                                                                                             ///< 0: the patch carries none
-  double first_height = k_automatic;                                                                          ///< m; a number where there are layers
-  bool has_own_layers = false, has_own_first_height = false, has_own_growth = false, has_own_height = false;  ///< a rule gives it
+  int layers = 0;                                                                                             ///< 0: the patch carries no layers
+  double first_height = k_automatic;                                                                          ///< m; set where there are layers
+  bool has_own_layers = false, has_own_first_height = false, has_own_growth = false, has_own_height = false;  ///< given by a rule
   double max_growth = 0.0;
-  double total_height = k_automatic;   ///< m; automatic: by the wall's edges
+  double total_height = k_automatic;   ///< m; automatic: from the wall's edges
   double max_thickness = k_automatic;  ///< m; automatic: a share of the body length
-  double blend = k_automatic;          ///< m; automatic: by heights and edges
+  double blend = k_automatic;          ///< m; automatic: from heights and edges
   bool carries_layers() const { return layers > 0; }
 };
 
-/// What the options of the envelope, overruled by the rules in their order, say of a patch of this kind: nothing is solved for.
+/// Returns the layer settings of a patch of this kind: the options of the envelope, overridden by the rules in their order. No setting is derived from the
+/// others.
 PatchLayers request_of(const Patch& patch, const EnvelopeOptions& options, std::span<const PatchRule> rules);
 
-/// Per patch: the options of the envelope, overruled by the rules in their order. Patches of other kinds than wall carry no layers, whatever is asked.
+/// Returns the layer settings per patch: the options of the envelope, overridden by the rules in their order. Patches of kinds other than wall carry no
+/// layers, whatever the rules request.
 /// \pre kinds are set (apply_patch_kinds), the number of layers is not automatic
-/// \throws Error(bad_argument) for a patch with layers and without a first height
+/// \throws Error(bad_argument) for a patch with layers but without a first height
 Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const PatchRule> rules);
 
-/// What is asked of the layer at each vertex, where patches ask for different things; empty when all triangles of the base ask for the same as the options do.
-/// First heights and thicknesses are blended in their logarithms, growth ratios as they are: within `blend` of the border with a patch that asks for something
-/// else, by the distance along the wall, so that both sides meet in the mean of the patches at the border. Layers: per connected part of the wall the largest
-/// number asked for; parts in which patches ask for several are logged. Vertices that must grow alike get the least of what theirs ask for. Triangles of
-/// patches without layers (which a base has no use for) ask for what the options say. Deterministic; about 1 s per million vertices and different patch.
-/// `by_place` may be null: else it gives the first heights of patches that no rule gives one for.
+/// Returns the layer targets per vertex for patches with different settings; empty if all triangles of the base have the settings of the options. First
+/// heights and thicknesses are blended in their logarithms, growth ratios linearly: within `blend` of the border with a patch with different settings, by the
+/// distance along the wall, so that both sides meet in the mean of the patches at the border. Layers: per connected part of the wall the largest requested
+/// number; parts with several numbers are logged. Vertices that must grow alike get the least of their requests. Triangles of patches without layers (which
+/// do not occur in a base) get the settings of the options. Deterministic; about 1 s per million vertices and different patch. `by_place` may be null:
+/// otherwise it supplies the first heights of patches for which no rule gives one.
 /// \throws Error(bad_argument) as layers_of_patches
-/// \pre `options` are those that envelope and extrusion get
+/// \pre `options` are the options passed to envelope and extrusion
 LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
                       const RunContext& context);
 
-/// Per patch: whether ridges between such patches are opened. `of_all` is what holds for patches without a rule.
+/// Returns per patch whether ridges between such patches are opened. `of_all` applies to patches without a rule.
 Column<PatchId, std::uint8_t> patches_with_open_ridges(const Column<PatchId, Patch>& patches, bool of_all, std::span<const PatchRule> rules);
 
-/// LayerBase::truncation: at borders of patches the one by which lines give up the fewest layers. `of_all` is what holds for patches without a rule.
+/// Returns LayerBase::truncation: at borders of patches the setting by which growth lines give up the fewest layers. `of_all` applies to patches without a
+/// rule.
 Column<VertexId, Truncation> truncation_by_patches(const TriMesh& wall, Truncation of_all, std::span<const PatchRule> rules);
 
 }  // namespace sterna::volmesh

@@ -11,9 +11,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_rounds = 20;  ///< then what is not equal collapses
+constexpr int k_rounds = 20;  ///< vertices that are not equal after these rounds collapse
 
-/// Of the members' directions and their mean, the one that sees the triangles of all members best.
+/// Returns, among the members' directions and their mean, the direction with the best visibility of the triangles of all members.
 Vec3 common_direction(const LayerBase& base, const Envelope& envelope, const std::vector<VertexId>& group) {
   std::vector<Vec3> candidates;
   Vec3 sum;

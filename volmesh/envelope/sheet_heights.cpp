@@ -12,10 +12,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_tallest_first = 0.8;          ///< of the height of a regular tetrahedron: first cells of a sheet's last rows
-constexpr double k_sheet_rounding = 1.0 + 1e-9;  ///< of growth ratios that are compared
+constexpr double k_tallest_first = 0.8;          ///< share of the height of a regular tetrahedron: first cells of a sheet's last rows
+constexpr double k_sheet_rounding = 1.0 + 1e-9;  ///< tolerance for comparisons of growth ratios
 
-/// The options as a demand of every vertex.
+/// Returns the options as a demand at every vertex.
 LayerDemand demand_everywhere(const LayerBase& base, const EnvelopeOptions& options) {
   const std::size_t n = base.wall.n_vertices();
   LayerDemand demand;
@@ -26,9 +26,9 @@ LayerDemand demand_everywhere(const LayerBase& base, const EnvelopeOptions& opti
   return demand;
 }
 
-/// What both sides of one foot are asked for.
+/// Layer targets of both sides at one base vertex of a sheet.
 struct SheetLine {
-  double first_height = 0.0, height = 0.0, growth = 1.0;  ///< m, m; that of the layer before the edge
+  double first_height = 0.0, height = 0.0, growth = 1.0;  ///< m, m; growth of the layer before the edge
   int layers = 0;
 };
 
@@ -82,7 +82,7 @@ class SheetGrower {
     return line;
   }
 
-  /// Feet on periodic sides get what their images get, to the bit.
+  /// Gives base vertices on periodic sides the targets of their images, to the bit.
   void share_with_images() {
     constexpr std::size_t k_none = static_cast<std::size_t>(-1);
     Column<VertexId, std::size_t> line_at(base_.wall.n_vertices(), k_none);
@@ -103,7 +103,7 @@ class SheetGrower {
     }
   }
 
-  /// The least number of layers that grow by no more than those before the edge.
+  /// Returns the least number of layers whose growth does not exceed that before the edge.
   static int layers_for(const SheetLine& line, int all) {
     for (int n = 1; n < all; ++n)
       if (n == 1 ? line.height <= line.first_height * k_sheet_rounding : growth_for_height(line.first_height, line.height, n) <= line.growth * k_sheet_rounding)
@@ -111,7 +111,7 @@ class SheetGrower {
     return all;
   }
 
-  /// Raises numbers to one less than those of neighbours; rims have as many as the most of theirs, in name.
+  /// Raises numbers to one less than those of neighbours; free edges nominally have the largest number of their neighbours.
   void level(Column<VertexId, std::uint16_t>& layers) const {
     std::vector<VertexId> changed;
     for (std::size_t i = 0; i < lines_.size(); ++i)
@@ -149,7 +149,7 @@ class SheetGrower {
   const DoubledSheets& sheets_;
   LayerBase& base_;
   EnvelopeScale scale_;
-  std::vector<SheetLine> lines_;  ///< of each foot
+  std::vector<SheetLine> lines_;  ///< per base vertex
 };
 
 }  // namespace

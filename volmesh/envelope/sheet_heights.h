@@ -1,4 +1,4 @@
-// First heights that grow along wake sheets, and the layers that are not needed any more because of that.
+// First heights that grow along wake sheets, and the layers that become unnecessary because of this growth.
 #pragma once
 
 #include "volmesh/case/envelope_options.h"
@@ -7,11 +7,12 @@
 
 namespace sterna::volmesh {
 
-/// Changes what is asked of the layer on sheets: from row to row first heights grow by Foot::height_growth, but by no more than the layer's own heights do
-/// before the trailing edge, up to k_tallest_first of a regular tetrahedron on the sheet. All layers together are as high as they would be without that (beside
-/// a rim as high as it lets them be), and of as many as it takes to grow as before the edge: where first heights grow like the layer, each row has one layer
-/// less, and the heights of the others go on. Both sides of a sheet are asked for the same. \pre base.demand is that of the patches; sheets in numbers of
-/// base.wall \post neighbours differ by one layer at most; the wall itself is asked for what it was
+/// Changes the layer targets on wake sheets: from row to row first heights grow by Foot::height_growth, but by no more than the layer's own heights before
+/// the trailing edge, up to k_tallest_first of a regular tetrahedron on the sheet. The total height stays as without this growth (beside a free edge as high
+/// as the free edge allows), and the number of layers is the one that keeps the growth ratio before the edge: where first heights grow like the layer, each
+/// row has one layer less, and the heights of the other layers continue. Both sides of a sheet get the same targets.
+/// \pre base.demand is that of the patches; vertex numbers of `sheets` refer to base.wall
+/// \post neighbours differ by one layer at most; the targets of the wall itself are unchanged
 void grow_sheet_heights(const DoubledSheets& sheets, const EnvelopeOptions& options, LayerBase& base);
 
 }  // namespace sterna::volmesh

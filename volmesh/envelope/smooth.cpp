@@ -13,18 +13,18 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_relaxation = 0.5;  ///< docs/method/envelope.md, "Smoothing"
-/// Smoothing of the envelope may lower a height to this share of its ceiling: well above the 0.9 that counts as full height.
+/// Least share of the ceiling to which smoothing of the envelope may lower a height: well above the 0.9 that counts as full height.
 constexpr double k_smooth_floor = 0.94;
-/// Directions may tilt until their faces are seen at 65 degrees, or half the best possible cosine.
+/// Directions may tilt up to an angle of 65 degrees to the face normals, or half the best possible cosine.
 constexpr double k_cone_cosine = 0.4226;
-/// A convex feature needs no room: its fan must not tilt the lines of the smooth surface beside it.
+/// Weight of a convex feature, which needs no room: its multi-normal fan must not tilt the growth lines of the smooth surface beside it.
 constexpr double k_convex_feature_weight = 0.2;
 constexpr int k_concave_rings = 8;  ///< reach of the wide smoothing around concave features: a layer is 4 to 9 edges thick by eq. (1)
 constexpr int k_region_rounds = 6;
-constexpr double k_worthwhile_share = 0.93;  ///< of the invalid elements may be left by a round, or the next one is not worth its time
+constexpr double k_worthwhile_share = 0.93;  ///< largest share of invalid elements left by a round for which another round is worth its cost
 constexpr int k_region_rings = 6;
 
-/// Calls f(neighbour, weight) for the vertices that take part in the smoothing of v.
+/// Calls f(neighbour, weight) for the vertices that are used in the smoothing of v.
 template <class F>
 void for_each_partner(const LayerBase& base, const Classification& classes, VertexId v, const F& f) {
   const VertexClass& own = classes.vertex[v];
@@ -141,7 +141,7 @@ Envelope relaxed(const LayerBase& base, const Classification& classes, const Col
       weights += weight;
     });
     if (weights == 0.0) return;
-    // The Laplacian of the envelope less that of the wall: the curvature of a coarse wall would otherwise outweigh a thin layer.
+    // The Laplacian of the envelope less that of the wall: otherwise the curvature of a coarse wall would outweigh a thin layer.
     const Vec3 own = envelope.height[v] * envelope.direction[v];
     const Vec3 growth = project(base.constraint[v], own + k_relaxation * (sum / weights - own));
     const double length = norm(growth);

@@ -1,4 +1,4 @@
-// Local repairs of the envelope: edge-based untangling, warp reduction by bisection, and growing back what was lowered too much.
+// Local repairs of the envelope: edge-based untangling, warp reduction by bisection, and raising of heights that were lowered more than needed.
 #pragma once
 
 #include "volmesh/envelope/envelope.h"
@@ -6,32 +6,33 @@
 
 namespace sterna::volmesh {
 
-/// Where the growth lines of an edge converge, limits both heights by the law of sines, eq. (2) corrected (docs/method/envelope.md, "Untangling"), to
-/// untangle_share of the height where they would meet; then heights beside limited vertices get no steeper than level_steps() allows, three rings far.
+/// Limits both heights of an edge with converging growth lines by the law of sines, eq. (2) corrected (docs/method/envelope.md, "Untangling"), to
+/// untangle_share of the height where the growth lines would meet. Then limits the slope of heights beside limited vertices to that of level_steps(), three
+/// rings far.
 void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
-/// Lowers heights so that they rise by at most one edge length per edge beside lower (standing) neighbours, `sweeps` rings far.
+/// Lowers heights so that they rise by at most one edge length per edge beside lower (not collapsed) neighbours, `sweeps` rings far.
 void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope, const RunContext& context);
 
-/// The limits of eq. (2) for one edge: heights at both ends where the growth lines meet, infinity where they do not converge.
+/// Returns the limits of eq. (2) for one edge: heights at both ends where the growth lines meet, infinity where they do not converge.
 /// \pre directions are unit vectors.
 std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const Point& p2, const Vec3& d2);
 
-/// Lowers heights to the largest values for which every macro-element is valid with margin (docs/method/envelope.md, "Warp"); collapses vertices below h_min,
-/// and surrounds what it collapses by compressed ones. Ends by construction: after a number of rounds elements that are still invalid collapse. With
-/// `suspects`, only elements at these vertices are looked at first: the others are known to be valid.
-/// \post invalid_macros() is empty. Returns the vertices that it lowered, ascending.
+/// Lowers heights to the largest values for which every macro-element is valid with margin (docs/method/envelope.md, "Warp"). Collapses vertices below h_min,
+/// and surrounds collapsed vertices by compressed ones. Always terminates: after a number of rounds elements that are still invalid collapse. With
+/// `suspects`, only elements at these vertices are tested first: all others are known to be valid.
+/// \post invalid_macros() is empty. Returns the vertices whose heights were lowered, ascending.
 std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
                              const std::vector<VertexId>* suspects = nullptr);
 
-/// Heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Steps are smaller where earlier ones failed, and
-/// after a few failures there are none.
+/// Returns heights raised by one step towards min(target, cap), without steep steps; a proposal, not tested. Steps are smaller where earlier steps failed,
+/// and vertices with a few failures get no step.
 ShapeChange raised(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& n_failures, const RunContext& context);
 /// Counts the vertices of `tried` that are not in `done`.
 /// \pre both ascending.
 void count_failures(const std::vector<VertexId>& tried, const std::vector<VertexId>& done, Column<VertexId, std::uint8_t>& n_failures);
 
-/// Raises heights towards min(target, cap) where macro-elements stay valid; undoes what earlier steps lowered more than needed.
+/// Raises heights towards min(target, cap) where macro-elements stay valid; reverses excessive reductions of earlier steps.
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context);
 
 }  // namespace sterna::volmesh

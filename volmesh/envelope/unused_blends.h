@@ -1,4 +1,4 @@
-// Requests for blends of layers that have no effect on this model.
+// Blends of layers that are requested but have no effect on this model.
 #pragma once
 
 #include <span>
@@ -11,7 +11,8 @@
 
 namespace sterna::volmesh {
 
-/// Warns of each rule whose `blend` has no effect: no patch of the rule meets a patch whose layers differ in first height, growth, height or thickness.
+/// Warns of each rule whose `blend` has no effect: no patch of the rule is adjacent to a patch whose layers differ in first height, growth, height or
+/// thickness.
 /// \pre as demand_of
 void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
                            const RunContext& context);

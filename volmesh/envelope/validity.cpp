@@ -12,10 +12,10 @@ namespace {
 
 /// g_1,min of eq. (6): the envelope triangle keeps this share of the wall triangle's area, projected on the wall.
 constexpr double k_min_area_share = 0.01;
-/// Smallest cosine between envelope normal and growth edge (warp, docs/method/validity.md, "Margins"), unless the wall triangle is itself seen more flatly.
+/// Smallest cosine between envelope normal and growth edge (warp, docs/method/validity.md, "Margins"), unless the wall triangle itself has a flatter angle.
 constexpr double k_min_warp_cosine = 0.05;
 constexpr double k_warp_share_of_wall = 0.2;
-/// Up to this share of the vertices it is cheaper to list their triangles than to look at all.
+/// Reciprocal of the share of vertices up to which listing the triangles at these vertices is cheaper than testing all triangles.
 constexpr std::size_t k_list_share = 16;
 /// Cosine between neighbouring normals above which no edge is folded: 60 degrees between the triangles.
 constexpr double k_open_fold_cosine = -0.5;
@@ -91,7 +91,7 @@ bool is_fold_open(const LayerBase& base, const EnvelopeShape& shape, HalfedgeId 
   if (base.topology.is_boundary(h)) return true;
   const EdgeDiamond diamond = edge_diamond(base, h);
   const Fold fold = fold_of(envelope_points(base, shape, diamond));
-  if (!(fold.cosine < k_open_fold_cosine)) return true;  // or a triangle without area, which is another test's
+  if (!(fold.cosine < k_open_fold_cosine)) return true;  // or a triangle without area, which is subject to another test
   return fold_slack(fold, fold_limit(wall_points(base, diamond))) > 0.0;
 }
 

@@ -9,8 +9,8 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Largest value at c for which the linear function over the triangle (a, b, c) rises by at most `slope` per metre, with values ha, hb given: from inside
-/// the triangle where the steepest rise comes from there (the eikonal update of Kimmel & Sethian 1998), else along the edges.
+/// Returns the largest value at c for which the linear function over the triangle (a, b, c) rises by at most `slope` per metre, with values ha, hb given:
+/// from inside the triangle where the steepest rise comes from there (the eikonal update of Kimmel & Sethian 1998), otherwise along the edges.
 double slope_bound(const Point& a, double ha, const Point& b, double hb, const Point& c, double slope) {
   const double along_edges = std::min(ha + slope * distance(a, c), hb + slope * distance(b, c));
   const Vec3 base = b - a;
@@ -23,15 +23,16 @@ double slope_bound(const Point& a, double ha, const Point& b, double hb, const P
   const double u = dot(to_c, x);
   const double height = norm(to_c - u * x);
   const double across = std::sqrt(slope * slope - rise * rise);
-  const double foot = u - height * rise / across;  // where the line of steepest rise through c meets a-b
+  const double foot = u - height * rise / across;  // where the line of steepest rise through c intersects a-b
   const double value = ha + rise * u + across * height;
   return foot > 0.0 && foot < length && value >= std::max(ha, hb) ? value : along_edges;
 }
 
-/// A value that a vertex may have, and the vertex.
+/// A candidate value of a vertex, and the vertex.
 using Offer = std::pair<double, std::uint32_t>;
 
-/// Smallest offer first. Most vertices keep the value they start with: these are sorted once, and the heap holds only what was lowered.
+/// Queue of candidate values, smallest first. Most vertices keep their initial value: these values are sorted once, and the heap contains only lowered
+/// values.
 class Offers {
  public:
   explicit Offers(const Column<VertexId, double>& start) {

@@ -14,7 +14,8 @@
 namespace sterna::volmesh {
 namespace {
 
-/// The same curve with one layer less: its first cell as high as before, the others grow a little more. \p nodes: from the wall up; the last stays.
+/// Returns the same curve with one layer less: the height of the first cell is kept, the others grow slightly more. \p nodes: from the wall up; the last
+/// stays.
 std::vector<Point> with_layer_less(const std::vector<Point>& nodes) {
   std::vector<double> along = {0.0};
   for (std::size_t j = 1; j < nodes.size(); ++j) along.push_back(along.back() + distance(nodes[j - 1], nodes[j]));
@@ -60,7 +61,7 @@ class FanCloser {
   Line foot(Line line) const { return ridges_.foot[VertexId(line)].value(); }
   bool is_collapsed(Line line) const { return given_.is_collapsed[line] != 0; }
 
-  /// Node j of a line: lines of one foot meet in node 0, lines at ends of ridges start one layer late.
+  /// Returns node j of a growth line: growth lines with a common ridge base vertex meet in node 0, growth lines at ends of ridges start one layer later.
   NodeId node(Line line, int j) const {
     if (j == 0 || is_collapsed(line)) return NodeId(lines_.first(foot(line)));
     if (is_added(line)) return NodeId(lines_.first(line) + static_cast<std::uint32_t>(j) - 1);
@@ -83,7 +84,7 @@ class FanCloser {
     if (!feet.empty()) fail(std::move(info), "fans have lines without at least three layers", std::move(feet));
   }
 
-  /// The feet of the fans that a line is part of, or ends.
+  /// Returns the ridge base vertices of the multi-normal fans that contain a growth line or end at it.
   std::vector<VertexId> feet_at(Line line) const {
     if (!is_end_[line]) return {VertexId(foot(line))};
     std::vector<VertexId> feet;
@@ -149,14 +150,14 @@ class FanCloser {
         request);
   }
 
-  /// The cell of a wall triangle in one layer.
+  /// Adds the cell of a wall triangle in one layer.
   void add_cell(const std::array<Line, 3>& base, int j) {
     std::array<NodeId, 3> low, high;
     for (std::size_t k = 0; k < 3; ++k) low[k] = node(base[k], j), high[k] = node(base[k], j + 1);
     cells_.add_cell(low, high, base);
   }
 
-  /// Over a virtual quadrilateral.
+  /// Adds the cells over a virtual quadrilateral.
   void add_hexahedra(const std::array<Line, 4>& q) {
     const int n = n_layers(q[0]);
     const auto level = [&](int j) { return std::array{node(q[0], j), node(q[1], j), node(q[2], j), node(q[3], j)}; };
@@ -179,13 +180,13 @@ class FanCloser {
     cells_.add_tet({high[0], high[3], high[2], centre}, q);
   }
 
-  /// Over the virtual triangle at the end of a ridge; the first line is the end's.
+  /// Adds the cells over the virtual triangle at the end of a ridge; the first growth line is that of the end.
   void add_end(const std::array<Line, 3>& t) {
     cells_.add_tet({node(t[0], 0), node(t[2], 1), node(t[1], 1), node(t[1], 0)}, t);
     for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
   }
 
-  /// Over a virtual triangle of a corner: all three lines have one foot.
+  /// Adds the cells over a virtual triangle of a corner: all three growth lines have a common ridge base vertex.
   void add_corner(const std::array<Line, 3>& t) {
     cells_.add_tet({node(t[0], 1), node(t[2], 1), node(t[1], 1), node(t[0], 0)}, t);
     for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
@@ -196,7 +197,7 @@ class FanCloser {
     for (std::size_t t = ridges_.n_given_triangles; t < boundary_.triangles.size(); ++t) order_.push_back(static_cast<std::uint32_t>(t));
     lines_.reorder(boundary_, order_, node_of());
     for (std::size_t t = order_.size(); t-- > 0;)
-      if (order_[t] >= ridges_.n_given_triangles && order_[t] < given_.n_columns()) boundary_.layer_volumes[t] = 0.0;  // no prism is under it
+      if (order_[t] >= ridges_.n_given_triangles && order_[t] < given_.n_columns()) boundary_.layer_volumes[t] = 0.0;  // no prism is under this triangle
   }
 
   void prove() const {
@@ -211,7 +212,7 @@ class FanCloser {
   HybridMesh& mesh_;
   FillBoundary& boundary_;
   const LayerBlock given_;  ///< on the opened wall
-  std::size_t n_lines_;     ///< of the given wall
+  std::size_t n_lines_;     ///< growth lines of the given wall
   std::vector<std::uint8_t> is_end_;
   RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;

@@ -1,4 +1,4 @@
-// From the layer on a wall with wake sheets to the layer on the given wall: lines of both sides of a sheet meet on it.
+// Converts the layer on a wall with wake sheets to the layer on the given wall: growth lines of both sides of a sheet meet on the sheet.
 #pragma once
 
 #include "volmesh/envelope/doubled_sheets.h"
@@ -6,13 +6,13 @@
 
 namespace sterna::volmesh {
 
-/// Both sides of each sheet get its feet as their first nodes, so that the cells on one share their base triangles with those on the other; the sheet's wall
-/// triangles are no boundary any more. Cells on sheets, and those of the wall beside lines that were added, are explicit; all others stay columns. Nodes: lines
-/// of the given vertices, those of the sheets, outer boundary.
-/// \pre mesh and boundary of assemble_layers() and fill_boundary() on the wall with sheets, without slits and fans
-/// \post wall faces are those of the given wall; every explicit cell is valid by the exact test of its kind, with positive dual sub-volumes. Points of the
-/// boundary keep their numbers, its triangles come in another order: those on columns first.
-/// \throws Error(envelope_failed) with places where a cell is not
+/// Gives both sides of each sheet its base vertices as their first nodes, so that the cells on one side share their base triangles with the cells on the
+/// other; the sheet's wall triangles are no longer part of the boundary. Cells on sheets, and cells of the wall beside growth lines that were added, are
+/// explicit; all others stay columns. Nodes: growth lines of the given vertices, growth lines of the sheets, outer boundary.
+/// \pre mesh and boundary from assemble_layers() and fill_boundary() on the wall with sheets, without disc cuts and multi-normal fans
+/// \post wall faces equal those of the given wall; every explicit cell is valid by the exact test of its kind, with positive dual sub-volumes. Points of the
+/// boundary keep their numbers, its triangles are reordered: triangles on columns first.
+/// \throws Error(envelope_failed) with locations if a cell is invalid
 void close_wakes(const DoubledSheets& sheets, HybridMesh& mesh, FillBoundary& boundary);
 
 }  // namespace sterna::volmesh

@@ -8,9 +8,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_sweeps = 3;  ///< of averaging; the min-filter and as many rings of transition around it
+constexpr int k_sweeps = 3;  ///< sweeps of averaging; the min-filter is surrounded by as many rings of transition
 
-/// `vertices` and everything within `rings` edges, ascending.
+/// Returns `vertices` and all vertices within `rings` edges, ascending.
 std::vector<VertexId> dilated(const LayerBase& base, std::vector<VertexId> vertices, int rings) {
   std::vector<VertexId> front = vertices;
   const auto make_unique = [](std::vector<VertexId>& list) {

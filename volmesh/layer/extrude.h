@@ -1,4 +1,5 @@
-// Extrusion of the layer: nodes on curved lines between wall and envelope, and the repair of invalid cells (docs/method/prisms.md, "Repair"; [ET15 §3.4]).
+// Extrusion of the layer: nodes on curved growth lines between wall and envelope, and the repair of invalid cells (docs/method/prisms.md, "Repair"; [ET15
+// §3.4]).
 #pragma once
 
 #include <array>
@@ -15,30 +16,31 @@
 namespace sterna::volmesh {
 
 struct Extrusion {
-  LayerBlock layers;                             ///< line k stands on wall vertex k; base triangle = wall triangle
-  std::vector<Point> points;                     ///< nodes of all lines, line by line from the wall up
-  std::int64_t n_straightened = 0;               ///< lines whose c_t was reduced
-  std::array<std::int64_t, 5> curving_shares{};  ///< of them, by c_t over the wanted one: 0, up to 1/4, 1/2, 3/4, below 1
+  LayerBlock layers;                             ///< growth line k stands on wall vertex k; base triangle = wall triangle
+  std::vector<Point> points;                     ///< nodes of all growth lines, line by line from the wall up
+  std::int64_t n_straightened = 0;               ///< growth lines whose c_t was reduced
+  std::array<std::int64_t, 5> curving_shares{};  ///< growth lines whose c_t was reduced, by share of the target c_t: 0, up to 1/4, 1/2, 3/4, below 1
 };
 
-/// Makes and remakes the layer of one wall. It keeps nodes and curving between calls: later calls touch the lines whose envelope has changed, and the columns
-/// beside them.
+/// Creates and updates the layer of one wall. Nodes and curving are kept between calls: later calls update only the growth lines whose envelope has changed,
+/// and the adjacent columns.
 class Extruder {
  public:
   Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
-  /// Layers by LayerNumbers where that was asked for. Nodes by LinePlacer, with c_t as large as the growth along the line (G8), and sides that can be cut and
-  /// faces that are not tilted (OpenFOAM) allow. Columns with an invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to
-  /// the largest value, found by bisection, for which the column is valid, smoothed over the surface (Curving); only where straight lines do not help,
-  /// truncated lines get more layers, then heights are made equal over the column's corners and lowered (through `unwarp`), down to collapse. Changes
-  /// `envelope` accordingly. \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit. \throws
-  /// Error(envelope_failed) when columns stay invalid after 200 rounds.
+  /// Extrudes the layer. Numbers of layers by LayerNumbers where truncation is requested. Nodes by LinePlacer, with c_t as large as the growth along the
+  /// growth line (G8), and sides that can be cut and faces that are not tilted (OpenFOAM) allow. Columns with an invalid cell (exact tests of cell and dual
+  /// sub-volumes) are repaired in this order: c_t of their growth lines is reduced to the largest value, found by bisection, for which the column is valid,
+  /// smoothed over the surface (Curving); if straight lines are not sufficient, truncated lines get more layers; then heights are made equal over the
+  /// column's corners and lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly.
+  /// \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
+  /// \throws Error(envelope_failed) if columns stay invalid after 200 rounds.
   void extrude(Envelope& envelope);
-  /// The layer of the last extrude(); ends the use of this object.
+  /// Returns the layer of the last extrude(); the object must not be used afterwards.
   Extrusion take();
 
  private:
-  using Columns = std::vector<std::size_t>;  ///< of the layer (= wall triangles), ascending
+  using Columns = std::vector<std::size_t>;  ///< column indices of the layer (= wall triangles), ascending
 
   std::vector<VertexId> place_stale_lines(const Envelope& envelope);
   bool limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines);
@@ -65,12 +67,12 @@ class Extruder {
   EnvelopeScale scale_;
   RunContext context_;
   Curving curving_;
-  Truncation truncation_;                    ///< of walls that do not ask for their own
-  std::optional<LayerNumbers> numbers_;      ///< of the last choose_layers()
-  std::vector<std::uint16_t> least_layers_;  ///< per line, where truncation spoiled a column
-  LayerBlock layers_;                        ///< all lines have room for the nodes of all layers asked for here, collapsed ones too
+  Truncation truncation_;                    ///< for walls without their own setting
+  std::optional<LayerNumbers> numbers_;      ///< result of the last choose_layers()
+  std::vector<std::uint16_t> least_layers_;  ///< per growth line, where truncation made a column invalid
+  LayerBlock layers_;                        ///< all growth lines, also collapsed ones, have room for the nodes of all layers requested there
   std::vector<Point> points_;
-  /// What each line was placed with.
+  /// Parameters with which a growth line was placed.
   struct Placed {
     Vec3 direction;
     double height = -1.0, c_t = 0.0;
@@ -81,7 +83,7 @@ class Extruder {
   bool is_first_ = true;
 };
 
-/// One call of an Extruder.
+/// Extrudes the layer with one call of an Extruder.
 Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, Envelope& envelope,
                          const RunContext& context);
 

@@ -17,35 +17,35 @@
 
 namespace sterna::volmesh {
 
-/// A layer, and what is known of it beside its cells (prove_layer).
+/// A layer, with all results except the proof of its cells (prove_layer).
 struct LaidLayer {
-  HybridMesh mesh;                               ///< of assemble_layers(): lines of the layer, then the outer boundary; no tetrahedra
-  FillBoundary boundary;                         ///< what the tetrahedra fill
-  std::optional<HybridMesh> opened = {};         ///< where ridges are opened or wakes have sheets: the layer before close_opened()
+  HybridMesh mesh;                               ///< from assemble_layers(): growth lines of the layer, then the outer boundary; no tetrahedra
+  FillBoundary boundary;                         ///< boundary of the volume for the tetrahedra
+  std::optional<HybridMesh> opened = {};         ///< for opened ridges or wake sheets: the layer before close_opened()
   std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
   LayerReport report;
-  EnvelopeCertificate certificate;  ///< of the envelope, proved; its cells are to be counted still
+  EnvelopeCertificate certificate;  ///< certificate of the envelope, proved; the layer's cells are not yet counted
 };
 
-/// The layer under the envelope as it is now, which may get lower.
+/// Returns the layer under the present envelope; may lower the envelope.
 /// \pre, \post envelope valid and clear
-/// \throws Error of the stages; envelope_failed where the certificate fails; FanError where opened ridges get no valid cells
+/// \throws Error of the stages; envelope_failed if the certificate fails; FanError if opened ridges get no valid cells
 LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context);
 
-/// Makes the given wall's cells of a layer on a wall with opened ridges, or with wake sheets.
+/// Converts a layer on a wall with opened ridges, or with wake sheets, to the cells of the given wall.
 /// \throws as close_fans() and close_wakes()
 void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary);
 
-/// What can be found out about a layer while an engine makes the tetrahedra.
+/// Results of the layer checks that run while an engine makes the tetrahedra.
 struct LayerProof {
   LayerCertificate cells;
   LayerCheck check;
 };
-/// \p mesh: of assemble_layers()
+/// Certifies and checks the layer. \p mesh: from assemble_layers()
 LayerProof prove_layer(const HybridMesh& mesh, const RunContext& context);
 
-/// Counts the layer's cells in the certificate.
-/// \throws Error where one of them is not proved
+/// Adds the counts of the layer's cells to the certificate.
+/// \throws Error if a cell is not proved
 void require_proved_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate);
 
 }  // namespace sterna::volmesh

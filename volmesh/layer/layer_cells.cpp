@@ -10,8 +10,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_top_layers = 4;             ///< below, lines are nearly normal and cells flat
-constexpr double k_narrow_share = 0.3;      ///< of the wall triangle's area, that a column's cross section has where its sides become of interest
+constexpr int k_top_layers = 4;             ///< below these, growth lines are nearly normal and cells flat
+constexpr double k_narrow_share = 0.3;      ///< share of the wall triangle's area: sides are evaluated where the column's cross section is smaller
 constexpr std::size_t k_proof_chunk = 256;  ///< columns, some 10^4 cells
 
 WedgePoints wedge_of(const ColumnLines& lines, int layer) {
@@ -19,9 +19,9 @@ WedgePoints wedge_of(const ColumnLines& lines, int layer) {
   return {a[layer], b[layer], c[layer], a[layer + 1], b[layer + 1], c[layer + 1]};
 }
 
-/// A cell of a column beside a line that has ended, turned so that the odd line comes first; the cyclic sense is kept (LayerBlock::cell).
+/// A cell of a column beside a growth line that has ended, rotated so that the odd growth line comes first; the cyclic sense is kept (LayerBlock::cell).
 struct PartialCell {
-  std::array<const Point*, 3> nodes;  ///< in this layer; the last ones of lines that have ended
+  std::array<const Point*, 3> nodes;  ///< in this layer; the last nodes of growth lines that have ended
   bool is_pyramid;
 };
 PartialCell partial_cell(const ColumnLines& lines, int layer) {
@@ -41,13 +41,13 @@ std::array<Vec3, 4> tet_of(const PartialCell& cell) {
   return {a[0], b[0], c[0], a[1]};
 }
 
-/// Six times the volume of a triangle's tetrahedron with the cell's centre; positive where it looks away from it.
+/// Returns six times the volume of a triangle's tetrahedron with the cell's centre; positive if the triangle's normal points away from the centre.
 double outward_volume(const Point& a, const Point& b, const Point& c, const Point& centre) { return dot(cross(b - a, c - a), a - centre); }
 
 using Quad = std::array<Point, 4>;
 
-/// Along each diagonal: the smallest of the tetrahedra into which a quadrilateral is cut with a cell's centre, around its middle and along the diagonal, over
-/// the mean of those around its middle; negative where one is turned inside out.
+/// Returns, for each diagonal, the smallest volume of the tetrahedra into which a quadrilateral is cut with a cell's centre, around its middle and along the
+/// diagonal, over the mean of the tetrahedra around its middle; negative if a tetrahedron is inverted.
 std::array<double, 2> cut_shares(const Quad& q, const Point& centre) {
   const Point middle = 0.25 * (q[0] + q[1] + q[2] + q[3]);
   std::array<double, 4> around{};
@@ -103,7 +103,7 @@ bool is_column_certain(const ColumnLines& lines) {
   for (int j = lines.n_prisms(), n = lines.n_cells(); j < n; ++j) {
     const PartialCell partial = partial_cell(lines, j);
     if (!partial.is_pyramid) {
-      if (!is_tet_valid(tet_of(partial))) return false;  // its dual is positive with it
+      if (!is_tet_valid(tet_of(partial))) return false;  // then its dual is positive, too
       continue;
     }
     const std::array<Vec3, 5> p = pyramid_of(partial);
@@ -114,7 +114,7 @@ bool is_column_certain(const ColumnLines& lines) {
 
 namespace {
 
-/// Of the side in one layer: the better diagonal's share, by the worse of both cells.
+/// Returns the share of a side in one layer for the better diagonal, by the worse of both cells.
 double cut_share(const Quad& side, const Point& own_centre, const Point* centre_beyond) {
   const std::array<double, 2> own = cut_shares(side, own_centre);
   const std::array<double, 2> beyond = centre_beyond ? cut_shares(side, *centre_beyond) : own;

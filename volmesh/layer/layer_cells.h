@@ -1,4 +1,4 @@
-// The cells of columns: exact validity of a whole column, and the certificate of a whole layer.
+// Cells of columns: exact validity of a whole column, and the certificate of a whole layer.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace sterna::volmesh {
 
-/// Nodes of a column's three lines, from the wall up, and how many cells are along each: none where it is collapsed.
+/// Nodes of a column's three growth lines, from the wall up, and the number of cells along each: zero for a collapsed growth line.
 struct ColumnLines {
   std::array<const Point*, 3> nodes;
   std::array<int, 3> n_steps;
@@ -20,41 +20,41 @@ struct ColumnLines {
 };
 ColumnLines column_lines(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 
-/// Whether every cell of a column is valid (exact wedge, pyramid or tet test, G3) and has positive dual sub-volumes (exact, G4).
+/// Returns true if every cell of a column is valid (exact wedge, pyramid or tet test, G3) and has positive dual sub-volumes (exact, G4).
 bool is_column_certain(const ColumnLines& lines);
 
-/// The lines around a side of the layer, from the wall up: its own two, the third one of the column whose sense it has, and that of the column beyond (null: it
-/// has none).
+/// Growth lines around a side of the layer, from the wall up: the two growth lines of the side, the third one of the column that has the sense of the side,
+/// and the third one of the column beyond (null: no column beyond).
 struct SideLines {
   const Point *from, *to, *own, *beyond;
 };
-/// How good the quadrilaterals of a side are for cell-centred solvers, by the worst of some layers.
+/// Quality of the quadrilaterals of a side for cell-centred solvers: the worst of some layers.
 struct SideShape {
-  /// Cut into tetrahedra with the centres of the prisms on both sides, around its own centre and along one and the same diagonal (checkMesh's decomposition
-  /// tets): the smallest of these over the mean one, for the better diagonal; negative: it cannot be cut.
+  /// Quality of the decomposition into tetrahedra with the centres of the prisms on both sides, around the side's own centre and along one and the same
+  /// diagonal (decomposition tets of checkMesh): the smallest of these over the mean one, for the better diagonal; negative: no valid decomposition.
   double cut_share = 1.0;
   double weight = 0.5;  ///< share of the nearer prism's centre in the distance of both from the side's plane
 };
-/// Sides that are better than both are good enough; centres of cells are approximate here.
+/// Limits of good sides: both values must be reached; centres of cells are approximate here.
 inline constexpr double k_good_cut_share = 0.05, k_good_side_weight = 0.06;
 inline bool is_good(const SideShape& shape) { return shape.cut_share >= k_good_cut_share && shape.weight >= k_good_side_weight; }
 
-/// The centre of a column's prism in a layer, m.
+/// Returns the centre of a column's prism in a layer, m.
 using PrismCentre = std::function<Point(int layer)>;
-/// In layers from `first` on, below n_layers. Empty functions: the means of the corners, which is near.
-/// \pre no line ends below n_layers
+/// Returns the shape of a side in layers from `first` on, below n_layers. Empty functions: the means of the corners are used, which are close to the centres.
+/// \pre no growth line ends below n_layers
 SideShape side_shape(const SideLines& lines, int first, int n_layers, const PrismCentre& own_centre = {}, const PrismCentre& centre_beyond = {});
 
-/// From where on the sides of a column's prisms are worth a look: the layers at the top, and all where it gets narrow on its way there.
+/// Returns the first layer from which on sides of a column's prisms have to be evaluated: the first of the top layers, or the first narrow layer below them.
 int first_layer_to_look_at(const ColumnLines& lines);
 
-/// Every cell of a layer, tested by the exact test of its kind.
+/// Result of the exact tests of all cells of a layer.
 struct LayerCertificate {
   std::int64_t n_cells = 0;
-  std::int64_t n_proved = 0;       ///< of them
+  std::int64_t n_proved = 0;       ///< number of cells that are valid
   double min_quality = 1.0;        ///< smallest wedge_quality of the prisms (scaled Jacobian, positive iff valid up to rounding)
   Point worst_place;               ///< centre of that prism
-  std::int64_t worst_column = -1;  ///< and where it is: column = wall triangle, layer from the wall
+  std::int64_t worst_column = -1;  ///< location of this prism: column = wall triangle, layer from the wall
   int worst_layer = -1;
 };
 

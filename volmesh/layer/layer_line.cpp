@@ -10,17 +10,17 @@ namespace {
 
 /// Below this c_t the curve is straight after less than a thousandth of the height.
 constexpr double k_straight = 1e-3;
-/// A line that bends within its flat cells changes their proportions above facets that are inclined to the vertex's normal. Steps along such a facet change by
-/// 0.5 t / c_t from cell to cell, and 11 h / e may (growth_law.h); a cell of height h at t has h = 0.2 t H where cells grow by 1.25: c_t is at least this times
-/// e / H, times the tangent of the line's slant and the sine of the facet's.
+/// A growth line that bends within its flat cells changes their proportions above facets that are inclined to the vertex's normal. Steps along such a facet
+/// change by 0.5 t / c_t from cell to cell; the limit is 11 h / e (growth_law.h). A cell of height h at t has h = 0.2 t H if cells grow by 1.25. Therefore
+/// c_t is at least this constant times e / H, times the tangent of the growth line's inclination and the sine of the facet's.
 constexpr double k_flat_curving = 0.23;
-/// Tangent of the slant beyond which a straight line has no first height any more, because of the floor of normal_height().
+/// Tangent of the inclination beyond which a straight growth line cannot meet its first height, because of the lower limit of normal_height().
 constexpr double k_steepest = 9.9;
 }  // namespace
 
 LinePlacer::LinePlacer(const LayerBase& base, const EnvelopeScale& scale) : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
 
-/// The least c_t of a line that is not straight. Local growth changes proportions anyway.
+/// Returns the least c_t of a growth line that is not straight. Local growth changes proportions in any case.
 double LinePlacer::least_curving(VertexId v, double aside, double height) const {
   if (!scale_.has_common_growth() || aside > k_steepest * height) return 0.0;
   const double cosine = base_.worst_cosine(v, base_.vertex_normal[v]);
@@ -45,7 +45,7 @@ void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, 
   }
   nodes[n] = envelope.point(base_.wall, v);
   const VertexConstraint& constraint = base_.constraint[v];
-  if (constraint.freedom != Freedom::surface) return;  // planes and lines hold exactly by their directions
+  if (constraint.freedom != Freedom::surface) return;  // planes and lines are satisfied exactly by the directions
   const ConstraintSurface& surface = *base_.surfaces[static_cast<std::size_t>(constraint.on[0])];
   for (int j = 1; j < n; ++j) nodes[j] = surface.closest(nodes[j]);
 }

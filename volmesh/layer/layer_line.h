@@ -1,4 +1,4 @@
-// One wall-normal line of the layer: where its nodes are (docs/method/prisms.md, "Line nodes"; [ET15 eqs. (10)-(12)]).
+// Node positions on one growth line of the layer (docs/method/prisms.md, "Line nodes"; [ET15 eqs. (10)-(12)]).
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace sterna::volmesh {
 
-/// Nodes p_0 .. p_n of a line: p_j = p + t_j (s_j h_n n + (1 - s_j)(e - p)) with envelope point e, wall normal n, h_n = normal_height and eq. (11) for
+/// Nodes p_0 .. p_n of a growth line: p_j = p + t_j (s_j h_n n + (1 - s_j)(e - p)) with envelope point e, wall normal n, h_n = normal_height and eq. (11) for
 /// h_n: the first node is h0 off the wall along its normal.
-/// Eq. (10) has h in place of h_n; with h_n every node's distance along n is t_j h_n, and curving slides nodes along the wall only.
-/// s_j = s(t_j) of eq. (12), normalised: 1 at the wall, 0 at the top. Lines of fans are straight.
+/// Eq. (10) has h in place of h_n; with h_n every node's distance along n is t_j h_n, and curving moves nodes along the wall only.
+/// s_j = s(t_j) of eq. (12), normalised: 1 at the wall, 0 at the top. Growth lines of multi-normal fans are straight.
 class LinePlacer {
  public:
   LinePlacer(const LayerBase& base, const EnvelopeScale& scale);
-  /// Writes n + 1 nodes, or the wall point alone at a collapsed vertex. Nodes obey the vertex's constraint; the last is envelope.point() to the bit.
+  /// Writes n + 1 nodes, or the wall point alone at a collapsed vertex. Nodes satisfy the vertex's constraint; the last is envelope.point() to the bit.
   void place(const Envelope& envelope, VertexId v, int n, double c_t, Point* nodes);
-  /// With all layers, scale.n(v).
+  /// Places the nodes of all layers, scale.n(v).
   void place(const Envelope& envelope, VertexId v, double c_t, Point* nodes) { place(envelope, v, scale_.n(v), c_t, nodes); }
 
  private:

@@ -15,10 +15,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_report_digits = 4;          ///< of lengths in texts
-constexpr double k_suspicious_share = 0.5;  ///< of the area compressed: more likely a mistake in the settings than a difficult shape
+constexpr int k_report_digits = 4;          ///< digits of lengths in texts
+constexpr double k_suspicious_share = 0.5;  ///< share of compressed area above which a mistake in the settings is more probable than a difficult shape
 
-/// Reasons for less than the full height: those of HeightLimit, then lines that are long enough but lean.
+/// Reasons for less than the full height: those of HeightLimit, then growth lines that are long enough but inclined.
 constexpr std::size_t k_lean = k_height_limits;
 using LostArea = std::array<double, k_height_limits + 1>;
 
@@ -29,11 +29,11 @@ std::string_view reason_text(std::size_t reason) {
 /// Areas by state, m^2.
 struct Areas {
   double all = 0.0, full = 0.0, compressed = 0.0, thin = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0, truncated = 0.0;
-  int least_layers = std::numeric_limits<int>::max();  ///< of lines that stand
+  int least_layers = std::numeric_limits<int>::max();  ///< least number on growth lines that are not collapsed
   LostArea lost{};
 };
 
-/// Height of the layer along the wall's normal, m. Unlike normal_height() without a floor.
+/// Returns the height of the layer along the wall's normal, m. Unlike normal_height() without a lower limit.
 double height_along_normal(const LayerBase& base, const Envelope& envelope, VertexId v) {
   return envelope.height[v] * dot(envelope.direction[v], base.vertex_normal[v]);
 }
@@ -53,7 +53,7 @@ double mean_top_edge(const LayerBase& base, const Envelope& envelope, TriangleId
   return (distance(top(0), top(1)) + distance(top(1), top(2)) + distance(top(2), top(0))) / 3.0;
 }
 
-/// The wall with what is asked for on it, and the outer boundary.
+/// Returns the room around the wall with its layer targets, and the outer boundary.
 LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const TriMesh* outer, const RunContext& context) {
   std::vector<FacingTriangle> facing(base.wall.n_triangles());
   parallel_for(context, facing.size(), [&](std::size_t i) {
@@ -70,7 +70,7 @@ LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const Tri
   return LayerRoom(std::move(facing), context);
 }
 
-/// Height along the normal that the geometry permits at each vertex, m; the target where the vertex has its full height.
+/// Returns the height along the normal that the geometry permits at each vertex, m; the target where the vertex has its full height.
 Column<VertexId, double> permitted_heights(const LayerBase& base, const Envelope& envelope, const TriMesh* outer, const RunContext& context) {
   Column<VertexId, double> permitted = envelope.target;
   const auto is_full = [&](VertexId v) { return has_full_height(base, envelope, v) || base.topology.outgoing(v).empty(); };
@@ -97,7 +97,7 @@ class Classifier {
   bool is_full(VertexId v) const { return has_full_height(base_, envelope_, v); }
   int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.room_for_first_cell(v, layers(v)); }
-  /// Lower than its layers' first heights together.
+  /// Returns true if the layer is lower than the sum of first heights of its layers.
   bool is_thin(VertexId v) const { return is_compressed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
   bool is_truncated(VertexId v) const { return !envelope_.is_collapsed(v) && layers(v) < scale_.n(v); }
   void add(VertexId v, double area, Areas& areas) const {
@@ -163,10 +163,10 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
     report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_report_digits) + ", " + vertex_text(base, envelope, v)});
 }
 
-/// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
-/// \param thin_area share of the wall area where that is so
+/// Warns of layers that are thinner than their own first cells: a wrong unit is a more frequent cause than a difficult shape.
+/// \param thin_area share of the wall area with such layers
 void warn(const Envelope& envelope, const Classifier& classifier, double thin_area, LayerReport& report) {
-  // Where the target is tallest over what the first cells alone make.
+  // The vertex with the largest ratio of the target to the total of the first heights.
   const EnvelopeScale& scale = classifier.scale();
   VertexId v(0);
   for (const VertexId other : envelope.target.ids())

@@ -1,4 +1,5 @@
-// Lines of a layer get other nodes, because some of them start at a node of another one or have cells of their own: what close_fans and close_wakes share.
+// Renumbering of a layer whose growth lines get other nodes, because some of them start at a node of another growth line or have their own cells: shared by
+// close_fans and close_wakes.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +14,18 @@
 
 namespace sterna::volmesh {
 
-/// Where nodes are after lines got others. \p node of its functions: node(line, j) -> NodeId, where node j of a line of the given block is now.
+/// Node numbers after growth lines got other nodes. Argument \p node of the functions: node(line, j) -> NodeId, the present location of node j of a growth
+/// line of the given block.
 class RenumberedLines {
  public:
   using Line = std::uint32_t;
-  /// \p given: outlives it; nodes of its lines are the first of the mesh
+  /// \p given: must outlive this; nodes of its growth lines are the first of the mesh
   explicit RenumberedLines(const LayerBlock& given) : given_(given) {
     for (Line line = 0; line < given.n_lines(); ++line) n_before_ = std::max(n_before_, given.top(line).index() + 1);
   }
 
-  /// append(line, begin, points) adds a line's own nodes; begin is where its given ones are. Points behind the lines come behind the new ones.
+  /// Renumbers the nodes of a mesh: append(line, begin, points) adds the nodes of a growth line; begin is the position of its given nodes. Points after the
+  /// growth lines follow the new ones.
   template <class Append>
   void renumber(HybridMesh& mesh, const Append& append) {
     const std::vector<Point>& old = mesh.points.raw();
@@ -38,11 +41,11 @@ class RenumberedLines {
     mesh.points = Column<NodeId, Point>(std::move(points));
   }
 
-  /// The first own node of a line, and of all.
+  /// Returns the first node of a growth line, and the first nodes of all.
   std::uint32_t first(Line line) const { return first_[line]; }
   std::span<const std::uint32_t> first() const { return first_; }
 
-  /// Where a node of the given mesh is now. \pre of lines: their ends, or on the wall
+  /// Returns the new number of a node of the given mesh. \pre for nodes of growth lines: an end of the growth line, or on the wall
   template <class NodeOf>
   NodeId moved(NodeId before, const NodeOf& node) const {
     if (before.index() >= n_before_) return NodeId(static_cast<std::uint64_t>(static_cast<std::int64_t>(before.index()) + outer_shift_));
@@ -51,7 +54,7 @@ class RenumberedLines {
     return node(line, static_cast<int>(before.value() - given_.first_node[line]));
   }
 
-  /// Faces of the boundary without those under columns from `n_columns` on, which stand on no wall.
+  /// Renumbers the boundary faces and removes those under columns from `n_columns` on, which stand on no wall.
   template <class NodeOf>
   void move_faces(HybridMesh& mesh, std::size_t n_columns, const NodeOf& node) const {
     std::vector<sterna::BoundaryTriangle> faces;
@@ -64,14 +67,14 @@ class RenumberedLines {
     std::vector<BoundaryQuad> quads;
     for (BoundaryQuad quad : mesh.boundary_quads) {
       for (NodeId& n : quad.nodes) n = moved(n, node);
-      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // between lines of one foot
+      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // lines with one base vertex
       else quads.push_back(quad);
     }
     mesh.boundary_triangles = std::move(faces);
     mesh.boundary_quads = std::move(quads);
   }
 
-  /// Triangles of the tetrahedra's boundary in this order of the given ones, its points where they are now.
+  /// Sorts the triangles of the tetrahedra's boundary in the given order of the old ones, and updates the nodes of its points.
   template <class NodeOf>
   void reorder(FillBoundary& boundary, std::span<const std::uint32_t> order, const NodeOf& node) const {
     const auto take = [&](auto& column) {
@@ -90,7 +93,7 @@ class RenumberedLines {
  private:
   const LayerBlock& given_;
   std::vector<std::uint32_t> first_;
-  std::size_t n_before_ = 0;  ///< nodes of lines in the given mesh
+  std::size_t n_before_ = 0;  ///< number of nodes on growth lines in the given mesh
   std::int64_t outer_shift_ = 0;
 };
 

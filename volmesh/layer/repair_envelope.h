@@ -1,4 +1,4 @@
-// A calmer envelope where an engine may have failed on it: lower and smoother around slivers, folds, narrow gaps and reported places.
+// Lowers and smooths the envelope around slivers, folds, narrow gaps and reported locations where an engine may have failed.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@
 
 namespace sterna::volmesh {
 
-/// Around each triangle of the layer's top that the pre-flight objects to, and the vertex of the top that is nearest to each of `places`: heights go to 0.7 of
-/// the mean around, less and less so over four rings, and directions to the mean of their neighbours', wherever macro-elements stay valid and the top stays
-/// clear. Wall connectivity is kept. \p boundary: fill_boundary() of this envelope; \p has_sheets: TetraBoundary::has_sheets of it.
-/// \pre, \post envelope valid and clear. Returns the vertices that it changed; none when there is nothing to object to.
+/// Changes the envelope around each triangle of the layer's top that fails the pre-flight check, and around the vertex of the top that is nearest to each of
+/// `places`. Heights go to 0.7 of the mean around, decreasingly over four rings, and directions to the mean of their neighbours' directions, wherever
+/// macro-elements stay valid and the top stays clear. Wall connectivity is kept. \p boundary: fill_boundary() of this envelope; \p has_sheets:
+/// TetraBoundary::has_sheets of it.
+/// \pre, \post envelope valid and clear. Returns the vertices that it changed; none if the check finds no defect.
 std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
                                       Collider& collider, Envelope& envelope, const RunContext& context);
 

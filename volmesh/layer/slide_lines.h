@@ -1,4 +1,4 @@
-// Last prisms and the tetrahedra on them brought to fit each other: tops of lines move a little after the tetrahedra were made.
+// Mutual adaptation of the last prisms and the tetrahedra on them: tops of growth lines move slightly after the tetrahedra were made.
 #pragma once
 
 #include <algorithm>
@@ -17,23 +17,25 @@
 
 namespace sterna::volmesh {
 
-/// Improvement of tetrahedra keeps the boundary; where the boundary itself is at fault (folds of the layer's top, sides of prisms that cannot be cut, columns
-/// that get narrow), a line ends a little lower, higher or aside instead. Its nodes follow: the first cell stays to the bit, the others keep their kind of
-/// growth.
+/// Improvement of tetrahedra keeps the boundary. Where the boundary itself is the cause (folds of the layer's top, sides of prisms that cannot be decomposed,
+/// columns that get narrow), the LineSlider moves the end of a growth line slightly lower, higher or sideways. The nodes of the growth line follow: the first
+/// cell stays to the bit, the other cells keep their growth law.
 class LineSlider {
  public:
-  /// \p layers: of assemble_layers(), without tetrahedra; \p boundary: boundary_of() it. Both must outlive this and are changed by slide().
+  /// \p layers: from assemble_layers(), without tetrahedra; \p boundary: boundary_of(layers). Both must outlive this and are changed by slide().
   LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context);
 
-  /// One round over the lines at the worst places: each moves, by a pattern search of smaller and smaller steps within `slide_share` of its height (half of it
-  /// up), where the costs around it are lower (k_far_reach times as far from the second round on where a hard limit is missed): of angles beyond the limits of
-  /// improvement, of steps of volume and height between last prisms and tetrahedra and among these, of face weights (OpenFOAM), of sides that can hardly be
-  /// cut. Lines at rims, beside collapsed ones, and those that end on outer faces stay.
-  /// \pre tets fill the boundary, every cell valid. \post the same, by exact tests of all cells at lines that moved; no line grows faster than before or than
-  /// was asked for.
-  /// Returns the lines that moved, ascending. Parallel: lines that do not see each other move at the same time. At most k_most_lines; some ms each.
+  /// Makes one round over the growth lines at the worst locations. Each moves, by a pattern search with decreasing steps within `slide_share` of its height
+  /// (half of it up), to where the costs around it are lower; from the second round on the range is k_far_reach times larger where a hard limit is missed.
+  /// Costs: angles beyond the limits of improvement, steps of volume and height between last prisms and tetrahedra and among tetrahedra, face weights
+  /// (OpenFOAM), sides that are nearly impossible to decompose. Growth lines at open boundaries, beside collapsed ones, and those that end on outer faces
+  /// stay.
+  /// \pre tets fill the boundary, every cell valid.
+  /// \post the same, by exact tests of all cells at growth lines that moved; no growth line grows faster than before or than requested.
+  /// Returns the growth lines that moved, ascending. Parallel: growth lines that do not affect each other's costs move at the same time. At most k_most_lines;
+  /// some ms each.
   std::vector<std::uint32_t> slide(const TetraResult& tets);
-  std::size_t n_moved() const { return moved_.size(); }  ///< lines, in all rounds
+  std::size_t n_moved() const { return moved_.size(); }  ///< growth lines, in all rounds
 
   static constexpr std::size_t k_most_lines = 4000;
 
@@ -44,22 +46,22 @@ class LineSlider {
     std::uint32_t column;
     friend auto operator<=>(const Side&, const Side&) = default;
   };
-  /// All that depends on a line's height.
+  /// All entities that depend on the height of a growth line.
   struct Star {
     std::vector<std::uint32_t> columns, tets;
-    std::vector<std::uint32_t> tet_on;                     ///< of each column: the tetrahedron on its top
+    std::vector<std::uint32_t> tet_on;                     ///< per column: the tetrahedron on its top
     std::vector<std::array<std::uint32_t, 2>> neighbours;  ///< pairs of the tetrahedra with a common face
   };
   struct Fault {
-    double excess;  ///< the worst at the line, over its limit
+    double excess;  ///< the worst at the growth line, over its limit
     Line line;
   };
-  /// How a line was when the first round began, and where it is now.
+  /// Original state of a growth line at the beginning of the first round, and its present displacement.
   struct Moved {
     std::vector<Point> nodes;
-    double share = 1.0;  ///< of that height
-    Vec3 shift;          ///< of its top beside that, m
-    double reach = 0.0;  ///< how far share and shift may go, over the height
+    double share = 1.0;  ///< share of the original height
+    Vec3 shift;          ///< additional displacement of its top, m
+    double reach = 0.0;  ///< limit of share and shift, over the height
   };
   struct Interface {
     double volume, height, weight;  ///< each over its limit
@@ -97,10 +99,10 @@ class LineSlider {
   GateTable gates_;
   QualityLimits limits_;
   double share_;
-  double largest_step_ = 0.0;  ///< of the volumes of tetrahedra with a common face; the weight of a face is that of their volumes
+  double largest_step_ = 0.0;  ///< limit of the volume ratio of tetrahedra with a common face; the weight of a face is that of their volumes
   const RunContext& context_;
-  std::vector<std::uint8_t> is_locked_;  ///< of each line
-  std::vector<Side> sides_;              ///< of all columns, sorted
+  std::vector<std::uint8_t> is_locked_;  ///< per growth line
+  std::vector<Side> sides_;              ///< sides of all columns, sorted
   std::map<Line, Moved> moved_;
   int n_rounds_ = 0;
 };

@@ -1,5 +1,5 @@
-// Splits of the tetrahedra's boundary carried down to the wall: envelope and wall stay topologically equal (docs/method/tetrahedra.md, "Boundary splits"; [ET15
-// §3.3]).
+// Carries splits of the tetrahedra's boundary down to the wall: envelope and wall stay topologically equal (docs/method/tetrahedra.md, "Boundary splits";
+// [ET15 §3.3]).
 #pragma once
 
 #include <memory>
@@ -11,23 +11,24 @@
 
 namespace sterna::volmesh {
 
-/// What is around the tetrahedra after an engine has split triangles there.
+/// Surfaces and layer around the tetrahedra after an engine has split boundary triangles.
 struct SplitLayer {
-  std::unique_ptr<const TriMesh> wall;    ///< its vertices first, then the new ones; parts of a triangle have its patch
-  std::unique_ptr<const TriMesh> outer;   ///< likewise
-  std::unique_ptr<const LayerBase> base;  ///< of the wall
+  std::unique_ptr<const TriMesh> wall;    ///< original vertices first, then the new ones; parts of a triangle have its patch
+  std::unique_ptr<const TriMesh> outer;   ///< vertices and patches as for `wall`
+  std::unique_ptr<const LayerBase> base;  ///< layer base of the new wall
   Envelope envelope;
   Extrusion extrusion;
   FillBoundary boundary;
-  EnvelopeCertificate certificate;  ///< of the envelope, proved; its cells are to be counted still
-  bool is_filled = false;           ///< the tetrahedra are proven with the tops where they are; else cells of split columns made lower heights necessary
+  EnvelopeCertificate certificate;  ///< certificate of the envelope, proved; the layer's cells are not yet counted
+  bool is_filled = false;           ///< true: the tetrahedra remain proved with the present tops; false: heights were lowered because of invalid cells in split
+                                    ///< columns
 };
 
-/// Splits wall, envelope and outer boundary as tets.splits says; each new wall vertex is moved to the true surface (where `true_surface` is not empty) and its
-/// line ends where the engine put the new point of the envelope. Extrudes again, proves again.
-/// \pre tets fill fill_boundary() of these; no vertex of the base has a constraint.
-/// \post tets are those of the new boundary, without splits; where not is_filled they have to be made anew.
-/// \throws Error of the stages where wall or layer would not be valid.
+/// Splits wall, envelope and outer boundary according to tets.splits. Each new wall vertex is moved to the true surface (unless `true_surface` is empty), and
+/// its growth line ends at the engine's new point of the envelope. Extrudes again, proves again.
+/// \pre tets fill fill_boundary() of these arguments; no vertex of the base has a constraint.
+/// \post tets refer to the new boundary, without splits; if not is_filled they have to be re-meshed.
+/// \throws Error of the stages if wall or layer would be invalid.
 SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const MeshCase& options, const TrueSurface& true_surface,
                        TetraResult& tets, const RunContext& context);
 

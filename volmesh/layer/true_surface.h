@@ -1,4 +1,4 @@
-// Where a wall really is, between its vertices.
+// The true position of a wall between its vertices.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace sterna::volmesh {
 
-/// The point of the true (CAD, analytic) surface that belongs to a point on a triangle of the wall; in metres, near it. Barycentric `weights`: exactly zero for
-/// the corner opposite to the edge that the point is on, so that edges of the model stay edges. Called from several threads.
+/// Returns the point of the true (CAD, analytic) surface that corresponds to a point on a triangle of the wall; in metres, near that point. Barycentric
+/// `weights`: exactly zero for the corner opposite to the edge on which the point lies, so that edges of the model stay edges. Called from several threads.
 using TrueSurface = std::function<Point(const Point& on_triangle, TriangleId triangle, const std::array<double, 3>& weights)>;
 
 }  // namespace sterna::volmesh

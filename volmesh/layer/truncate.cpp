@@ -10,17 +10,17 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Of the height of a regular tetrahedron on the top: the last cell that is wanted, the least whose step is a good cell (the angle of a tetrahedron that steps
-/// up by it is some 6 degrees), and the tallest that fewer layers may make of one that is not taller anyway.
+/// Shares of the height of a regular tetrahedron on the top: the target for the last cell; the least height whose step is a good cell (a tetrahedron on a
+/// step of this height has an angle of about 6 degrees); and the tallest last cell that fewer layers may produce, if the last cell is not taller already.
 constexpr double k_wanted_last = 0.5, k_least_step = 0.12, k_most_last = 1.5;
-constexpr double k_rounding = 1.0 + 1e-9;  ///< of heights that are compared with n h0, and of growth
-constexpr double k_used_growth = 0.98;     ///< of max_growth: the rest is for curved lines, whose cells grow by more than their heights
+constexpr double k_rounding = 1.0 + 1e-9;  ///< tolerance for heights that are compared with n h0, and for growth
+constexpr double k_used_growth = 0.98;     ///< share of max_growth: the remainder is for curved growth lines, whose cells grow by more than their heights
 
-/// Numbers of layers that a line may have.
+/// Possible numbers of layers of a growth line.
 struct LineChoice {
-  int wanted = 0;     ///< by itself
-  int least = 0;      ///< with neighbours of fewer layers
-  int thin_from = 0;  ///< from this number on its last cell has less than k_least_step
+  int wanted = 0;     ///< without regard to neighbours
+  int least = 0;      ///< beside neighbours with fewer layers
+  int thin_from = 0;  ///< from this number on the last cell has less than k_least_step
 };
 
 class LineTruncation {
@@ -33,7 +33,7 @@ class LineTruncation {
     const double height = normal_height(base_, envelope_, v), h0 = scale_.first_step(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
     const LineGrowth law = scale_.growth(v);
     const auto last = [&](int n) { return last_height(law, height, n); };
-    // Growth and last cell fall with the number of layers.
+    // Growth and height of the last cell fall with the number of layers.
     const auto least_with_growth = [&](double most) {
       return first_of(1, all, [&](int n) { return n == 1 ? height <= h0 * k_rounding : growth_for_height(h0, height, n) <= most * k_rounding; });
     };
@@ -54,7 +54,7 @@ class LineTruncation {
   }
 
  private:
-  /// The least n in [low, high] for which a condition holds that holds from some n on, at `high` in any case.
+  /// Returns the least n in [low, high] for which a condition holds. The condition holds from some n on, and always at `high`.
   template <class IsTrue>
   static int first_of(int low, int high, const IsTrue& is_true) {
     while (low < high) {
@@ -70,7 +70,7 @@ class LineTruncation {
   const Envelope& envelope_;
 };
 
-/// Around fans all columns have all layers: close_fans.h makes cells of its own there.
+/// Requires all layers in all columns around multi-normal fans: close_fans.h makes explicit cells there.
 void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<std::uint16_t>& least) {
   if (base.ridges == nullptr) return;
   std::vector<std::uint8_t> is_of_fan(least.size(), 0);
@@ -108,7 +108,7 @@ LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, co
 
 namespace {
 
-/// Calls visit(v, queue) for all vertices, then for those that it has put into the queue, until there are none.
+/// Calls visit(v, queue) for all vertices, then for the vertices put into the queue, until the queue is empty.
 template <class Visit>
 void visit_until_settled(const LayerBase& base, const Visit& visit) {
   std::vector<VertexId> changed;
@@ -122,8 +122,8 @@ void visit_until_settled(const LayerBase& base, const Visit& visit) {
 
 }  // namespace
 
-/// Lowers numbers towards those of neighbours, as far as their lines may: to one more, to as many where one more is thin. The result is the largest below what
-/// is given, in whatever order.
+/// Lowers numbers towards those of neighbours, as far as their growth lines permit: to one more, or to the same number where one more is thin. The result is
+/// the largest solution below the given numbers, for any order of visits.
 void LayerNumbers::close_downwards() {
   visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
     if (is_fixed_[v.index()]) return;
@@ -145,7 +145,7 @@ void LayerNumbers::close_downwards() {
   });
 }
 
-/// Raises numbers towards those of neighbours: to one less, to as many where those are thin.
+/// Raises numbers towards those of neighbours: to one less, or to the same number where the neighbours are thin.
 void LayerNumbers::close_upwards() {
   visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
     if (is_fixed_[v.index()]) return;

@@ -1,4 +1,4 @@
-// How well the wall's vertices see their faces: whether one growth direction can serve them all.
+// Visibility of the faces at each wall vertex from a single growth direction.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@ namespace sterna::volmesh {
 
 inline constexpr std::array<double, 4> k_visibility_limits_deg = {30.0, 45.0, 60.0, 80.0};
 
-/// Visibility angle of a vertex: between the direction that sees the worst of its faces best and that face's normal, rad.
+/// Visibility angle of a vertex: between the direction with the best worst-case visibility of its faces and the normal of the worst face, rad.
 struct VisibilityReport {
   Column<VertexId, double> angle;
   double max_angle = 0.0;
-  std::array<double, 4> share_above{};  ///< of the given vertices, above k_visibility_limits_deg; of fans the worst line counts
+  std::array<double, 4> share_above{};  ///< share of the given vertices above k_visibility_limits_deg; for multi-normal fans the worst growth line counts
   std::vector<ErrorPlace> hardest;      ///< the worst ten above the first of these limits
 };
 

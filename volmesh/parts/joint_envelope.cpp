@@ -20,7 +20,7 @@ TriangleVertices shifted(TriangleVertices v, std::size_t by) {
   return v;
 }
 
-/// Empty when the part can have its envelope made alone; else why not.
+/// Returns the reason why the envelope of the part cannot be made separately; empty if it can.
 std::string objection(const Domain& domain, const PlacedPart& part, const Column<TriangleId, TriangleId>& surface2wall, WholePart& whole) {
   const std::size_t n = part.own->n_triangles();
   if (n == 0 || part.first_triangle + n > surface2wall.size()) return "it is not on the surface any more";
@@ -41,7 +41,7 @@ std::string objection(const Domain& domain, const PlacedPart& part, const Column
   return {};
 }
 
-/// Of which whole part a vertex of the wall is, counted from 1; 0: of none.
+/// Returns for each vertex of the wall the number of its whole part, counted from 1; 0: no whole part.
 Column<VertexId, std::uint32_t> groups_of(const TriMesh& wall, std::span<const PlacedPart> parts, std::span<const WholePart> whole) {
   Column<VertexId, std::uint32_t> group(wall.n_vertices(), 0);
   for (std::size_t i = 0; i < whole.size(); ++i)
@@ -50,7 +50,7 @@ Column<VertexId, std::uint32_t> groups_of(const TriMesh& wall, std::span<const P
   return group;
 }
 
-/// The part in its own frame, with the patches that it has on the wall.
+/// Returns the part in its own frame, with its patches on the wall.
 PartEnvelopeTask task_of(const MeshingSite& site, const WholePart& whole) {
   const PlacedPart& part = site.options.parts[whole.part];
   PartEnvelopeTask task{.wall = {}, .options = site.given_envelope, .rules = {}, .smooth_angle = part.smooth_angle};
@@ -77,7 +77,7 @@ void take(const Envelope& from, VertexId v, const Transform& placement, Envelope
   if (!(placement == Transform{})) to.direction[w] = placement.vector(from.direction[v]);
 }
 
-/// What is left of the wall without its whole parts, with all that its envelope depends on.
+/// The wall without its whole parts, with all input of its envelope.
 struct Rest {
   TriMesh wall;
   Column<VertexId, VertexId> rest2wall;
@@ -130,7 +130,7 @@ void add_rest(const MeshingSite& site, const Column<VertexId, std::uint32_t>& gr
   for (const VertexId v : rest.rest2wall.ids()) take(own, v, {}, envelope, rest.rest2wall[v]);
 }
 
-/// Lowers heights until all parts are clear of each other and of what is around them. Returns the vertices that it changed, ascending.
+/// Lowers heights until all parts are clear of each other and of their surroundings. Returns the vertices that it changed, ascending.
 std::vector<VertexId> clear_of_each_other(MeshingSite& site, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
   const EnvelopeShape before = envelope;
   keep_inside(site.base, site.options.envelope, envelope, context);

@@ -1,4 +1,4 @@
-// The envelope of a part of the wall alone, in the frame in which it was meshed: the same wherever the part is and whatever is around it.
+// The envelope of a separate part of the wall, in the frame in which the part was meshed: independent of its placement and surroundings.
 #pragma once
 
 #include <functional>
@@ -13,25 +13,25 @@
 
 namespace sterna::volmesh {
 
-/// Everything that a part's envelope depends on.
+/// Complete input of a part's envelope.
 struct PartEnvelopeTask {
   TriMesh wall;  ///< in the part's own frame; patches with their kinds, all of them with layers
   EnvelopeOptions options;
-  std::vector<PatchRule> rules;       ///< those that a patch of it is named like
+  std::vector<PatchRule> rules;       ///< rules whose name matches a patch of the part
   double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle of the part
 };
 
 struct PartEnvelope {
   Envelope envelope;
-  double feature_angle = 0.0;  ///< rad, the user's or the one found for this part
+  double feature_angle = 0.0;  ///< rad, user-defined or detected for this part
 };
 
-/// build_envelope() of the part with nothing around it, or what `make` makes in its place.
+/// Runs build_envelope() for the part without surroundings, or `make` in its place.
 /// \pre wall closed
-/// \throws Error(self_intersection) where the part crosses itself; of the stages
+/// \throws Error(self_intersection) if the part crosses itself; errors of the stages
 PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context, const WallEnvelopeMaker& make = {});
 
-/// Who makes such envelopes: part_envelope(), or one who knows some already.
+/// Makes such envelopes: part_envelope(), or a function that returns known ones.
 using PartEnvelopeMaker = std::function<PartEnvelope(const PartEnvelopeTask&, const RunContext&)>;
 
 }  // namespace sterna::volmesh

@@ -15,13 +15,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Of the target: what counts as full height (layer_report.cpp).
+/// Share of the target that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.9;
-/// Sine between an edge and the normal at its end below which the edge says nothing of the tangent plane.
+/// Sine between an edge and the normal at its end below which the edge does not define a direction in the tangent plane.
 constexpr double k_least_sine = 1e-3;
 
-/// The part of the wall around a vertex at some points, and what it tells: angle-weighted normal, worst cosine between a direction and the normals of the
-/// triangles.
+/// The wall around a vertex for given points: angle-weighted normal, worst cosine between a direction and the normals of the triangles.
 class Surroundings {
  public:
   Surroundings(const LayerBase& base, const Column<VertexId, Point>& points) : base_(base), points_(points) {}
@@ -53,7 +52,7 @@ class Surroundings {
   const Column<VertexId, Point>& points_;
 };
 
-/// Normal, an edge within the tangent plane, and what is normal to both.
+/// Frame of the normal, an edge projected to the tangent plane, and the direction normal to both.
 struct Frame {
   Vec3 normal, along, across;
   Vec3 to_own(const Vec3& v) const { return {dot(v, normal), dot(v, along), dot(v, across)}; }
@@ -68,7 +67,7 @@ std::optional<Frame> frame_of(const Surroundings& around, VertexId v, VertexId n
   return Frame{normal, unit, cross(normal, unit)};
 }
 
-/// The direction of the start turned with the wall, before anything asks whether it is allowed here.
+/// Returns the direction of the start turned with the wall, before the constraints of this wall are applied.
 Vec3 carried_direction(const LayerBase& base, const Surroundings& before, const Surroundings& now, VertexId v, const Vec3& direction) {
   for (const HalfedgeId h : base.topology.outgoing(v)) {
     const VertexId neighbour = base.topology.to(h);
@@ -78,7 +77,8 @@ Vec3 carried_direction(const LayerBase& base, const Surroundings& before, const 
   return base.vertex_normal[v];
 }
 
-/// Heights and directions of the start for what is asked here; not valid yet. \post height <= what it was, where something limited it
+/// Returns heights and directions of the start, adapted to the present targets; not valid yet. \post height <= height of the start, where something limited
+/// it
 Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options, const StartingEnvelope& start, const RunContext& context) {
   Envelope envelope = initial_envelope(base, options, context);
   const Surroundings before(base, start.points), now(base, base.wall.points);
@@ -86,7 +86,7 @@ Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options,
   const Envelope& was = start.envelope;
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
-    if (envelope.is_collapsed(v)) return;  // fixed, or nothing sees all faces
+    if (envelope.is_collapsed(v)) return;  // fixed, or no direction from which all faces are visible
     const auto collapse = [&](HeightLimit reason) {
       envelope.height[v] = 0.0;
       envelope.limit[v] = reason;
@@ -104,7 +104,7 @@ Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options,
   return envelope;
 }
 
-/// Makes it valid and clear; what that lowers grows back where it can.
+/// Makes the envelope valid and clear; heights lowered by this grow back where possible.
 void make_valid(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
   const EnvelopeShape before = envelope;
   keep_inside(base, options, envelope, context);
@@ -116,7 +116,7 @@ void make_valid(const LayerBase& base, const EnvelopeOptions& options, Collider&
   seat_on_surfaces(base, options, &collider, envelope, context);
 }
 
-/// Full height of the start that is not here, as a share of the wall's area, and where most of it is missing.
+/// Area with full height in the start but not here, as a share of the wall's area, and the vertex where most of it is missing.
 struct Loss {
   double share = 0.0;
   VertexId worst;

@@ -14,7 +14,7 @@ struct PatchPart {
   std::vector<TriangleId> triangles;
 };
 
-/// Triangles that were added in the plane, by patch in the order of the boundary.
+/// Returns the triangles that were added in the plane, by patch in the order of the boundary.
 std::vector<PatchPart> parts_in(const AddedPlane& plane, std::size_t n_given, const TriMesh& boundary) {
   std::vector<PatchPart> parts;
   for (std::size_t i = n_given; i < boundary.n_triangles(); ++i) {
@@ -28,10 +28,10 @@ std::vector<PatchPart> parts_in(const AddedPlane& plane, std::size_t n_given, co
   return parts;
 }
 
-/// The border of some triangles, and whether layers of other patches end on them.
+/// Border of some triangles, and whether layers of other patches end on them.
 struct PartBorders {
   EndRegion region;
-  std::vector<VertexId> vertices;  ///< of the boundary, of each point of the region
+  std::vector<VertexId> vertices;  ///< vertex of the boundary for each point of the region
   bool has_rim = false;
 };
 

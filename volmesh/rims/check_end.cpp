@@ -16,7 +16,7 @@ constexpr std::uint32_t k_no_half = ~0u;
 
 std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
-/// Half-edges by their ends. Only one of each pair when all is right.
+/// Half-edges by their ends. For a valid triangulation there is only one for each pair of ends.
 class HalfTable {
  public:
   explicit HalfTable(std::span<const std::array<std::uint32_t, 3>> triangles) {
@@ -53,7 +53,7 @@ class Groups {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Components, border loops and Euler number. Corners of triangles that share an edge at a vertex are one fan.
+/// Counts components, border loops and Euler number. Corners of triangles that share an edge at a vertex are one fan.
 void count_topology(const std::vector<std::uint32_t>& twin, EndCheck& check) {
   const std::size_t n_halves = twin.size();
   Groups components(n_halves / 3), fans(n_halves);
@@ -72,7 +72,7 @@ void count_topology(const std::vector<std::uint32_t>& twin, EndCheck& check) {
     ++check.n_loops;
     for (std::uint32_t h = first; is_seen[h] == 0;) {
       is_seen[h] = 1;
-      // Around the end of h to the border half-edge that leaves it in the same fan.
+      // Turns around the end of h to the outgoing border half-edge in the same fan.
       h = next(h);
       while (twin[h] != k_no_half) h = next(twin[h]);
     }

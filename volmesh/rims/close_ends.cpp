@@ -1,6 +1,6 @@
-// Steps: tops take the place of rim vertices; chains between end patches are cut again beyond the layer (`cut_chain`); each end patch is triangulated within
-// its loops, which are borders to other patches, chains, and the rim's edges between tops. Of periodic sides the second gets the chains and triangles of the
-// first, moved.
+// Steps: tops replace the vertices of the open boundary; chains between adjacent patches are divided again beyond the layer (`cut_chain`); each adjacent
+// patch is triangulated within its loops, which are borders to other patches, chains, and the edges of the open boundary between tops. Of two periodic sides
+// the second gets the translated chains and triangles of the first.
 #include "volmesh/rims/close_ends.h"
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_least_chain = 1e-6;  ///< of a chain's length: what the layers must leave of it
+constexpr double k_least_chain = 1e-6;  ///< share of a chain's length that the layers must leave free
 
-using Edge = std::array<VertexId, 2>;  ///< of the result
+using Edge = std::array<VertexId, 2>;  ///< vertices of the result
 
 /// Position along a polygon by arc length.
 class Polyline {
@@ -50,7 +50,7 @@ class Polyline {
   std::vector<double> at_;
 };
 
-/// Places between s0 and s1, ends left out, such that edges are about size(s).
+/// Returns positions between s0 and s1, ends excluded, such that edges have lengths of about size(s).
 template <class Size>
 std::vector<double> spaced(double s0, double s1, const Size& size) {
   constexpr int k_samples_per_edge = 8;
@@ -103,7 +103,7 @@ class Closer {
   }
 
  private:
-  /// A chain of which another is the image, moved; its polygon may run the other way.
+  /// A chain whose translated image is another chain; the polygons may have opposite senses.
   struct ChainImage {
     const EndChain* chain;
     Vec3 translation;
@@ -114,7 +114,7 @@ class Closer {
     return found == domain_.periodic.end() ? nullptr : &*found;
   }
 
-  /// Back along periodic sides while there is one whose second side the chain is on.
+  /// Follows periodic sides backwards as long as the chain is on the second side of a pair.
   std::optional<ChainImage> image_of(const EndChain& chain) const {
     std::vector<VertexId> at = chain.outer;
     Vec3 way;
@@ -161,13 +161,13 @@ class Closer {
     VertexId& v = new_of_[outer];
     return v.is_valid() ? v : v = add(domain_.outer.points[outer], {});
   }
-  /// The top of a line.
+  /// Returns the top of a growth line as a vertex of the result.
   VertexId vertex_on(VertexId line) {
     VertexId& v = top_of_[line];
     return v.is_valid() ? v : v = add(top(line), line);
   }
 
-  /// Fans of opened ridges stand in end patches: one vertex of their border has several lines.
+  /// Finds multi-normal fans of opened ridges in adjacent patches: one vertex of the patch border has several growth lines.
   void find_fan_edges() {
     for (const RimEdge& edge : domain_.rim) {
       const VertexId a = base_.topology.from(edge.halfedge), b = base_.topology.to(edge.halfedge);
@@ -175,7 +175,7 @@ class Closer {
       else if (base_.fan_of(a) || base_.fan_of(b)) lines_of_.emplace(key(base_.ridges->foot[b], base_.ridges->foot[a]), Edge{b, a});
     }
   }
-  /// An edge of the outer boundary between lines of the layer, or elsewhere.
+  /// Returns the edge of the result for an edge of the outer boundary between growth lines of the layer, or elsewhere.
   Edge edge_between(VertexId a, VertexId b) {
     const VertexId from = domain_.links.line[a], to = domain_.links.line[b];
     if (from.is_valid() && to.is_valid())
@@ -186,7 +186,7 @@ class Closer {
 
   static std::uint64_t key(VertexId from, VertexId to) { return (static_cast<std::uint64_t>(from.value()) << 32) | to.value(); }
 
-  /// Replaces the edges of a chain by new ones beyond the tops at its ends.
+  /// Replaces the edges of a chain by new edges beyond the tops at its ends.
   void cut_chain(const EndChain& chain) {
     std::vector<Point> points;
     for (const VertexId v : chain.outer) points.push_back(domain_.outer.points[v]);
@@ -231,7 +231,7 @@ class Closer {
     return distance(start, domain_.outer.points[image.chain->outer.front()]) <= distance(start, domain_.outer.points[image.chain->outer.back()]);
   }
 
-  /// The edges of a polygon in place of those of a chain.
+  /// Replaces the edges of a chain by the edges of a polygon.
   void replace(const EndChain& chain, const std::vector<VertexId>& polygon) {
     for (std::size_t i = 1; i < chain.outer.size(); ++i) {
       replaced_.emplace(key(chain.outer[i - 1], chain.outer[i]), std::vector<Edge>{});
@@ -246,7 +246,7 @@ class Closer {
   double height(VertexId line) const { return envelope_.is_collapsed(line) ? 0.0 : envelope_.height[line]; }
   const std::string& name(PatchId patch) const { return domain_.outer.patches[patch].name; }
 
-  /// The part of the boundary that an end patch has to cover, and the vertices of the result that its points are.
+  /// The part of the boundary to be covered by an adjacent patch, and the vertices of the result for its points.
   struct Region {
     EndRegion region;
     TriMesh original;
@@ -339,12 +339,13 @@ class Closer {
   const EnvelopeShape& envelope_;
   const CloseEndsOptions& options_;
   const RunContext& context_;
-  Topology topology_;                                          ///< of domain_.outer
-  Column<VertexId, VertexId> new_of_, top_of_;                 ///< of a vertex of domain_.outer that is on no line; of a line
-  std::map<std::uint64_t, Edge> lines_of_;                     ///< by an edge between feet as the end patch has it: its lines, where there is a fan
-  std::vector<std::pair<Edge, PatchId>> fan_edges_;            ///< between lines of one foot, as the end patch has them
-  std::map<std::uint64_t, std::vector<Edge>> replaced_;        ///< by an edge of a chain: what stands for it, all at its first edge
-  std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< what stands for a chain
+  Topology topology_;                                          ///< topology of domain_.outer
+  Column<VertexId, VertexId> new_of_, top_of_;                 ///< by vertex of domain_.outer without a growth line; by growth line
+  std::map<std::uint64_t, Edge> lines_of_;                     ///< by edge between ridge base vertices, in the sense of the adjacent patch: its growth lines,
+                                                               ///< where there is a multi-normal fan
+  std::vector<std::pair<Edge, PatchId>> fan_edges_;            ///< between growth lines with a common ridge base vertex, in the sense of the adjacent patch
+  std::map<std::uint64_t, std::vector<Edge>> replaced_;        ///< by edge of a chain: the replacing edges, all at its first edge
+  std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< by chain: the polygon that replaces it
   struct First {
     std::unique_ptr<Region> made;
     EndTriangles triangles;

@@ -1,4 +1,4 @@
-// A curved end surface, cut into what stays of the original and parts that one projection each can show.
+// Splits a curved adjacent patch into triangles of the original that stay and parts that can each be meshed in one projection.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,10 @@
 
 namespace sterna::volmesh {
 
-/// Kept triangles go to `result` (their vertices as new points where they are not points of the region); the parts' edges index both.
-/// \pre region.original is there.
-/// \throws Error(geometry_failed) for a footprint around which no part has a projection, with the place
+/// Splits the region. Triangles that stay go to `result` (their vertices as new points where they are not points of the region); the edges of the parts index
+/// points of both.
+/// \pre region.original is not null.
+/// \throws Error(geometry_failed) for a footprint around which no part has a projection, with the location
 std::vector<EndPart> split_curved(const EndRegion& region, EndTriangles& result, const RunContext& context);
 
 }  // namespace sterna::volmesh

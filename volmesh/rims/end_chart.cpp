@@ -12,13 +12,13 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Of the region's size: farther off a plane a loop's point is a mistake. (The symmetry gate's own limit is 1e-12 of the body length.)
+/// Share of the region's size: points of loops farther off a plane are an error. (The symmetry gate's own limit is 1e-12 of the body length.)
 constexpr double k_on_plane = 1e-9;
-/// Of the largest coordinate: an original whose points are nearer than this to one plane is flat. Sixteen roundings of a coordinate.
+/// Share of the largest coordinate: an original whose points are nearer than this to one plane is flat. Sixteen roundings of a coordinate.
 constexpr double k_flat = 16.0 * 2.220446049250313e-16;
 /// Newton's method on the height: quadratic on smooth surfaces, one step on triangles.
 constexpr int k_max_steps = 12;
-/// Of the size of the projected piece: a height is right.
+/// Share of the size of the projected piece: tolerance of a height.
 constexpr double k_height_tolerance = 1e-14;
 
 double largest_coordinate(const Box& box) {
@@ -33,7 +33,7 @@ std::optional<std::size_t> axis_of(const Vec3& n) {
   return std::nullopt;
 }
 
-/// Of the points that edges use, in the order of the edges.
+/// Returns the points that edges use, in the order of the edges.
 std::vector<Point> loop_points(const EndRegion& region) {
   std::vector<Point> points;
   points.reserve(region.edges.size());
@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The frame of a plane with this normal through the loops' points (their median height).
+/// Returns the frame of a plane with this normal through the loops' points (their median height).
 EndFrame frame_through(const Vec3& normal, const std::vector<Point>& points) {
   Box box;
   for (const Point& p : points) box.add(p);
@@ -64,7 +64,8 @@ EndFrame frame_through(const Vec3& normal, const std::vector<Point>& points) {
   return end_frame_along(normal, centre + median(std::move(heights)) * normal);
 }
 
-/// Normal of an original that is flat to rounding, along its axis exactly when it is along one; nothing when it is not flat.
+/// Returns the normal of an original that is flat to rounding, exactly along a coordinate axis if the original lies across one; empty if the original is not
+/// flat.
 std::optional<Vec3> flat_normal(const TriMesh& original) {
   Vec3 area{};
   for (const TriangleId t : original.triangles.ids()) {
@@ -120,7 +121,7 @@ class ProjectedPiece final : public Surface {
       p = frame_.origin + at.u * frame_.x + at.v * frame_.y + height * frame_.normal;
       normal = surface_.normal(p);
       const double off = dot(surface_.closest(p) - p, normal), steepness = dot(normal, frame_.normal);
-      // Steeper than the projection allows: the surface is not that of the original; the guess is as good as it gets.
+      // Steeper than the projection allows: the surface is not that of the original; the guess cannot be improved.
       if (std::abs(off) <= tolerance_ || !(steepness > k_least_steepness)) break;
       height += off / steepness;
     }
@@ -134,10 +135,10 @@ class ProjectedPiece final : public Surface {
   std::string kind() const override { return "projection of an end surface"; }
 
  private:
-  /// Cosine of 80 degrees: pieces are taken up to 70.
+  /// Cosine of 80 degrees: pieces have angles up to 70.
   static constexpr double k_least_steepness = 0.17;
 
-  /// Height of the original over the place, linear in its triangles.
+  /// Returns the height of the original over the location, linear in its triangles.
   double guess(Uv at) const {
     const Point place{at.u, at.v, 0.0};
     const NearestHit hit = flat_.nearest(place);

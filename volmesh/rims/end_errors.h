@@ -1,4 +1,4 @@
-// Errors of end surfaces: all name the patch and draw its loops.
+// Errors of adjacent patches: all name the patch and contain its loops as geometry.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace sterna::volmesh {
 
-/// With the loops as geometry; places are to be added.
+/// Returns an error with the loops as geometry; the caller adds locations.
 ErrorInfo end_error(const EndRegion& region, ErrorCode code, std::string problem);
 
-inline constexpr int k_end_digits = 3;  ///< of lengths in these errors
+inline constexpr int k_end_digits = 3;  ///< digits of lengths in these errors
 
 }  // namespace sterna::volmesh

@@ -1,5 +1,5 @@
 // 1. closed_loops   edges to loops
-// 2. places_of      what edges of the loops, and curvature, allow around them
+// 2. places_of      sizes around edges of the loops, and sizes by curvature
 // 3. mesh_face      of geom/delaunay, in the part's plane
 // 4. prove          edges, senses, Euler number, positive areas
 #include "volmesh/rims/end_part.h"
@@ -17,12 +17,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_size_tolerance = 0.02;  ///< of a size at the centre of a circular loop, whose points are all as near
+constexpr double k_size_tolerance = 0.02;  ///< share of a size at the centre of a circular loop, whose points are all at the same distance
 constexpr const char* k_crossing_hint =
     "footprints of layers may not overlap, nor leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
     "larger";
 
-/// For each point that edges use its first place among them; same points as `loops`, once each.
+/// Returns the points that edges use, once each, ascending.
 std::vector<std::uint32_t> used_points(std::span<const EndEdge> edges) {
   std::vector<std::uint32_t> used;
   used.reserve(2 * edges.size());
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> used_points(std::span<const EndEdge> edges) {
   return used;
 }
 
-/// Points of their own at one place would be joined by the triangulation.
+/// Rejects different points at the same location: the triangulation would join them.
 void check_places(const EndRegion& region, const EndTriangles& result, std::span<const EndEdge> edges) {
   std::vector<std::uint32_t> used = used_points(edges);
   const auto at = [&](std::uint32_t i) -> const Point& { return point_of(region, result, i); };
@@ -64,14 +64,14 @@ std::vector<SizeSite> places_of(const EndRegion& region, const EndTriangles& res
     places[k].point = point_of(region, result, used[k]);
   }
   places.insert(places.end(), part.curvature_sizes.begin(), part.curvature_sizes.end());
-  // What is found within the tolerance depends on the order of the sites: so not on how points are numbered.
+  // The result within the tolerance depends on the order of the sites, so they are sorted independently of the numbering of points.
   std::ranges::sort(places, {}, [](const SizeSite& s) { return std::tuple(s.point.x, s.point.y, s.point.z, s.size); });
   return places;
 }
 
 struct PartBorder {
   delaunay::FaceBorder border;
-  std::vector<std::uint32_t> point;  ///< of each vertex, all loops in order
+  std::vector<std::uint32_t> point;  ///< for each vertex of all loops in order
 };
 
 PartBorder border_of(const EndRegion& region, const EndTriangles& result, const EndPart& part) {
@@ -87,7 +87,7 @@ PartBorder border_of(const EndRegion& region, const EndTriangles& result, const 
   return border;
 }
 
-/// The mesher's errors, as trouble of this patch.
+/// Rethrows an error of the mesher as an error of this patch.
 [[noreturn]] void throw_for_patch(const EndRegion& region, const Error& error) {
   ErrorInfo info = end_error(region, error.code(), error.info().problem);
   info.places = error.info().places;
@@ -154,7 +154,7 @@ void check_closed(const EndRegion& region, const EndTriangles& result, std::span
 }
 
 std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> edges) {
-  // Edges by where they begin; of each beginning the next one not taken.
+  // Edges by their start; for each start the next edge that is not taken.
   const std::vector<std::uint32_t> used = used_points(edges);
   const auto number = [&](std::uint32_t i) { return static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), i) - used.begin()); };
   std::vector<std::size_t> first(used.size() + 1, 0);

@@ -30,7 +30,7 @@ void check_input(const EndRegion& region) {
   if (info.n_places > 0) throw Error(std::move(info));
 }
 
-/// Parts and kept triangles together have the region's border and no other.
+/// Proves that parts and kept triangles together have the region's border and no other.
 void prove_whole(const EndRegion& region, const EndTriangles& result) {
   const EndCheck check = check_end(region.edges, result.triangles);
   if (check.missing.empty() && check.open.empty() && check.repeated.empty()) return;

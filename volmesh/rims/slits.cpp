@@ -13,16 +13,17 @@
 namespace sterna::volmesh {
 namespace {
 
-/// One side of a disc, upstream, between its outlines and free rims.
+/// One side of a disc (baffle), upstream, between its outlines and free edges.
 struct Sheet {
-  std::vector<VertexId> lines;  ///< of the wall: the first points
-  std::size_t n_rim = 0;        ///< of the points that follow
+  std::vector<VertexId> lines;  ///< growth lines of the wall under the first points
+  std::size_t n_rim = 0;        ///< number of the following points that are on free edges
   std::vector<Point> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< normals upstream
   bool is_on_rim(std::uint32_t i) const { return i >= lines.size() && i < lines.size() + n_rim; }
 };
 
-/// Both sides share the vertices of free rims, so no edge inside may join two of them: such edges get a vertex in their middle.
+/// Splits edges between vertices of free edges. Both sides share these vertices, so no inner edge may join two of them: such edges get a vertex in their
+/// middle.
 void split_chords(Sheet& sheet) {
   for (bool has_split = true; has_split;) {
     has_split = false;
@@ -90,7 +91,7 @@ Sheet make_sheet(const TriMesh& wall, const DiscSlit& slit, const ActuatorDisc& 
   return sheet;
 }
 
-/// The sheet meets walls in its outlines and nothing else.
+/// Requires that the baffle intersects walls in its outlines only.
 void require_sheet_clear(const ActuatorDisc& disc, const Sheet& sheet, const Domain& domain, const RunContext& context) {
   std::vector<Vec3> points(domain.wall.points.begin(), domain.wall.points.end());
   const auto n_wall = static_cast<std::uint32_t>(points.size());
@@ -120,7 +121,7 @@ void require_sheet_clear(const ActuatorDisc& disc, const Sheet& sheet, const Dom
   require_clear(disc, points, triangles, sheet.triangles.size(), patch_of, " away from where walls with layers go through it", context);
 }
 
-/// Holds the outlines, and says which vertices beside them keep on their side of the plane.
+/// Constrains the outlines, and marks the adjacent vertices that stay on their side of the plane.
 class Holder {
  public:
   explicit Holder(Domain& domain) : domain_(domain), reach_(domain.wall) {
@@ -140,7 +141,7 @@ class Holder {
   }
 
  private:
-  /// Vertices on one side from which a layer can reach the outline along the wall.
+  /// Marks vertices on one side from which a layer can reach the outline along the wall.
   void mark_near(const DiscPlane& plane, const std::vector<VertexId>& from, std::int32_t surface, double side) {
     const auto is_on_side = [&](VertexId v) { return side * plane.height(domain_.wall.points[v]) > 0.0; };
     reach_.mark(from, surface, is_on_side, domain_.constraints.near);
@@ -150,7 +151,7 @@ class Holder {
   WallReach reach_;
 };
 
-/// Half-edges of the wall that the outline's edges are.
+/// Returns the half-edges of the wall on the edges of the outline.
 std::vector<std::array<HalfedgeId, 2>> outline_on_wall(const TriMesh& boundary, const CutDisc& cut, const Domain& domain) {
   std::vector<std::array<VertexId, 2>> edges = cut.outline;
   std::ranges::sort(edges);
@@ -169,7 +170,7 @@ std::vector<std::array<HalfedgeId, 2>> outline_on_wall(const TriMesh& boundary, 
   return outline;
 }
 
-/// The wall triangles at these vertices that lie downstream.
+/// Finds the wall triangles at these vertices that lie downstream.
 void find_behind(const DiscPlane& plane, const std::vector<VertexId>& vertices, const TriMesh& wall, std::vector<TriangleId>& behind) {
   for (const TriangleId t : wall.triangles.ids()) {
     double farthest = 0.0;
@@ -186,7 +187,7 @@ void find_behind(const DiscPlane& plane, const std::vector<VertexId>& vertices, 
   }
 }
 
-/// Place of an outline's vertex among all.
+/// Returns the position of an outline's vertex among all outline vertices.
 std::size_t second_of(const Domain& domain, VertexId v) {
   return static_cast<std::size_t>(std::ranges::lower_bound(domain.slit_vertices, v) - domain.slit_vertices.begin());
 }
@@ -244,7 +245,7 @@ void close_slits(const Domain& domain, const LayerBase& base, const EnvelopeShap
       outer.line.push_back(line);
       return outer.mesh.points.push_back(Point(sheet.points[i]));
     };
-    std::vector<std::array<VertexId, 2>> sides;  // of each point: upstream, downstream
+    std::vector<std::array<VertexId, 2>> sides;  // per point: upstream, downstream
     for (std::size_t i = 0; i < sheet.points.size(); ++i) {
       if (i < sheet.lines.size()) {
         const VertexId v = sheet.lines[i];
