@@ -7,7 +7,8 @@
 namespace sterna::volmesh {
 
 /// Returns true if an envelope vertex at `growth` from its wall vertex keeps clear of every surface that applies to the wall vertex and on which the wall
-/// vertex does not lie: at least 5 % of the wall vertex's own distance. For planes this holds for the whole envelope if it holds at its vertices.
+/// vertex does not lie: at least k_kept_share of the wall vertex's own distance or half of k_kept_edges mean edges, whichever is less. For planes this holds
+/// for the whole envelope if it holds at its vertices.
 bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth);
 
 /// Lowers heights until every vertex is inside, as for a gap to the mirrored body (HeightLimit::gap).
