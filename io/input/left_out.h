@@ -1,4 +1,4 @@
-// What a reader leaves out of what it returns, counted by kind and reported once.
+// Counts of items that a reader leaves out, by kind, reported once.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class LeftOut {
     for (const auto& [what, n] : counts_) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + what;
     return text;
   }
-  /// "FILE: left out: 3 curves, 12 lines", if anything was: a warning, or a note for what bounds nothing.
+  /// Reports "FILE: left out: 3 curves, 12 lines" if any item was left out: as a warning, or as a note for items that bound nothing.
   void warn(const std::string& source, const RunContext& context) const {
     if (!empty()) context.warn(source + ": left out: " + text());
   }
