@@ -35,8 +35,7 @@ herr_t close_file(H5FD_t* file) {
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
   if (flags)
-    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
-             H5FD_FEAT_AGGREGATE_SMALLDATA;  // as in the library's own file driver
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;  // as HDF5's own driver
   return 0;
 }
 

@@ -36,9 +36,8 @@ std::optional<NumberKind> kind_of(nc_type type) {
 void require(int status, const std::string& where) {
   if (status == NC_NOERR) return;
   if (status == NC_ENOMEM) throw std::bad_alloc();
-  const std::string problem = status == EPERM
-                                  ? "the file ends before its values do"
-                                  : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: the library would have to grow the file
+  const std::string problem = status == EPERM ? "the file ends before its values do"
+                                              : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: file would have to grow
   throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = problem, .hint = "the file may have been cut short: copy or write it again"};
 }
 
