@@ -1,4 +1,4 @@
-// The process of the workbench in which scripts run: a crash or a stop there leaves the page as it is.
+// The process of the workbench in which scripts run: a crash or a stop of this process does not affect the page.
 //
 // Jobs come as lines of JSON on stdin, answers go as lines of JSON to a descriptor; "bytes": n says that n bytes follow the line.
 //   {"do": "run", "run": 3, "mode": "sketch" | "geometry" | "mesh", "arguments": {"span": "11"}, "wanted": ["model"], "unwanted": [], "kept": []}
@@ -18,7 +18,7 @@
 
 namespace sterna::scripting {
 
-/// Descriptor that answers are written to.
+/// Descriptor to which answers are written.
 inline constexpr int k_view_answers = 4;
 
 struct ViewWorker {
@@ -27,7 +27,7 @@ struct ViewWorker {
   const StageCache* cache = nullptr;
 };
 
-/// Answers jobs until stdin ends; a job that is stopped (SIGTERM) ends the process with it. Exit status.
+/// Answers jobs until stdin ends; stopping a job (SIGTERM) ends the process. Returns the exit status.
 int run_view_worker(const ViewWorker& worker, const CommandContext& context);
 
 }  // namespace sterna::scripting
