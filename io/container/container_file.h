@@ -21,8 +21,8 @@ enum class ContainerFormat { hdf5, netcdf, cgns };  ///< cgns: HDF5 or ADF
 /// Memory is proportional to the file size: contiguous arrays are no larger than the file, unpacked arrays in total at most wire::k_max_expansion times as
 /// large.
 /// \param helper_folder folder of sterna-read-container; empty = beside the program
-/// \throws Error file_not_found; file_malformed (path in the file, expectation; also if the library crashes or exceeds its limits); unsupported_format
-/// (links, filters, types; the helper is missing); cancelled.
+/// \throws Error file_not_found; file_malformed (path in the file, expectation; also if the library crashes or exceeds its limits); unsupported_format (links,
+/// filters, types; the helper is missing); cancelled.
 ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context,
                               const std::string& helper_folder = {});
 

@@ -1,7 +1,7 @@
 // Protocol between sterna and sterna-read-container. This header includes nothing of sterna except the kinds of numbers.
 //
-// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups to leave out. Descriptor 3: the file, read-only. Descriptor 4: the image,
-// a memfd. Image: ImageHeader; n_nodes NodeRecords, each after its parent, the root first; text_size bytes of text; values, each aligned to k_alignment.
+// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups to leave out. Descriptor 3: the file, read-only. Descriptor 4: the image, a
+// memfd. Image: ImageHeader; n_nodes NodeRecords, each after its parent, the root first; text_size bytes of text; values, each aligned to k_alignment.
 // With an outcome other than ok: the header and the text only.
 #pragma once
 

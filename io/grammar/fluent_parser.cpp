@@ -1,6 +1,5 @@
 // Sections are nested brackets: (index (header) (body)). Indices are decimal; all other integers are hexadecimal, except in sections 0, 2, 39 and 45. Strings
-// may
-// contain brackets.
+// may contain brackets.
 #include "io/grammar/fluent_parser.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map gives point numbers. In binary files
-// the sections contain bytes, but section names, and in 2.2 their counts, are text. So the text scanner controls the parsing, and a byte reader is used inside
-// a section.
+// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map gives point numbers. In binary files the
+// sections contain bytes, but section names, and in 2.2 their counts, are text. So the text scanner controls the parsing, and a byte reader is used inside a
+// section.
 #include "io/grammar/msh_parser.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Decoded contents of the VTK formats (legacy, VTU, VTP), and conversion to a surface or a volume mesh (docs/method/formats.md, "VTK
-// family").
+// Decoded contents of the VTK formats (legacy, VTU, VTP), and conversion to a surface or a volume mesh (docs/method/formats.md, "VTK family").
 #pragma once
 
 #include <array>

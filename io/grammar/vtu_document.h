@@ -48,8 +48,7 @@ struct VtuDocument {
 VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values);
 
 /// Writes binary appended data, compressed as specified in the document (zlib: level k_zlib_level), little endian, UInt64 headers. The bytes do not depend on
-/// the
-/// number of threads.
+/// the number of threads.
 /// \throws Error write_failed, cancelled, and errors of fill functions.
 void write_vtu(const VtuDocument& document, const std::filesystem::path& path, const RunContext& context);
 

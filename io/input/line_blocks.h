@@ -1,6 +1,5 @@
 // Text files of blocks: a keyword announces n lines with one item each. A first pass finds the start of blocks and of their chunks of lines (as fast as
-// memchr);
-// then all threads parse the chunks. Blank lines and '%' comments are ignored; CRLF is accepted.
+// memchr); then all threads parse the chunks. Blank lines and '%' comments are ignored; CRLF is accepted.
 #pragma once
 
 #include <cstdint>

@@ -46,8 +46,7 @@ class TextScanner {
   double coordinate(std::string_view expected);
   std::int64_t integer(std::string_view expected);
   /// Reads a count of items, an integer in [0, remaining bytes / min_bytes]. Each item takes at least `min_bytes` of the remaining text, so that memory
-  /// reserved
-  /// for the items is proportional to the file size.
+  /// reserved for the items is proportional to the file size.
   std::size_t count(std::string_view expected, std::size_t min_bytes);
   /// Reads an integer in [base, base + n) and returns it less base.
   std::uint32_t index(std::string_view expected, std::int64_t base, std::size_t n);

@@ -17,8 +17,7 @@ struct FlipCounts {
 
 /// Flips every explicit cell of negative volume (tets and wedges: two nodes swapped in each triangle; pyramids, hexahedra: in each quad). Then reverses every
 /// boundary face whose orientation is opposite to that of its cell's face. Both are reported in the log. Faces without a cell, and faces with crossed quads,
-/// are
-/// kept; `check` reports them.
+/// are kept; `check` reports them.
 /// \pre node ids in range. Parallel, same result for any number of threads.
 FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context);
 

@@ -22,8 +22,7 @@ struct FileBoundary {
 };
 
 /// Returns the boundary faces of a volume mesh: triangles, then quads split in two. Points that no face uses are left out. The winding is that of the mesh, out
-/// of
-/// the fluid. Patches without faces are dropped.
+/// of the fluid. Patches without faces are dropped.
 /// \pre faces have patches
 SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source, const RunContext& context);
 SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source, const RunContext& context);

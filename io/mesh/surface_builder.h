@@ -41,8 +41,7 @@ class SurfaceBuilder {
   }
 
   /// Splits the polygons and drops patches without triangles. With `drop_unused_points` (for the boundary of a volume mesh) unused points are removed; the
-  /// order
-  /// of the others is kept. Polygons with corners that are not finite are left out with a warning; unused points are then removed, too.
+  /// order of the others is kept. Polygons with corners that are not finite are left out with a warning; unused points are then removed, too.
   /// \pre every index is below n_points()
   SurfaceSoup finish(const RunContext& context, bool drop_unused_points = false);
 

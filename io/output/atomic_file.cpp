@@ -159,8 +159,7 @@ void AtomicFile::fail(int error_number, std::string_view doing) {
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) {
     // Frees the disk even if a library has the file open, which needs room to write the data required for closing it. Nobody reads the file any more, so a
-    // failure
-    // is harmless.
+    // failure is harmless.
     (void)!::ftruncate(descriptor_, 0);
     ::close(descriptor_);
   }

@@ -1,6 +1,5 @@
 // Numbering of items that columns have layer by layer (cells, faces of a side), one column after the other. Arithmetic where all columns have the same number
-// of
-// layers, a table of offsets where the numbers differ.
+// of layers, a table of offsets where the numbers differ.
 #pragma once
 
 #include <algorithm>

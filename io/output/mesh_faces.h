@@ -24,9 +24,9 @@ struct CellFace {
 };
 
 /// Faces of a mesh, which must outlive this object. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids,
-/// hexahedra,
-/// tetrahedra; after order_cells() as defined there. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table:
-/// 12 bytes per face and 4 per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
+/// hexahedra, tetrahedra; after order_cells() as defined there. Inside the columns neighbours follow from the numbering; only the other faces are matched
+/// through a table: 12 bytes per face and 4 per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest
+/// node.
 class MeshFaces {
  public:
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();
@@ -34,16 +34,14 @@ class MeshFaces {
 
   /// Matches the faces. Parallel, same result for any number of threads.
   /// \throws Error mesh_invalid: a face of only one cell that is not a boundary face, a face of three cells, a boundary face without a cell, a node that does
-  /// not
-  /// exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
+  /// not exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
   MeshFaces(const HybridMesh& mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }
   std::uint64_t n_column_cells() const { return n_column_cells_; }  ///< the first cells of for_each_cell()
 
   /// Renumbers the cells. `both`: columns as units, from the wall outwards, and the explicit cells, with both ordered by bandwidth_order; `bandwidth`: all
-  /// cells;
-  /// `lines`: unchanged. Stores two more numbers per cell.
+  /// cells; `lines`: unchanged. Stores two more numbers per cell.
   void order_cells(Numbering numbering, const RunContext& context);
   /// Returns the number of a cell, given by its number in for_each_cell().
   std::uint32_t number_of(std::uint64_t cell) const { return new_of_old_.empty() ? static_cast<std::uint32_t>(cell) : new_of_old_[cell]; }
@@ -67,8 +65,7 @@ class MeshFaces {
   Count internal_before(std::uint64_t cell) const;
 
   /// Calls f(cell, face) for the internal faces whose lower cell is in [begin, end), oriented as seen from that cell. Order: by lower cell, then by the other
-  /// cell
-  /// ("upper triangular").
+  /// cell ("upper triangular").
   template <class F>
   void for_each_internal(std::uint64_t begin, std::uint64_t end, const F& f) const {
     std::array<CellFace, k_most_faces> faces;

@@ -41,8 +41,7 @@ using FillChunk = std::function<void(std::size_t chunk, ByteBuffer& out)>;
 using TakeBytes = std::function<void(std::string_view bytes)>;
 
 /// Passes the bytes of chunks 0 .. n_chunks-1 to `take`, in order; the result does not depend on the number of threads. At most 2 * k_batch_chunks buffers
-/// exist at
-/// a time. Reports progress in [0, 1] of `context`.
+/// exist at a time. Reports progress in [0, 1] of `context`.
 /// \throws errors of `fill` and `take`; Error(cancelled).
 void write_ordered(const TakeBytes& take, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 

@@ -1,6 +1,5 @@
 // HDF5 with libhdf5. Links by name and to other files are not followed. A group or dataset that is reached a second time is recorded as a link, too, which
-// avoids
-// cycles.
+// avoids cycles.
 #include <hdf5.h>
 #include <sys/mman.h>
 

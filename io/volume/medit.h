@@ -31,8 +31,7 @@ inline constexpr std::int32_t k_medit_end = 54;
 
 /// Reads text or binary, detected from the content. Patches are the reference numbers of triangles and quads, in order of appearance; names and kinds come from
 /// x.names beside the mesh, else "patch_<number>". Other sections (corners, ridges, normals) are ignored. Cells with the wrong winding are flipped, boundary
-/// faces
-/// turned outwards.
+/// faces turned outwards.
 /// \throws Error file_malformed (line or byte), unsupported_format (two dimensions, elements of higher order), file_not_found
 HybridMesh read_volume_medit(const std::filesystem::path& path, const RunContext& context);
 

@@ -33,8 +33,7 @@ struct StoredTetrahedra {
   std::vector<Vec3> new_points;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
   /// Nodes of the mesh's layers that had other coordinates when the tetrahedra were generated, ascending, and these coordinates: improvement has moved the
-  /// nodes
-  /// since.
+  /// nodes since.
   std::vector<std::uint32_t> moved_nodes;
   std::vector<Vec3> moved_points;  ///< m
 };

@@ -24,10 +24,8 @@ void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path
 
 /// Reads the unstructured zones (joined) of the first base of three dimensions, HDF5 or ADF of any version: fixed-type and MIXED sections, integers of 32 or 64
 /// bits, coordinates of either precision. The patch of a face is the family (else the name) of the boundary condition that lists it, by element range or list,
-/// or by
-/// its nodes; else it is named after its section. Points and bars are left out; cells with the wrong winding are flipped, faces turned outwards; all are
-/// counted
-/// in the log.
+/// or by its nodes; else it is named after its section. Points and bars are left out; cells with the wrong winding are flipped, faces turned outwards; all are
+/// counted in the log.
 /// \throws Error file_malformed, unsupported_format (structured zones, polyhedra, second order, links to other files), file_not_found.
 HybridMesh read_volume_cgns(const std::filesystem::path& path, const RunContext& context);
 

@@ -71,8 +71,7 @@ class CgnsReader {
 
  private:
   /// Finds the base. Surfaces prefer a base of two dimensions, volume meshes a base of three. A file without a base of three dimensions contains only a
-  /// surface, which
-  /// is read as a surface.
+  /// surface, which is read as a surface.
   const CgnsNode& find_base() {
     const CgnsNode *found = nullptr, *surface = nullptr;
     int n_bases = 0;

@@ -1,6 +1,5 @@
 // Writer of .bmsh. Tables are column-major: all first nodes of a group, then all second nodes. A node's header states the number of children before they are
-// written,
-// so the tree is laid out first.
+// written, so the tree is laid out first.
 #include <algorithm>
 #include <cctype>
 #include <limits>

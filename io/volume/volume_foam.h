@@ -34,10 +34,9 @@ void require_foam_place(const std::filesystem::path& path);
 HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes points, faces, owner, neighbour, boundary, and cellZones with the zone "layers" if the mesh has columns. Files are binary (little endian, labels of
-/// 32
-/// bits); text.foam and x.text.foam give text. For a new x.foam the empty file for ParaView is written, too; an existing folder x.foam is a case, as in earlier
-/// versions. Missing files among system/controlDict, fvSchemes and fvSolution are added to the case, because checkMesh does not start without them. Cells are
-/// numbered column by column, faces are in upper-triangular order. The old folder is kept until the new one is complete.
+/// 32 bits); text.foam and x.text.foam give text. For a new x.foam the empty file for ParaView is written, too; an existing folder x.foam is a case, as in
+/// earlier versions. Missing files among system/controlDict, fvSchemes and fvSolution are added to the case, because checkMesh does not start without them.
+/// Cells are numbered column by column, faces are in upper-triangular order. The old folder is kept until the new one is complete.
 /// \throws Error overflow (2^31 faces, or nodes of faces in binary), mesh_invalid (faces that do not match), write_failed (also as require_foam_output),
 /// cancelled
 void write_volume_foam(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
@@ -70,8 +69,7 @@ void write_polymesh(const HybridMesh& mesh, const std::filesystem::path& folder,
 std::vector<std::string> foam_patch_names(const Column<PatchId, Patch>& patches, const RunContext& context);
 
 /// Returns "wall" or "patch". A symmetry patch exactly in a coordinate plane is a "symmetryPlane", else "symmetry": OpenFOAM compares unit normals to 1e-15,
-/// and
-/// only normals of coordinate planes are exact. Periodic patches are "cyclic" instead.
+/// and only normals of coordinate planes are exact. Periodic patches are "cyclic" instead.
 std::string foam_patch_type(const HybridMesh& mesh, PatchId patch);
 
 /// Returns the header of a text file.

@@ -1,6 +1,5 @@
 // polyMesh writer: five files, and cellZones if there are zones. Internal faces first, ordered by their lower cell and then by the other cell; then the
-// boundary,
-// patch by patch. Adds the minimum of case files without which no OpenFOAM tool starts.
+// boundary, patch by patch. Adds the minimum of case files without which no OpenFOAM tool starts.
 #include <algorithm>
 #include <cctype>
 #include <iterator>

@@ -16,8 +16,7 @@ void write_volume_su2(const HybridMesh& mesh, const std::filesystem::path& path,
 
 /// Reads a 3D mesh with all variants of docs/method/formats.md, "SU2 variants": either order of NPOIN and NELEM, blanks around '=', trailing indices, comment
 /// and blank lines, CRLF, old SEND_RECEIVE markers (dropped), several zones (joined; markers of the same name become one patch). Cells with the wrong winding
-/// are
-/// flipped and boundary faces turned outwards; both are counted in the log. A marker's kind follows from its name as in CEASIOMpy: farfield, symmetry, else
+/// are flipped and boundary faces turned outwards; both are counted in the log. A marker's kind follows from its name as in CEASIOMpy: farfield, symmetry, else
 /// wall.
 /// \throws Error file_malformed (line number and expectation), unsupported_format (a plane mesh), file_not_found.
 HybridMesh read_volume_su2(const std::filesystem::path& path, const RunContext& context);

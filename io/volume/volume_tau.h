@@ -20,8 +20,7 @@ void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path,
 
 /// Reads CDF-1, -2, -5 and NetCDF-4. Patch names come from the attributes marker_<id>, else from the .bmap file beside the grid, else "patch_<id>"; kinds from
 /// the .bmap file, else from the names; patches are in the order of `marker`. Cells with the wrong winding are flipped, faces turned outwards; both are counted
-/// in
-/// the log.
+/// in the log.
 /// \throws Error file_malformed (byte, variable or line), unsupported_format, file_not_found.
 HybridMesh read_volume_tau(const std::filesystem::path& path, const RunContext& context);
 

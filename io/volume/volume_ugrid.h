@@ -15,8 +15,7 @@ inline constexpr std::array<std::uint8_t, 8> k_ugrid_pyramid = {0, 3, 4, 1, 2};
 
 /// Reads text (.ugrid) and binary files (b8, lb8, b8l, lb8l, b4, lb4). Names and kinds of patches come from the .mapbc file beside the mesh, else "patch_<id>",
 /// in order of appearance. Boundary faces, which many programs write inwards, are turned outwards; cells with the wrong winding are flipped; both are counted
-/// in
-/// the log. Data after the cells (AFLR's records about layers and spacing) are not read.
+/// in the log. Data after the cells (AFLR's records about layers and spacing) are not read.
 /// \throws Error file_malformed (line or byte offset), unsupported_format (files with Fortran records), file_not_found.
 HybridMesh read_volume_ugrid(const std::filesystem::path& path, const RunContext& context);
 

@@ -1,6 +1,5 @@
 // status.json in the folder of a case: its state and, after its end, all data that a later run needs to reuse it. A final status does not depend on time,
-// location
-// or number of threads.
+// location or number of threads.
 #pragma once
 
 #include <cstdint>

@@ -21,8 +21,7 @@ bool is_safe_name(const std::string& name);
 /// Returns the cases of over = .... For { alpha = {0, 4}, beta = {0, 5} } these are the product, with names in alphabetical order and the last name changing
 /// fastest; a value that is not a list is a list of one. Entries without name are tables of parameters, or lists of such tables (zip{}); they come before the
 /// named entries, which thus change faster. A case is named by its parameters ("alpha=-4_beta=0"), or by the parameter `name`; long and ambiguous names end
-/// with
-/// a hash.
+/// with a hash.
 /// \throws Error(bad_argument) for values that are not plain, empty lists, two cases with the same parameters or the same given name, more than k_max_cases.
 std::vector<SeriesCase> cases_of(const ScriptTable& over);
 

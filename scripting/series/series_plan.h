@@ -48,8 +48,7 @@ struct SeriesPlan {
 };
 
 /// Returns a hash (16 hex digits) of everything that determines a case except the files that it reads: script (script_essence.h), parameters, name and index,
-/// command
-/// line, seed, version and build, the tables of earlier series.
+/// command line, seed, version and build, the tables of earlier series.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
 /// Returns the same data as case.json, for human readers and other programs.

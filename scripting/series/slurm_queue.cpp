@@ -25,8 +25,7 @@ constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two queri
 /// Number of queries that must miss a job before it counts as lost: its last files may still be in transfer through the network file system.
 constexpr int k_misses = 2;
 /// Maximum number of successive queries without an answer: controllers restart, networks fail for a while. More than half an hour in total, because squeue
-/// itself
-/// retries for some time. Cases that end meanwhile are detected by their folders.
+/// itself retries for some time. Cases that end meanwhile are detected by their folders.
 constexpr int k_deaf_questions = 900;
 constexpr std::size_t k_array_size = 1000;             ///< jobs of an array: clusters allow 1001 by default
 constexpr std::chrono::seconds k_cancel_patience{60};  ///< Slurm kills 30 s after the stop request

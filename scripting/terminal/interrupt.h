@@ -10,10 +10,8 @@
 namespace sterna::scripting {
 
 /// During its lifetime, a separate thread converts SIGINT and SIGTERM to a stop request; the second signal ends the program at once (status 130). If the work
-/// does
-/// not stop in time (a library that does not check for stops, an endless Lua pattern), the program ends, too: helpers are killed and temporary files removed,
-/// so that
-/// no half-written files are left.
+/// does not stop in time (a library that does not check for stops, an endless Lua pattern), the program ends, too: helpers are killed and temporary files
+/// removed, so that no half-written files are left.
 /// \pre constructed before any other thread is started, so that all of them inherit the blocked signals.
 class InterruptGuard {
  public:

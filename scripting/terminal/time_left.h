@@ -12,8 +12,7 @@ namespace sterna::scripting {
 class TimeLeft {
  public:
   /// Records the state at a time. A new piece of work begins with a fraction of zero after one close to 1, or with a decreasing fraction in another first
-  /// stage. A
-  /// fraction that decreases within a stage (a part is repeated) counts as the largest so far.
+  /// stage. A fraction that decreases within a stage (a part is repeated) counts as the largest so far.
   void note(const ProgressState& state, double seconds);
   /// Returns the remaining seconds from the latest note; empty before k_least_share of the work and k_least_seconds, when there is too little information.
   std::optional<double> estimate() const;

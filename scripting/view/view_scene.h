@@ -19,8 +19,7 @@ struct SceneOptions {
 };
 
 /// Returns four bytes of length (little-endian), four zero bytes, a JSON object of that length padded with blanks to a multiple of 4, then the arrays to which
-/// the
-/// JSON refers (docs/report.md: schema sterna-scene-1 has its frame, patches and surface; also facts, and for volume meshes verdict, gates, places).
+/// the JSON refers (docs/report.md: schema sterna-scene-1 has its frame, patches and surface; also facts, and for volume meshes verdict, gates, places).
 /// \pre is_drawable(value)
 /// \throws errors of making a component's model, and of check
 std::string scene_bytes(const ScriptValue& value, const SceneOptions& options, const RunContext& context);

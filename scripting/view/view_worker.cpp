@@ -248,8 +248,7 @@ class Worker {
   }
 
   /// Returns the objects shown by default: the last object made, preferably of the script's own variables; components only if nothing is made of them. If the
-  /// script
-  /// failed half way, the objects shown before: its last object is then an arbitrary part.
+  /// script failed half way, the objects shown before: its last object is then an arbitrary part.
   std::vector<bool> shown() const {
     const auto is_component = [](const MadeObject& object) { return std::holds_alternative<ComponentHandle>(object.value); };
     std::vector<bool> list(objects_.size(), false);

@@ -1,6 +1,5 @@
 // Threads: follow() starts, feeds and ends the workers; one reader per worker takes its answers; the server's threads answer the page. All share State under
-// one
-// mutex; every change raises its version and wakes the waiting threads.
+// one mutex; every change raises its version and wakes the waiting threads.
 #include "scripting/view/workbench.h"
 
 #include <algorithm>
