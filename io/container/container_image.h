@@ -28,7 +28,7 @@ struct ContainerNode {
   wire::Role role = wire::Role::group;
   std::vector<ContainerNode> children;  ///< in the order of the file
   std::map<std::string, ContainerValues> attributes;
-  ContainerValues values;  ///< of a dataset
+  ContainerValues values;  ///< values, if a dataset
 
   const ContainerNode* find(std::string_view name) const;
   /// Returns an attribute that has values; nullptr if there is no attribute of that name.

@@ -16,7 +16,7 @@ inline constexpr int k_image_fd = 4;
 inline constexpr std::uint64_t k_image_magic = 0x3149544e43545353;  ///< "SSTCNTI1" in memory; the last digit is the version
 inline constexpr std::uint64_t k_alignment = 64;
 inline constexpr std::uint32_t k_max_rank = 12;   ///< extents of an array; the last is the string length in an array of strings
-inline constexpr std::uint32_t k_max_depth = 64;  ///< of nested groups; the CGNS standard uses about 10
+inline constexpr std::uint32_t k_max_depth = 64;  ///< depth of nested groups; the CGNS standard uses about 10
 /// Maximum ratio of unpacked size to file size, for chunks and repeated values. Meshes reach about 10.
 inline constexpr std::uint64_t k_max_expansion = 200;
 /// Number of bytes that may be unpacked regardless of the file size.
@@ -40,7 +40,7 @@ struct ImageHeader {
   Outcome outcome = Outcome::ok;
   std::uint32_t n_nodes = 0;
   std::uint64_t text_size = 0;
-  Text where, problem, hint;  ///< of an outcome other than ok
+  Text where, problem, hint;  ///< set for an outcome other than ok
 };
 
 enum class Role : std::uint8_t {
@@ -64,7 +64,7 @@ struct NodeRecord {
   std::uint32_t unused = 0;
   Text name, problem;
   std::uint64_t extents[k_max_rank] = {};  ///< slowest first
-  std::uint64_t begin = 0, n_bytes = 0;    ///< of the values in the image; n_bytes is the product of the extents and the size of a number
+  std::uint64_t begin = 0, n_bytes = 0;    ///< range of the values in the image; n_bytes is the product of the extents and the size of a number
 };
 
 static_assert(sizeof(ImageHeader) == 72 && sizeof(NodeRecord) == 160);

@@ -49,13 +49,13 @@ class FfaNode {
   std::uint64_t place_of(std::uint64_t row, std::uint64_t column) const { return column * n_rows + row; }
 
   const FileBuffer* buffer_ = nullptr;
-  std::size_t begin_ = 0;  ///< of the node, for messages
+  std::size_t begin_ = 0;  ///< offset of the node, for messages
   std::size_t data_ = 0;   ///< first byte of the values
   std::endian order_ = std::endian::big;
   bool is_ascii_ = false;
-  std::vector<double> reals_;           ///< of text files
-  std::vector<std::int64_t> integers_;  ///< of text files
-  std::string text_;                    ///< of text files
+  std::vector<double> reals_;           ///< only for text files
+  std::vector<std::int64_t> integers_;  ///< only for text files
+  std::string text_;                    ///< only for text files
 };
 
 /// Reads the tree; binary version or text is detected from the content.

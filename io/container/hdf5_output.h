@@ -24,7 +24,7 @@ Hdf5OutputAttribute text_attribute(std::string name, std::string text, std::size
 struct Hdf5OutputNode {
   std::string name;
   std::vector<Hdf5OutputAttribute> attributes;
-  std::vector<Hdf5OutputNode> children;  ///< of a group, in creation order, which the file keeps
+  std::vector<Hdf5OutputNode> children;  ///< children of a group, in creation order, which the file keeps
   bool is_dataset = false;
   OutputArray array;
 };

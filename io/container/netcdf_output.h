@@ -27,8 +27,8 @@ struct NetcdfOutput {
   bool is_cdf5 = false;  ///< else CDF-2, whose arrays are below 4 GiB
 };
 
-/// Writes the file, whole or not at all, the same bytes each time.
-/// \throws Error write_failed; what the arrays throw; cancelled
+/// Writes the file completely or not at all; the output is reproducible byte by byte.
+/// \throws Error write_failed; errors of the arrays; cancelled
 void write_netcdf(const NetcdfOutput& contents, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -35,7 +35,7 @@ using ContentTest = bool (*)(std::string_view head);
 struct Format {
   std::string_view name;             ///< "SU2"
   std::string_view extensions;       ///< blank-separated, lower case, with dots: ".su2", ".lb8.ugrid"
-  ContentTest is_content = nullptr;  ///< needed if another line has the same extension and can read
+  ContentTest is_content = nullptr;  ///< needed if another line has the same extension and a reader
   SurfaceReader read_surface = nullptr;
   SurfaceWriter write_surface = nullptr;
   VolumeReader read_volume = nullptr;
@@ -67,7 +67,7 @@ bool states_patch_kinds(const std::filesystem::path& path);
 /// A file that cannot be opened or matches none of them is assigned to the first of these formats, whose reader reports the error.
 /// \throws Error(unsupported_format) with the list of known extensions.
 const Format& format_of(const std::filesystem::path& path);
-/// Returns the same format; if the extension is unknown, the error lists the formats that have this use.
+/// Returns the format for reading, as above; if the extension is unknown, the error lists the formats that have this use.
 const Format& format_of(const std::filesystem::path& path, FormatUse use);
 /// Returns true if format_of() knows the extension.
 bool is_known_format(const std::filesystem::path& path);

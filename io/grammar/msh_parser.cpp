@@ -374,7 +374,7 @@ class MshParser {
         ++i;
         continue;
       }
-      const std::int64_t type = integer("an element type");  // of a block
+      const std::int64_t type = integer("an element type");  // type of the block
       const std::size_t n_follow = count("the number of elements of a block", 1, 8);
       const std::size_t n_tags = count("the number of tags of an element", 1, 4);
       if (n_follow == 0 || n_follow > n - i) fail("found a block of " + std::to_string(n_follow) + " elements, expected 1 to " + std::to_string(n - i));

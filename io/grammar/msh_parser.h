@@ -1,4 +1,4 @@
-// Gmsh MSH 2.0 to 2.2 and 4.1, text and binary (docs/method/formats_surfaces.md, "Gmsh MSH"): what the surface and the volume reader share.
+// Gmsh MSH 2.0 to 2.2 and 4.1, text and binary (docs/method/formats_surfaces.md, "Gmsh MSH"): parser shared by the surface reader and the volume reader.
 #pragma once
 
 #include <cstddef>

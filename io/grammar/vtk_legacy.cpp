@@ -245,7 +245,7 @@ class LegacyParser {
     scanner_.skip_token("the name of a field");
     const std::size_t n_arrays = count("the number of arrays");
     for (std::size_t i = 0; i < n_arrays; ++i) {
-      if (is_next("METADATA")) {  // of the previous array
+      if (is_next("METADATA")) {  // metadata of the previous array
         scanner_.skip_token("METADATA");
         skip_metadata();
       }
@@ -403,7 +403,7 @@ class LegacyParser {
   bool has_points_ = false;
   std::size_t section_offset_ = 0;
   std::vector<Point> points_;
-  std::array<std::optional<VtkCells>, 4> cells_;  ///< of an unstructured grid: the first entry only
+  std::array<std::optional<VtkCells>, 4> cells_;  ///< an unstructured grid uses the first entry only
   std::optional<VtuValues> types_;
   bool is_in_attributes_ = false;
   bool is_cell_data_ = false;

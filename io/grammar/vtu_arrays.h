@@ -80,7 +80,7 @@ class VtuDecoder {
   std::size_t word_size_ = 4;
   std::string_view appended_;  ///< after the '_'
   bool appended_is_base64_ = false;
-  std::vector<std::uint64_t> offsets_;  ///< of all appended arrays, ascending
+  std::vector<std::uint64_t> offsets_;  ///< offsets of all appended arrays, ascending
 };
 
 }  // namespace sterna::io

@@ -22,7 +22,7 @@ struct LineChunk {
 
 struct LineBlock {
   std::uint64_t n_items = 0;
-  std::uint64_t line = 0;  ///< of the keyword
+  std::uint64_t line = 0;  ///< line of the keyword
   std::vector<LineChunk> chunks;
 };
 

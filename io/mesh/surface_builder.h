@@ -46,7 +46,7 @@ class SurfaceBuilder {
   SurfaceSoup finish(const RunContext& context, bool drop_unused_points = false);
 
  private:
-  struct Polygon {  // of more than three corners; its triangles come before triangle `before`
+  struct Polygon {  // more than three corners; its triangles come before triangle `before`
     std::size_t before = 0;
     std::size_t first_corner = 0;
     std::size_t n_corners = 0;

@@ -31,7 +31,7 @@ class AtomicFile {
   void get(std::uint64_t offset, std::span<char> bytes);
   void resize(std::uint64_t n_bytes);
 
-  const std::filesystem::path& path() const { return path_; }  ///< as the caller named it
+  const std::filesystem::path& path() const { return path_; }  ///< as given by the caller
 
   /// Returns the path of the contents until commit(), for a library that writes a file itself in place of append(). Call adopt() afterwards to take over the
   /// library's file.
@@ -48,13 +48,13 @@ class AtomicFile {
   void write_at(std::uint64_t offset, std::string_view bytes);
   void discard() noexcept;
 
-  std::filesystem::path path_;    ///< as the caller named it, for messages
+  std::filesystem::path path_;    ///< as given by the caller, for messages
   std::filesystem::path target_;  ///< links resolved
   std::filesystem::path temporary_;
   int descriptor_ = -1;
   unsigned mode_ = 0;  ///< permissions, as it was created
   std::uint64_t size_ = 0;
-  std::uint64_t n_sent_ = 0;  ///< of these, bytes whose transfer to the disk has begun
+  std::uint64_t n_sent_ = 0;  ///< number of bytes whose transfer to the disk has begun
 };
 
 /// Writes these bytes to an AtomicFile and commits it.

@@ -60,7 +60,7 @@ class CellSections {
   const HybridMesh* mesh_;
   bool all_columns_are_prisms_ = true;
   std::array<std::vector<std::uint32_t>, 4> columns_;  ///< by kind; empty where all columns are prisms
-  std::array<LayerNumbers, 4> numbers_;                ///< by kind: of the cells in columns
+  std::array<LayerNumbers, 4> numbers_;                ///< numbering of the cells in columns, by kind
 };
 
 /// Boundary faces by patch, in mesh order within each patch, for marker-oriented formats.

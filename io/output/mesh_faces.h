@@ -59,7 +59,7 @@ class MeshFaces {
 
   struct Count {
     std::uint64_t faces = 0;
-    std::uint64_t nodes = 0;  ///< of all these faces
+    std::uint64_t nodes = 0;  ///< number of nodes of these faces
   };
   /// Counts the internal faces whose lower cell is below `cell`.
   Count internal_before(std::uint64_t cell) const;
@@ -111,13 +111,13 @@ class MeshFaces {
   const HybridMesh* mesh_;
   std::uint64_t n_live_ = 0;         ///< columns with cells
   std::vector<std::uint32_t> live_;  ///< their numbers; empty: all
-  LayerNumbers cells_;               ///< of live columns
+  LayerNumbers cells_;               ///< cells of live columns
   std::uint64_t n_column_cells_ = 0;
   std::uint64_t n_explicit_ = 0;
   std::array<ExplicitBlock, 4> blocks_{};
   std::vector<std::uint32_t> beside_;      ///< per live column and side: live column, n_live_ + number of an open side, or k_boundary for none
   std::vector<std::uint64_t> open_sides_;  ///< 3 * live column + side
-  LayerNumbers open_faces_;                ///< of open sides
+  LayerNumbers open_faces_;                ///< faces of open sides
   Slot first_open_ = 0, first_boundary_ = 0, n_slots_ = 0;
   std::vector<std::uint32_t> partner_;                  ///< per slot
   std::vector<Count> internal_before_;                  ///< per k_count_interval cells

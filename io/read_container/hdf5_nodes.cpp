@@ -57,7 +57,7 @@ struct Type {
   bool is_big_endian = false;
   bool is_known = false;
   bool is_variable_text = false;
-  std::uint64_t text_size = 0;  ///< of a fixed-length string; 0 = not a string
+  std::uint64_t text_size = 0;  ///< length of a fixed-length string; 0 = not a string
 };
 
 Type type_of(hid_t id) {

@@ -22,7 +22,7 @@ constexpr std::uint32_t k_first_record_bytes = 8;  // two counts
 constexpr std::size_t k_min_vertex_bytes = 6;      // "0 0 0" and a line end
 constexpr std::size_t k_min_triangle_bytes = 6;
 
-/// Triangles of the file before their components are known.
+/// Triangles of the file, without component numbers.
 using Corners = std::vector<std::array<std::uint32_t, 3>>;
 
 void add_triangles(SurfaceBuilder& builder, const Corners& triangles, const std::vector<std::int64_t>& components) {

@@ -305,7 +305,7 @@ class BulkParser {
   SurfaceBuilder builder_;
   std::size_t position_ = 0, line_number_ = 0;
   std::string_view line_;
-  std::vector<std::string> fields_;  ///< of the current card; the first field is its name
+  std::vector<std::string> fields_;  ///< fields of the current card; the first is its name
   std::size_t card_line_ = 0;
   std::unordered_map<std::int64_t, std::uint32_t> point_of_id_;
   std::vector<NastranFace> faces_;

@@ -152,7 +152,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
 }
 
 SurfaceSoup read_any_binary(const FileBuffer& buffer, std::size_t offset, const RunContext& context) {
-  std::optional<Error> error;  // of the variant that is most common in practice
+  std::optional<Error> error;  // error of the variant that is most common in practice
   for (const BinaryVariant& variant : k_off_variants) {
     try {
       return read_binary(buffer, offset, variant, context);

@@ -221,7 +221,7 @@ class Su2SurfaceReader {
   std::optional<std::uint64_t> n_zones_;  ///< announced in the file
   std::vector<SurfaceZone> zones_;
   SurfaceZone zone_;             ///< currently indexed
-  std::size_t first_point_ = 0;  ///< of the current zone
+  std::size_t first_point_ = 0;  ///< first point of the current zone
   std::uint64_t n_points_ = 0;
   bool has_marked_faces_ = false;  ///< in the current zone
   std::uint64_t n_lines_ = 0, n_partition_markers_ = 0, n_cells_ = 0;

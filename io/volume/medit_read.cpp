@@ -262,7 +262,7 @@ class MeditReader {
 
   const FileBuffer& buffer_;
   TextScanner scanner_;
-  std::optional<ByteReader> bytes_;  ///< of binary files
+  std::optional<ByteReader> bytes_;  ///< only for binary files
   std::int32_t version_ = 2;
   bool with_cells_;
   std::uint64_t n_cells_ = 0;  ///< in the file

@@ -42,7 +42,7 @@ struct StoredTetrahedra {
 struct SternaParts {
   const TriMesh* surface = nullptr;
   const TriMesh* farfield = nullptr;         ///< the user's surface that bounds the fluid
-  const StoredEnvelope* envelope = nullptr;  ///< of `surface`
+  const StoredEnvelope* envelope = nullptr;  ///< envelope of `surface`
   const StoredTetrahedra* tetrahedra = nullptr;
   const HybridMesh* mesh = nullptr;    ///< its layers are kept as columns
   const HybridMesh* opened = nullptr;  ///< the layer around which `tetrahedra` were generated, if `mesh` has converted its columns to explicit cells

@@ -14,7 +14,7 @@ namespace {
 
 class PartReader {
  public:
-  /// \p prefix: of all array names
+  /// \param prefix prefix of all array names
   PartReader(const ChunkedReader& file, std::string prefix, const RunContext& context) : file_(file), prefix_(std::move(prefix)), context_(context) {}
 
   SternaContent read() {
@@ -147,7 +147,7 @@ class PartReader {
   StoredEnvelope envelope(std::size_t n_surface_vertices) const {
     StoredEnvelope envelope;
     envelope.direction.raw() = points(part::k_direction);
-    const std::size_t n = envelope.direction.size();  // of walls with layers, with actuator discs cut in; callers that continue compare this number
+    const std::size_t n = envelope.direction.size();  // vertices of walls with layers, with actuator discs cut in; callers that continue compare this number
     envelope.height.raw() = reals(part::k_height, n);
     envelope.target.raw() = reals(part::k_target, n);
     envelope.eq1.raw() = reals(part::k_eq1, n);

@@ -197,7 +197,7 @@ class PartWriter {
   }
 
   ChunkedWriter writer_;
-  std::string prefix_;  ///< of all array names
+  std::string prefix_;  ///< prefix of all array names
   std::uint32_t version_ = k_first_chunked_version;
   RunContext context_;
 };

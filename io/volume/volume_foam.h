@@ -56,7 +56,7 @@ void write_numbered_foam(const HybridMesh& mesh, const std::filesystem::path& pa
 
 struct FoamMeshOptions {
   bool is_binary = true;
-  Numbering numbering = Numbering::lines;  ///< of cells
+  Numbering numbering = Numbering::lines;  ///< numbering of the cells
   std::vector<FoamZone> zones = {};        ///< in addition to the layer zone
   std::vector<PeriodicSides> joined = {};  ///< sides of baffles, written as cyclic patches in addition to the mesh's own periodic patches
 };

@@ -18,7 +18,7 @@ namespace {
 struct FoamPatch {
   Patch patch;
   std::uint64_t first_face = 0, n_faces = 0;
-  std::string neighbour;  ///< of a cyclic patch
+  std::string neighbour;  ///< neighbour of a cyclic patch
   bool is_guess = false;  ///< neither type nor groups nor name state the kind
 };
 

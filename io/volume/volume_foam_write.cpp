@@ -341,8 +341,8 @@ class FoamWriter {
   RunContext context_;
   MeshFaces faces_;
   FacesByPatch by_patch_;
-  std::map<PatchId, PatchId> neighbour_;  ///< of periodic sides
-  std::map<PatchId, CyclicSide> cyclic_;  ///< of the second sides
+  std::map<PatchId, PatchId> neighbour_;  ///< neighbours of periodic sides
+  std::map<PatchId, CyclicSide> cyclic_;  ///< face order of the second sides
   std::uint64_t n_internal_ = 0, n_faces_ = 0, n_face_nodes_ = 0;
 };
 

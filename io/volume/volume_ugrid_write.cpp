@@ -18,7 +18,7 @@ namespace sterna::io {
 namespace {
 
 constexpr std::array<CellKind, 4> k_ugrid_kinds = {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron};
-constexpr std::size_t k_max_line = 8 * (k_max_integer_text + 1);  // of a hexahedron; a node's three coordinates and a binary item are shorter
+constexpr std::size_t k_max_line = 8 * (k_max_integer_text + 1);  // line of a hexahedron; a node's three coordinates and a binary item are shorter
 
 /// Writes the numbers of one item, as text (one line) or as bytes.
 class ItemWriter {

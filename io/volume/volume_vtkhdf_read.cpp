@@ -187,7 +187,7 @@ class VtkHdfReader {
   std::optional<NumberArray> markers_;
   std::map<std::int64_t, PatchId> patches_;
   std::vector<NodeId> nodes_;
-  std::uint64_t first_point_ = 0, first_cell_ = 0, first_id_ = 0, first_offset_ = 0;  ///< of the current partition
+  std::uint64_t first_point_ = 0, first_cell_ = 0, first_id_ = 0, first_offset_ = 0;  ///< offsets of the current partition
   std::int64_t n_left_out_ = 0;
   HybridMesh mesh_;
 };

@@ -13,7 +13,7 @@ namespace {
 /// Cells of one kind, or the boundary faces of one size, in file order.
 struct HdfRun {
   int type = 0;
-  std::uint64_t n_nodes = 0;  ///< of a cell
+  std::uint64_t n_nodes = 0;  ///< nodes per cell
   std::uint64_t n_cells = 0;
   /// Calls f(nodes in VTK order, layer, marker) for cells [begin, end).
   std::function<void(std::uint64_t begin, std::uint64_t end, const std::function<void(std::span<const NodeId>, int, std::int32_t)>& f)> for_each;

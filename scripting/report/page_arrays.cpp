@@ -38,7 +38,7 @@ ArrayPlace PageArrays::add(std::span<const std::uint16_t> values) { return add_v
 ArrayPlace PageArrays::add(std::span<const std::uint8_t> values) { return add_values("u8", values); }
 
 float shortened(double value) {
-  constexpr std::uint32_t k_dropped = 13;  // of the 23 mantissa bits of a float
+  constexpr std::uint32_t k_dropped = 13;  // number of bits dropped from the 23 mantissa bits of a float
   const auto narrow = static_cast<float>(value);
   if (!std::isfinite(narrow)) return std::isnan(narrow) ? std::nanf("") : narrow;
   const auto bits = std::bit_cast<std::uint32_t>(narrow);

@@ -87,7 +87,7 @@ std::string title_of(const ReportOptions& options, std::string_view name) { retu
 /// Returns the user's cuts, then the automatic cuts that the user does not name. A user's plane is viewed at its point nearest to the centre of the bodies.
 std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker,
                                 const RunContext& context) {
-  constexpr double k_radius_share = 0.6;  // of the bodies' length: all bodies are visible
+  constexpr double k_radius_share = 0.6;  // relative to the bodies' length: all bodies are visible
   std::vector<CutPlace> automatic = automatic_cuts(mesh, context), places;
   for (const std::string& text : wanted) {
     if (const std::optional<CutPlane> plane = draw::plane_of(text)) {

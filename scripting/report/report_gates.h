@@ -10,7 +10,7 @@ namespace sterna::scripting {
 /// Returns a JSON object with verdict, quality_verdict, gates (gates of the verdict first), places (findings first, then those of each gate, worst gates
 /// first), histograms and coverage.
 std::string page_check_json(const CheckReport& report);
-/// Returns the same object for meshes without gates.
+/// Returns the object for meshes without gates.
 std::string page_no_check_json();
 
 }  // namespace sterna::scripting

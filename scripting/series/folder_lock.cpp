@@ -28,7 +28,7 @@ std::string locking_host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// "process 123 on host" of the holder, and true if it is known to be dead.
+/// Holder of the lock: "process 123 on host", and true if the process is dead.
 struct Holder {
   long pid = 0;
   std::string host;

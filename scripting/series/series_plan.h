@@ -40,7 +40,7 @@ struct SeriesPlan {
   SlurmOptions slurm;
   std::vector<std::string> sbatch_words;  ///< "--mem=8G": more options of sbatch
   SeriesOptions options;
-  std::string program_hash;     ///< of the workers' executable: another build may give different bytes
+  std::string program_hash;     ///< hash of the workers' executable: another build may give different bytes
   std::filesystem::path cache;  ///< folder; empty: none
   FunctionHandle function;
 

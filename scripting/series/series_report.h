@@ -15,7 +15,7 @@ struct CaseResult {
   const SeriesCase* of = nullptr;
   CaseStatus status;
   bool is_kept = false;             ///< reused from an earlier run
-  double seconds = 0.0;             ///< of the case's own run, at whatever time that took place
+  double seconds = 0.0;             ///< duration of the run that made the result, possibly an earlier run
   std::vector<std::string> reused;  ///< stages from the cache, in that run
 };
 

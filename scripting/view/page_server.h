@@ -13,7 +13,7 @@ struct PageRequest {
   bool is_post = false;
   std::string name;                          ///< part of the path after the secret: "" for the page itself, "state"
   std::map<std::string, std::string> query;  ///< after "?"
-  std::string body;                          ///< of a POST
+  std::string body;                          ///< body of a POST request
   std::string value(const std::string& key) const {
     const auto found = query.find(key);
     return found == query.end() ? std::string() : found->second;
@@ -22,7 +22,7 @@ struct PageRequest {
 
 struct PageAnswer {
   int status = 200;
-  std::string_view type = "application/json";  ///< of the body
+  std::string_view type = "application/json";  ///< media type of the body
   std::shared_ptr<const std::string> body;
 };
 

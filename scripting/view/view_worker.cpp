@@ -51,7 +51,7 @@ class Answers {
 struct MadeObject {
   ScriptValue value;
   std::string verb, where;  ///< "wing", "case.lua:12"
-  std::string name;         ///< of a variable; empty: none
+  std::string name;         ///< name of the variable; empty: none
   bool is_of_script = false;
   bool is_sent = false;  ///< the page has the current version
 };

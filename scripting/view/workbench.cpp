@@ -37,7 +37,7 @@ constexpr auto k_ask_patience = 60s;        ///< waiting time of the page for a 
 constexpr auto k_sketch_patience = 1500ms;  ///< a sketch may finish within this time before a newer one replaces it
 constexpr auto k_quick_sketch = 300ms;      ///< longer sketches show their progress
 constexpr auto k_end_patience = 3s;         ///< a worker is killed this long after a stop request
-constexpr std::size_t k_most_lines = 400;   ///< of the log
+constexpr std::size_t k_most_lines = 400;   ///< in the log
 
 /// One object of the picture. It is kept, marked old, until a completed run has made it again or not at all.
 struct ShownObject {
@@ -66,7 +66,7 @@ struct State {
   std::vector<ShownObject> objects;
   std::map<std::string, std::string> values;  ///< arguments that differ from the script
   std::vector<std::string> wanted, unwanted;  ///< keys
-  std::deque<BenchJson> lines;                ///< of the log
+  std::deque<BenchJson> lines;                ///< in the log
   std::uint64_t n_lines = 0;
   std::map<int, std::shared_ptr<const std::string>> asked;  ///< answers by request number
   std::map<int, std::string> refused;
