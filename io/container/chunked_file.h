@@ -31,7 +31,7 @@ using FillValues = std::function<void(std::uint64_t begin, std::uint64_t end, ch
 /// \throws Error write_failed, cancelled, and errors of fill functions
 class ChunkedWriter {
  public:
-  /// Begins the file.
+  /// Begins the file with room for the header.
   /// \pre `file` is empty and outlives the writer
   explicit ChunkedWriter(AtomicFile& file);
 

@@ -35,7 +35,7 @@ inline constexpr std::string_view k_request = "mesh/request/first_height_max_gro
                                   k_request_first_height = "mesh/request/first_height", k_request_first_room = "mesh/request/first_room",
                                   k_request_boundary_layer = "mesh/request/boundary_layer", k_request_max_growth = "mesh/request/max_growth",
                                   k_request_layers = "mesh/request/layers";
-/// Prefix for the array names of the layer around which the tetrahedra were generated, used if ridges are opened or wakes have baffles.
+/// Prefix for the array names of the layer around which the tetrahedra were generated, used if ridges are opened or there are wake sheets.
 inline constexpr std::string_view k_opened = "opened/";
 /// Version of files with k_opened: older readers would mistake the layers of the mesh for this layer.
 inline constexpr std::uint32_t k_opened_version = 4;

@@ -11,7 +11,7 @@
 
 namespace sterna::io {
 
-/// The reserved name of markers between partitions; not a boundary.
+/// Reserved name of markers between partitions, which are not boundaries.
 inline constexpr std::string_view k_su2_partition_marker = "SEND_RECEIVE";
 
 /// Key and value without surrounding blanks.

@@ -55,7 +55,7 @@ class UgridSource {
 
  private:
   double real();
-  std::size_t integer_bytes() const { return variant_.is_text ? 2 : variant_.is_wide ? 8 : 4; }  // text: a digit and a blank at least
+  std::size_t integer_bytes() const { return variant_.is_text ? 2 : variant_.is_wide ? 8 : 4; }  // text: at least a digit and a blank
   std::size_t real_bytes() const { return variant_.is_text ? 2 : variant_.is_single ? 4 : 8; }
   void require(std::uint64_t n, std::size_t bytes, std::string_view expected) const;
 
@@ -72,7 +72,7 @@ struct UgridPatch {
 
 /// Reads the .mapbc file beside the mesh, wing.mapbc or wing.lb8.mapbc for wing.lb8.ugrid: a count, then lines "id condition name". Empty if there is none.
 /// \throws Error(file_malformed) with its line
-std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path);  ///< that file
+std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path);  ///< path of the .mapbc file found; empty if there is none
 std::map<std::int64_t, UgridPatch> read_mapbc(const std::filesystem::path& mesh_path, const RunContext& context);
 
 /// Returns the path that the writer uses: wing.mapbc for wing.lb8.ugrid.

@@ -37,7 +37,7 @@ struct VtuDocument {
   std::uint64_t n_points = 0;
   std::uint64_t n_cells = 0;
   VtuArray points;                        ///< 3 components
-  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (not of PolyData)
+  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (unused for PolyData)
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name

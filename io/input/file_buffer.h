@@ -11,7 +11,7 @@
 namespace sterna::io {
 
 struct FileBuffer {
-  std::string source;       ///< the path as the user gave it, for messages
+  std::string source;       ///< the path as given by the user, for messages
   std::vector<char> bytes;  ///< unpacked
   std::string_view text() const { return {bytes.data(), bytes.size()}; }
 };

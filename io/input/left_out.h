@@ -12,12 +12,12 @@ namespace sterna::io {
 
 class LeftOut {
  public:
-  /// \param what a plural: "lines", "free-form surfaces (surf)"
+  /// Counts n items. \param what a plural: "lines", "free-form surfaces (surf)"
   void add(std::string_view what, std::uint64_t n = 1) {
     if (n > 0) counts_[std::string(what)] += n;
   }
   bool empty() const { return counts_.empty(); }
-  /// "3 curves, 12 lines"
+  /// Returns "3 curves, 12 lines".
   std::string text() const {
     std::string text;
     for (const auto& [what, n] : counts_) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + what;

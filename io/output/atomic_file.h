@@ -52,7 +52,7 @@ class AtomicFile {
   std::filesystem::path target_;  ///< links resolved
   std::filesystem::path temporary_;
   int descriptor_ = -1;
-  unsigned mode_ = 0;  ///< permissions, as it was created
+  unsigned mode_ = 0;  ///< permissions at creation
   std::uint64_t size_ = 0;
   std::uint64_t n_sent_ = 0;  ///< number of bytes whose transfer to the disk has begun
 };

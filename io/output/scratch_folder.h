@@ -9,7 +9,7 @@ namespace sterna::io {
 /// A new folder in the system's temporary folder (TMPDIR). The destructor removes it with its contents, unless it is kept.
 class ScratchFolder {
  public:
-  /// \p purpose: part of its name, "view" of sterna-view-a1b2c3
+  /// Creates the folder. \p purpose: part of its name, "view" of sterna-view-a1b2c3
   /// \throws Error(write_failed)
   explicit ScratchFolder(std::string_view purpose);
   ~ScratchFolder();

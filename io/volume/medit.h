@@ -39,7 +39,7 @@ HybridMesh read_volume_medit(const std::filesystem::path& path, const RunContext
 SurfaceSoup read_surface_medit(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes x.mesh as text; x.meshb in the lowest version that can hold the mesh (2: below 2 GiB; 3: 64-bit offsets; 4: 64-bit numbers); x.v2.meshb, x.v3.meshb,
-/// x.v4.meshb in the named version; and x.names. Patches are numbered from 1, the fluid is 1. Streams: below 100 MB beside the mesh.
+/// x.v4.meshb in the named version; and x.names. Patches are numbered from 1, the fluid is 1. Streams: below 100 MB in addition to the mesh.
 /// \throws Error overflow, mesh_invalid, write_failed, cancelled
 void write_volume_medit(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 void write_surface_medit(const TriMesh& surface, const std::filesystem::path& path, const RunContext& context);

@@ -24,7 +24,7 @@ std::vector<std::filesystem::path> polymesh_files(const std::filesystem::path& p
 /// \throws Error(write_failed) if writing to a new case.foam would replace the mesh of another .foam file in its folder.
 void require_foam_output(const std::filesystem::path& path);
 
-/// require_foam_output(), which also throws if the parent folder of the case does not exist: missing folders are created only for the case itself.
+/// Tests as require_foam_output(); also throws if the parent folder of the case does not exist: missing folders are created only for the case itself.
 void require_foam_place(const std::filesystem::path& path);
 
 /// Reads text and binary files (labels of 32 and 64, scalars of 64 and 32 bits, either byte order), each optionally gzipped. Cells of 4 to 6 faces become

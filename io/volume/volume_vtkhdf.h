@@ -11,7 +11,7 @@ namespace sterna::io {
 /// Writes an UnstructuredGrid of version 1.0, which VTK 9.1 and ParaView 5.10 read, with 64-bit ids, in one partition. Cells: prisms, pyramids, hexahedra,
 /// tetrahedra (VTK winding), then boundary triangles and quads. Cell data: "marker" = number of the patch from 1, 0 for volume cells; "layer" = 1 for a cell at
 /// the wall, increasing outwards, 0 for cells and faces outside the layers. Field data: the marker of each patch, named "patch:<kind>:<name>". '/' in such a
-/// name becomes '_', with a warning, and an attribute stores the full name. Streams: below 100 MB of memory beside the mesh.
+/// name becomes '_', with a warning, and an attribute stores the full name. Streams: below 100 MB of memory in addition to the mesh.
 /// \throws Error mesh_invalid, write_failed, cancelled.
 void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -11,7 +11,7 @@ namespace sterna::io {
 /// Writes binary appended data that VTK, ParaView and meshio read: x.vtu packed by zlib, x.lz4.vtu by LZ4 (not for meshio), x.raw.vtu not packed. Cells:
 /// prisms, pyramids, hexahedra, tetrahedra (VTK winding), then the boundary triangles and quads. Cell data: "marker" = number of the patch from 1, 0 for volume
 /// cells; "layer" = 1 for a cell at the wall, increasing outwards, 0 for cells and faces outside the layers. Field data: the marker of each patch, named
-/// "patch:<kind>:<name>". Ids are Int32 if they fit, else Int64. Memory below 100 MB beside the mesh.
+/// "patch:<kind>:<name>". Ids are Int32 if they fit, else Int64. Memory below 100 MB in addition to the mesh.
 /// \throws Error mesh_invalid (a face without patch), write_failed, cancelled.
 void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -11,7 +11,7 @@ namespace sterna::scripting {
 /// cleanup is needed after kill -9. Works across machines if the file system has locks.
 class FolderLock {
  public:
-  /// Waits a moment for workers of a killed run to end.
+  /// Acquires the lock; waits a short time for workers of a killed run to end.
   /// \throws Error(write_failed) if another run holds the lock, naming it, or if the folder cannot be written
   FolderLock(const std::filesystem::path& folder, const RunContext& context);
   ~FolderLock();

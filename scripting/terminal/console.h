@@ -13,7 +13,7 @@ namespace sterna::scripting {
 struct ConsoleSettings {
   bool is_quiet = false;           ///< no log lines below warnings, no progress line
   bool is_verbose = false;         ///< includes debug lines
-  std::filesystem::path log_file;  ///< every line with its time; empty = none
+  std::filesystem::path log_file;  ///< file for every line with its time; empty = none
 };
 
 /// All members are thread-safe.

@@ -340,7 +340,7 @@ class Worker {
   WorkerClock::time_point start_;
   TimeLeft left_;
   OptionOverrides arguments_;
-  std::vector<std::string> wanted_, unwanted_;  ///< keys that the user shows, hides
+  std::vector<std::string> wanted_, unwanted_;  ///< keys of objects that the user shows, hides
   std::vector<std::string> kept_;               ///< keys shown before without the user's choice
   std::optional<RunContext> run_;
   std::vector<MadeObject> objects_;
