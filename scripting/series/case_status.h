@@ -35,7 +35,7 @@ struct CaseStatus {
   std::string key;                             ///< case_key()
   std::map<std::string, std::string> inputs;   ///< file as searched for -> hash_of_input
   std::map<std::string, std::string> outputs;  ///< file in the folder -> hash
-  std::vector<std::string> found;              ///< files that existed in the folder before the case
+  std::vector<std::string> found;              ///< files in the folder before the case that are not its own
 
   MeshFigures mesh;                ///< done
   std::string result;              ///< done: the function's return value as JSON; "null" for values that are not plain

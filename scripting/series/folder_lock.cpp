@@ -28,7 +28,7 @@ std::string locking_host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// Holder of the lock: "process 123 on host", and true if the process is dead.
+/// Holder of the lock: "process 123 on host", and true if the process is known to be dead.
 struct Holder {
   long pid = 0;
   std::string host;

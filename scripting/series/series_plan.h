@@ -51,7 +51,7 @@ struct SeriesPlan {
 /// command line, seed, version and build, the tables of earlier series.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
-/// Returns the same data as case.json, for human readers and other programs.
+/// Returns the text of case.json: the data behind case_key(), for human readers and other programs.
 std::string case_json(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
 }  // namespace sterna::scripting

@@ -8,7 +8,7 @@
 
 namespace sterna::scripting {
 
-/// Returns true if the value can be drawn: models, components, surfaces, envelopes, layers for tetrahedra, volume meshes.
+/// Returns true if the value can be drawn: models, components, surfaces, envelopes, tetrahedra (drawn as their wall), volume meshes.
 bool is_drawable(const ScriptValue& value);
 /// Returns a one-line description of the object.
 std::string object_text(const ScriptValue& value);
