@@ -14,7 +14,7 @@
 namespace sterna::io {
 namespace {
 
-/// Attempts to find a free temporary name; leftovers of killed runs with the same process number can occupy a few.
+/// Number of attempts to find a free temporary name; leftovers of killed runs with the same process number can occupy a few.
 constexpr int k_max_names = 1000;
 /// Once this many bytes are ready, writing to the disk begins while more are generated; otherwise the disk would be idle until fsync.
 constexpr std::uint64_t k_send_bytes = 1u << 23;
@@ -59,7 +59,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
     if (descriptor_ >= 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_names) continue;
-    temporary_.clear();  // owned by another process
+    temporary_.clear();  // not created by this object
     fail(error_number, "creating a file");
   }
   hold(descriptor_);
@@ -158,7 +158,7 @@ void AtomicFile::fail(int error_number, std::string_view doing) {
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) {
-    // Frees the disk even if a library has the file open, which needs room to write the data required for closing it. Nobody reads the file any more, so a
+    // Frees the space even if a library has the file open, which needs room to write the data required for closing it. Nobody reads the file any more, so a
     // failure is harmless.
     (void)!::ftruncate(descriptor_, 0);
     ::close(descriptor_);

@@ -56,7 +56,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
     if (::mkdir(temporary_.c_str(), k_new_folder_mode) == 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_folder_names) continue;
-    temporary_.clear();  // owned by another process
+    temporary_.clear();  // not created by this object
     fail(error_number, "creating a folder");
   }
   held_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
