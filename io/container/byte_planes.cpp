@@ -1,6 +1,6 @@
-// Blocks of 16 values of `size` bytes are transposed in registers. The place of a byte in a block is a number of bits "vvvv bb" (value, byte of it). One
-// perfect shuffle, which interleaves the first half of the block with the second, turns those bits left by one; 4 shuffles give "bb vvvv", the planes, and
-// log2(size) give the inverse.
+// Blocks of 16 values of `size` bytes are transposed in registers. The position of a byte in a block is the bit string "vvvv bb" (value, byte of the value).
+// A perfect shuffle, which interleaves the two halves of the block, rotates these bits left by one. 4 shuffles give "bb vvvv", the planes; log2(size) shuffles
+// give the inverse.
 #include "io/container/byte_planes.h"
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t k_block = 16;  // values
 using Register = char __attribute__((vector_size(k_block)));
 
-/// Of a block of `Size` registers.
+/// Shuffles a block of `Size` registers.
 template <std::size_t Size>
 void shuffle(std::array<Register, Size>& block) {
   std::array<Register, Size> result;
@@ -43,7 +43,7 @@ void scatter_blocks(const char* planes, std::size_t n, char* values) {
   }
 }
 
-/// Values that whole blocks have done.
+/// Returns the number of values processed in whole blocks.
 std::size_t n_in_blocks(std::size_t n, std::size_t size) { return size == 4 || size == 8 ? n - n % k_block : 0; }
 
 }  // namespace

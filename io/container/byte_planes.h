@@ -1,14 +1,14 @@
-// The bytes of numbers sorted by place: all first bytes, then all second bytes, and so on. What is alike comes together, so that LZ4 finds it.
+// Byte planes of number arrays: all first bytes, then all second bytes, and so on. Similar bytes become adjacent, which improves LZ4 compression.
 #pragma once
 
 #include <cstddef>
 
 namespace sterna::io {
 
-/// planes[k * n + i] = values[i * size + k] for n values of `size` bytes.
+/// Writes planes[k * n + i] = values[i * size + k] for n values of `size` bytes.
 /// \pre no overlap
 void gather_planes(const char* values, std::size_t n, std::size_t size, char* planes);
-/// The inverse: values[i * size + k] = planes[k * n + i].
+/// Inverts gather_planes(): values[i * size + k] = planes[k * n + i].
 /// \pre no overlap
 void scatter_planes(const char* planes, std::size_t n, std::size_t size, char* values);
 

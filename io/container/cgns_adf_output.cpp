@@ -1,4 +1,4 @@
-// ADF by libcgns (its layer cgio): the nodes one after the other, their values in blocks.
+// ADF output with libcgns (its layer cgio): the nodes in sequence, their values in blocks.
 #include <cgns_io.h>
 
 #include <array>
@@ -10,8 +10,7 @@
 namespace sterna::io {
 namespace {
 
-/// Where the head of an ADF file tells when it was created and changed, 28 bytes each. They are set to a constant, because a mesh gives the same bytes each
-/// time.
+/// Offsets of the creation and modification dates in the head of an ADF file, 28 bytes each. Both are set to a constant, so that the output is reproducible.
 constexpr std::array<std::uint64_t, 2> k_dates = {36, 68};
 constexpr std::string_view k_date = "Thu Jan  1 00:00:00 1970    ";
 static_assert(k_date.size() == 28);
@@ -52,7 +51,7 @@ class AdfWriter {
     require(cgio_set_label(library_file_, id, node.label.c_str()), "creating the structure");
     if (node.has_data) {
       std::vector<cgsize_t> extents;
-      for (const std::uint64_t extent : node.array.extents) extents.push_back(static_cast<cgsize_t>(extent));  // the caller has checked that they fit
+      for (const std::uint64_t extent : node.array.extents) extents.push_back(static_cast<cgsize_t>(extent));  // the caller has checked their range
       require(cgio_set_dimensions(library_file_, id, cgns_type_of(node.array.kind).c_str(), static_cast<int>(extents.size()), extents.data()),
               "creating the structure");
       arrays_.push_back(&node.array);

@@ -1,4 +1,4 @@
-// CGNS's numbers and names for elements and boundary conditions (SIDS).
+// Element type numbers, element names and boundary condition names of CGNS (SIDS).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ inline constexpr std::int64_t k_cgns_triangle = 5;
 inline constexpr std::int64_t k_cgns_quad = 7;
 inline constexpr std::int64_t k_cgns_mixed = 20;
 
-/// 10 TETRA_4, 12 PYRA_5, 14 PENTA_6, 17 HEXA_8.
+/// Returns the element type number: 10 TETRA_4, 12 PYRA_5, 14 PENTA_6, 17 HEXA_8.
 constexpr std::int64_t cgns_type(CellKind kind) {
   constexpr std::int64_t k_types[] = {10, 12, 14, 17};
   return k_types[static_cast<std::size_t>(kind)];
@@ -37,7 +37,7 @@ constexpr std::string_view cgns_condition(PatchKind kind) {
   return "UserDefined";
 }
 
-/// Under a family: the patch's name where CGNS could not take it as the name of a node.
+/// Node below a family that holds the full patch name where the name is not a valid CGNS node name.
 inline constexpr std::string_view k_cgns_name_note = "PatchName";
 
 }  // namespace sterna::io

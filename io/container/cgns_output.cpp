@@ -46,7 +46,7 @@ void write_cgns_hdf5(const CgnsOutputNode& root, const std::filesystem::path& pa
   Hdf5OutputNode file = hdf5_node(root);
   file.attributes = {text_attribute("name", "HDF5 MotherNode", k_cgns_name + 1), text_attribute("label", "Root Node of HDF5 File", k_cgns_name + 1),
                      text_attribute("type", "MT", 3)};
-  // What the CGNS library puts into every file: the byte order of its numbers, and which HDF5 wrote them.
+  // Entries that the CGNS library writes to every file: the byte order of its numbers, and the HDF5 version.
   std::string version = "HDF5 file format, sterna";
   version.resize(k_cgns_name + 1, '\0');
   file.children.insert(file.children.begin(), {{.name = " format", .is_dataset = true, .array = output_text(std::string("IEEE_LITTLE_32", 15))},

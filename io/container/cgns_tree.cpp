@@ -1,5 +1,5 @@
-// CGNS nodes in HDF5: a group with the attributes name, label, type, flags; its values in a dataset " data" with the extents reversed. ADF comes in the same
-// shape (adf_nodes.cpp).
+// CGNS nodes in HDF5: a group with the attributes name, label, type, flags; its values are in a dataset " data" with the extents reversed. adf_nodes.cpp maps
+// ADF to the same structure.
 #include "io/container/cgns_tree.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A CGNS file as the tree of nodes that it is, from either container (HDF5, ADF).
+// A CGNS file as a tree of nodes, read from either container (HDF5, ADF).
 // Based on: CGNS SIDS File Mapping Manual (node: name, label, type, extents, data, children).
 #pragma once
 
@@ -17,14 +17,14 @@ struct CgnsNode {
   std::string label;  ///< "Elements_t"
   std::string type;   ///< "I4", "MT" (no data), "LK" (a link to another file)
   std::vector<CgnsNode> children;
-  const ContainerNode* place = nullptr;  ///< in the container
+  const ContainerNode* place = nullptr;  ///< the node in the container
 
   const CgnsNode* find(std::string_view name) const;
-  /// First child with that label.
+  /// Returns the first child with that label.
   const CgnsNode* find_label(std::string_view label) const;
 };
 
-/// Labels of nodes that are no part of a mesh: solutions, motions, connections of zones.
+/// Returns the labels of nodes that are not part of a mesh: solutions, motions, zone connectivities.
 const std::vector<std::string>& cgns_labels_beside_the_mesh();
 
 /// Readers throw Error file_malformed (path, expectation) and unsupported_format.
@@ -33,7 +33,7 @@ class CgnsTree {
   /// \pre `image` outlives the tree and its data
   explicit CgnsTree(const ContainerImage& image);
   const CgnsNode& root() const { return root_; }
-  /// Data of a node; extents fastest first, as CGNS counts them. Nothing (count() == 0) for a node of type "MT".
+  /// Returns the data of a node; extents are fastest first, as in CGNS. Empty (count() == 0) for a node of type "MT".
   NumberArray data(const CgnsNode& node) const;
   [[noreturn]] void fail(const CgnsNode& node, std::string_view problem) const;
   const std::string& source() const { return image_.source(); }

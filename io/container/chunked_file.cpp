@@ -20,17 +20,17 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
 
-/// As PNG's: survives no transfer as text.
+/// Signature in the style of PNG: detects files damaged by a transfer as text.
 constexpr std::string_view k_magic("\x89sterna\r\n\x1a\n\0\0\0\0\0", 16);
 constexpr std::uint32_t k_byte_order_mark = 0x01020304;
 constexpr std::size_t k_head_bytes = 64;
 constexpr std::size_t k_hashed_head_bytes = 56;
 constexpr std::uint8_t k_plain = 0;
-constexpr std::uint8_t k_lz4_planes = 1;               // LZ4 of all first bytes of the values, all second bytes, ...
-constexpr std::uint64_t k_max_chunk_bytes = 1u << 24;  // of a reader: writers stay below
-constexpr std::uint64_t k_lz4_expansion = 255;         // no packed byte gives more
+constexpr std::uint8_t k_lz4_planes = 1;               // LZ4 of the byte planes: all first bytes of the values, all second bytes, ...
+constexpr std::uint64_t k_max_chunk_bytes = 1u << 24;  // limit for the reader: writers stay below
+constexpr std::uint64_t k_lz4_expansion = 255;         // maximum expansion of a packed byte
 constexpr std::size_t k_longest_name = 255;
-/// A chunk that LZ4 does not shrink by a sixteenth is stored as it is: unpacking would cost more than reading.
+/// A chunk that LZ4 does not shrink by a sixteenth is stored uncompressed: unpacking would take longer than reading.
 constexpr std::size_t k_gain = 16;
 
 template <class T>
@@ -40,7 +40,7 @@ void append_number(std::string& text, T value) {
   text.append(bytes.data(), bytes.size());
 }
 
-/// Fuzzers get behind the hashes, which stop nobody who means harm.
+/// Compares the bytes with their hash. Fuzzing builds skip the test to reach the code after it; the hash is no protection against deliberate changes.
 bool is_intact(std::string_view bytes, std::uint64_t hash) {
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
   static_cast<void>(bytes), static_cast<void>(hash);
@@ -81,7 +81,7 @@ void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n
         const std::size_t n_bytes = (end - begin) * size;
         const int bound = LZ4_compressBound(static_cast<int>(n_bytes));
         char* const place =
-            out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values behind it: the buffer is used again, its pages stay
+            out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values come after it: the buffer is reused, so its pages stay allocated
         char* const planes = place + bound;
         const char* const values = find(begin, end, planes + n_bytes);
         gather_planes(values, end - begin, size, planes);
@@ -179,7 +179,7 @@ ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
 void ChunkedReader::read_directory(std::uint64_t begin, std::uint64_t end) {
   ByteReader bytes(buffer_, std::endian::little, begin);
   const auto n_arrays = bytes.read<std::uint32_t>("the number of arrays");
-  std::uint64_t free = k_head_bytes;  // chunks follow each other, so that a small file cannot claim to unpack to a large one
+  std::uint64_t free = k_head_bytes;  // chunks are contiguous, so that a small file cannot claim to unpack to a large one
   for (std::uint32_t a = 0; a < n_arrays; ++a) {
     const auto n_name = bytes.read<std::uint32_t>("the length of a name");
     if (n_name > k_longest_name) bytes.fail("found a name of " + std::to_string(n_name) + " bytes, expected at most " + std::to_string(k_longest_name));

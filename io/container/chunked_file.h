@@ -1,4 +1,4 @@
-// Named arrays of numbers in chunks, each packed by LZ4 and hashed: the container under .sterna (docs/sterna_format.md). Knows nothing of meshes.
+// Named arrays of numbers in chunks, each compressed with LZ4 and hashed: the container of .sterna files (docs/sterna_format.md). Independent of meshes.
 #pragma once
 
 #include <cstdint>
@@ -17,35 +17,35 @@ namespace sterna::io {
 enum class NumberType : std::uint8_t { u8 = 1, u32 = 2, i64 = 3, f64 = 4 };
 std::size_t size_of(NumberType type);
 
-/// Latest version that is read. A writer marks a file with the first version whose readers understand all that must not be passed over in it.
+/// Latest version that can be read. A writer stamps a file with the first version whose readers understand all contents that must not be ignored.
 inline constexpr std::uint32_t k_chunked_version = 4;
 inline constexpr std::uint32_t k_first_chunked_version = 1;
-/// Values of a chunk take this many bytes at most: enough to pack well, few enough for the cache of a core, and 64 buffers with three times as much fit into
-/// 100 MB.
+/// Maximum bytes of values in a chunk: large enough to compress well, small enough for the cache of a core. 64 buffers of three times this size fit into 100
+/// MB.
 inline constexpr std::uint64_t k_chunk_bytes = 3u << 17;
 
-/// What `fill` writes for [begin, end) are the values' bytes, little endian; called from any thread.
+/// Fills `out` with the bytes of the values [begin, end), little endian; called from any thread.
 using FillValues = std::function<void(std::uint64_t begin, std::uint64_t end, char* out)>;
 
-/// Array after array, then finish().
-/// \throws Error write_failed, cancelled, and what a fill function throws
+/// Writes a chunked file: add() for each array, then finish().
+/// \throws Error write_failed, cancelled, and errors of fill functions
 class ChunkedWriter {
  public:
-  /// Begins the file.
+  /// Begins the file with room for the header.
   /// \pre `file` is empty and outlives the writer
   explicit ChunkedWriter(AtomicFile& file);
 
-  /// `n_values` counts all components.
+  /// Adds an array. `n_values` counts all components.
   void add(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FillValues& fill, const RunContext& context);
-  /// The bytes of values that lie in memory as in the file.
+  /// Adds an array whose memory layout equals the file layout.
   void add_memory(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const void* values, const RunContext& context);
 
-  /// Writes the directory, and where it is to the head. Does not commit.
+  /// Writes the directory, and its offset into the file header. Does not commit.
   /// \pre version <= k_chunked_version
   void finish(std::uint32_t version = k_first_chunked_version);
 
  private:
-  /// Where the bytes of [begin, end) are: filled into `room`, or where they lie.
+  /// Returns the address of the bytes of [begin, end): either `room` after filling it, or the existing memory.
   using FindValues = std::function<const char*(std::uint64_t begin, std::uint64_t end, char* room)>;
   void pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find, const RunContext& context);
 
@@ -54,7 +54,7 @@ class ChunkedWriter {
   std::uint32_t n_arrays_ = 0;
 };
 
-/// An array that can be read.
+/// Directory entry of an array.
 struct StoredArray {
   NumberType type = NumberType::u8;
   std::uint32_t n_components = 1;
@@ -67,7 +67,7 @@ struct StoredArray {
   std::vector<Chunk> chunks;
 };
 
-/// The directory of a file, checked; arrays are unpacked when asked for.
+/// Reader of a chunked file. The directory is checked at construction; arrays are unpacked on request.
 class ChunkedReader {
  public:
   /// \pre `buffer` outlives the reader.
@@ -76,8 +76,8 @@ class ChunkedReader {
 
   bool has(std::string_view name) const { return arrays_.find(name) != arrays_.end(); }
   /// Unpacks all values in parallel into `to`.
-  /// \pre has(name), as many bytes as the array has.
-  /// \throws Error(file_malformed) for a chunk that is not what it was
+  /// \pre has(name); `to` has room for all bytes of the array
+  /// \throws Error(file_malformed) for a chunk that does not match its hash
   void read(std::string_view name, char* to, const RunContext& context) const;
   const StoredArray& at(std::string_view name) const { return arrays_.find(name)->second; }
   [[noreturn]] void fail(std::string_view name, const std::string& problem) const;
@@ -88,7 +88,7 @@ class ChunkedReader {
   std::map<std::string, StoredArray, std::less<>> arrays_;
 };
 
-/// Whether a file that begins with these bytes is one.
+/// Returns true if a file that begins with these bytes is a chunked file.
 bool is_chunked_file(std::string_view head);
 
 }  // namespace sterna::io

@@ -27,7 +27,7 @@ HelperTask task_of(const std::string& source) {
           .failed = ErrorCode::file_not_found};
 }
 
-/// A file as a descriptor that the helper can inherit.
+/// An input file as a descriptor that the helper can inherit.
 class SourceFile {
  public:
   SourceFile(const std::filesystem::path& path, const HelperTask& task, const RunContext& context) {
@@ -40,7 +40,7 @@ class SourceFile {
         return;
       }
     }
-    const FileBuffer buffer = load_file(path, context);  // unpacks, or says what is wrong with the path
+    const FileBuffer buffer = load_file(path, context);  // unpacks, or reports the problem with the path
     head_ = buffer.text().substr(0, k_probed_head_bytes);
     block_ = std::make_unique<SharedBlock>("sterna unpacked file", 0, task);
     block_->append(std::as_bytes(std::span(buffer.bytes)));
@@ -57,7 +57,7 @@ class SourceFile {
  private:
   static bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
-  /// The first bytes of a regular file as they are; none when they cannot be had.
+  /// Returns the first bytes of a regular file without unpacking; empty if they cannot be read.
   static std::string raw_head(const std::filesystem::path& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return {};
@@ -75,7 +75,7 @@ class SourceFile {
   std::unique_ptr<SharedBlock> block_;
 };
 
-/// The library that reads a file that begins so.
+/// Returns the library for a file with this head.
 std::string library_for(ContainerFormat format, const std::string& head, const std::string& source) {
   if (format == ContainerFormat::netcdf && is_netcdf(head)) return "netcdf";
   if (format != ContainerFormat::netcdf && is_hdf5(head)) return "hdf5";
@@ -86,7 +86,7 @@ std::string library_for(ContainerFormat format, const std::string& head, const s
       "found " + quoted_excerpt(std::string_view(head).substr(0, 8)) + ", expected the beginning of " + k_names[static_cast<std::size_t>(format)] + " file");
 }
 
-/// Why the helper has left no image.
+/// Reports why the helper left no image.
 [[noreturn]] void throw_death(const HelperExit& exit, const std::string& library, const std::string& source) {
   constexpr std::string_view k_hint = "the file may be damaged: copy or write it again";
   const std::string name = library == "hdf5" ? "HDF5" : library == "netcdf" ? "NetCDF" : "CGNS";

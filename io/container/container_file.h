@@ -1,4 +1,4 @@
-// Container files (HDF5, NetCDF, ADF), read by their libraries in a process of its own: sterna-read-container, which lies beside the program.
+// Container files (HDF5, NetCDF, ADF). Their libraries run in a separate process, sterna-read-container, installed beside the program.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,15 @@ bool is_hdf5(std::string_view bytes);
 bool is_adf(std::string_view bytes);
 bool is_netcdf(std::string_view bytes);  ///< the classic format or HDF5
 
-/// What a container file may be.
+/// Formats of a container file.
 enum class ContainerFormat { hdf5, netcdf, cgns };  ///< cgns: HDF5 or ADF
 
-/// Reads the whole file but for the groups whose name or label (attribute "label") is in `left_out`. Packed by gzip or from a pipe it goes through memory.
-/// Memory stays in proportion to the file: contiguous arrays are no larger than it, unpacked ones in all no more than wire::k_max_expansion times.
-/// \param helper_folder where sterna-read-container is; empty = beside the program
-/// \throws Error file_not_found; file_malformed (path in the file, expectation; also where the library crashes or runs into its limits); unsupported_format
-/// (links, filters, types; the helper is not there); cancelled.
+/// Reads the whole file except groups whose name or label (attribute "label") is in `left_out`. A gzipped file or a pipe is read through memory.
+/// Memory is proportional to the file size: contiguous arrays are no larger than the file, unpacked arrays in total at most wire::k_max_expansion times as
+/// large.
+/// \param helper_folder folder of sterna-read-container; empty = beside the program
+/// \throws Error file_not_found; file_malformed (path in the file, expectation; also if the library crashes or exceeds its limits); unsupported_format (links,
+/// filters, types; the helper is missing); cancelled.
 ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context,
                               const std::string& helper_folder = {});
 

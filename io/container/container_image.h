@@ -1,4 +1,4 @@
-// A container file (HDF5, NetCDF, ADF) as the tree that sterna-read-container has made of it: groups, datasets, attributes, values.
+// A container file (HDF5, NetCDF, ADF) as the tree that sterna-read-container returns: groups, datasets, attributes, values.
 #pragma once
 
 #include <cstdint>
@@ -14,39 +14,39 @@
 
 namespace sterna::io {
 
-/// Values, or why there are none.
+/// Values, or the reason why they are missing.
 struct ContainerValues {
   NumberArray array;
   wire::Trouble trouble = wire::Trouble::none;
   std::string problem;
 };
 
-/// A group, a dataset, or a name of one that was not followed. A NetCDF file is a group whose datasets are the variables.
+/// A group, a dataset, or a link that was not followed. A NetCDF file is a group whose datasets are the variables.
 struct ContainerNode {
   std::string name;
   std::string path;  ///< "/VTKHDF/Points", for messages
   wire::Role role = wire::Role::group;
   std::vector<ContainerNode> children;  ///< in the order of the file
   std::map<std::string, ContainerValues> attributes;
-  ContainerValues values;  ///< of a dataset
+  ContainerValues values;  ///< values, if a dataset
 
   const ContainerNode* find(std::string_view name) const;
-  /// An attribute that has values; nullptr: none of that name.
+  /// Returns an attribute that has values; nullptr if there is no attribute of that name.
   const NumberArray* attribute(const std::string& name) const;
 };
 
 class ContainerImage {
  public:
-  /// Checks the image of a file named `source` in every respect, so that all arrays are views of `bytes`. `owner` keeps these alive.
-  /// \throws Error file_malformed, unsupported_format: what the helper says of the file; also where the image is not one.
+  /// Checks the image of a file named `source` completely, so that all arrays are views of `bytes`. `owner` keeps the bytes alive.
+  /// \throws Error file_malformed, unsupported_format: errors that the helper reports; also if `bytes` is not an image.
   ContainerImage(std::shared_ptr<const void> owner, std::span<const std::byte> bytes, std::string source);
 
   const std::string& source() const { return source_; }
   const ContainerNode& root() const { return root_; }
-  /// \throws Error(file_malformed) when there is none of that name.
+  /// \throws Error(file_malformed) if there is no child of that name.
   const ContainerNode& child(const ContainerNode& parent, std::string_view name) const;
-  /// The values of a dataset.
-  /// \throws Error file_malformed, unsupported_format where they are not to be had
+  /// Returns the values of a dataset.
+  /// \throws Error file_malformed, unsupported_format if they could not be read
   NumberArray data(const ContainerNode& dataset) const;
 
  private:

@@ -1,9 +1,8 @@
-// What sterna and sterna-read-container say to each other. It includes nothing of sterna but the kinds of numbers.
+// Protocol between sterna and sterna-read-container. This header includes nothing of sterna except the kinds of numbers.
 //
-// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups that are left out. Descriptor 3: the file, read-only. Descriptor 4: the
-// image, a memfd. Image:     ImageHeader; n_nodes NodeRecords, each behind its parent, the first is the root; text_size bytes of text; values, each on a
-// multiple of k_alignment.
-//            With an outcome other than ok: the header and the text only.
+// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups to leave out. Descriptor 3: the file, read-only. Descriptor 4: the image, a
+// memfd. Image: ImageHeader; n_nodes NodeRecords, each after its parent, the root first; text_size bytes of text; values, each aligned to k_alignment.
+// With an outcome other than ok: the header and the text only.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +15,21 @@ inline constexpr int k_file_fd = 3;
 inline constexpr int k_image_fd = 4;
 inline constexpr std::uint64_t k_image_magic = 0x3149544e43545353;  ///< "SSTCNTI1" in memory; the last digit is the version
 inline constexpr std::uint64_t k_alignment = 64;
-inline constexpr std::uint32_t k_max_rank = 12;   ///< extents of an array; the last is the length of a text in an array of texts
-inline constexpr std::uint32_t k_max_depth = 64;  ///< of nested groups; the CGNS standard uses about 10
-/// Unpacked over file size: what chunks and repeated values may grow to. Meshes reach about 10.
+inline constexpr std::uint32_t k_max_rank = 12;   ///< extents of an array; the last is the string length in an array of strings
+inline constexpr std::uint32_t k_max_depth = 64;  ///< depth of nested groups; the CGNS standard uses about 10
+/// Maximum ratio of unpacked size to file size, for chunks and repeated values. Meshes reach about 10.
 inline constexpr std::uint64_t k_max_expansion = 200;
-/// Bytes that may be unpacked whatever the file's size.
+/// Number of bytes that may be unpacked regardless of the file size.
 inline constexpr std::uint64_t k_expansion_floor = std::uint64_t{1} << 24;
 
 enum class Outcome : std::uint32_t {
   ok = 0,
   malformed = 1,      ///< the file breaks the rules of its container
-  unsupported = 2,    ///< it uses something that is not read
+  unsupported = 2,    ///< the file uses an unsupported feature
   out_of_memory = 3,  ///< an allocation failed within the memory limit
 };
 
-/// A piece of the text.
+/// A range of the text section.
 struct Text {
   std::uint64_t begin = 0;
   std::uint64_t size = 0;
@@ -41,22 +40,22 @@ struct ImageHeader {
   Outcome outcome = Outcome::ok;
   std::uint32_t n_nodes = 0;
   std::uint64_t text_size = 0;
-  Text where, problem, hint;  ///< of an outcome other than ok
+  Text where, problem, hint;  ///< set for an outcome other than ok
 };
 
 enum class Role : std::uint8_t {
   group = 0,
   dataset = 1,
   attribute = 2,
-  link = 3,      ///< by name or to another file, or a second name of a group that has one already: not followed
-  left_out = 4,  ///< its name or label was among the arguments
+  link = 3,      ///< a link by name or to another file, or a second name of a group: not followed
+  left_out = 4,  ///< name or label is among the arguments
 };
 
-/// Why a dataset or attribute has no values here: a text, and whether the file is wrong or this program too small.
+/// Reason why a dataset or attribute has no values: the file is malformed, or it uses an unsupported feature.
 enum class Trouble : std::uint8_t { none = 0, malformed = 1, unsupported = 2 };
 
 struct NodeRecord {
-  std::uint32_t parent = 0;  ///< its own number for the root
+  std::uint32_t parent = 0;  ///< own number for the root
   Role role = Role::group;
   Trouble trouble = Trouble::none;
   NumberKind kind = NumberKind::i4;
@@ -65,7 +64,7 @@ struct NodeRecord {
   std::uint32_t unused = 0;
   Text name, problem;
   std::uint64_t extents[k_max_rank] = {};  ///< slowest first
-  std::uint64_t begin = 0, n_bytes = 0;    ///< of the values in the image; n_bytes is the product of the extents and the size of a number
+  std::uint64_t begin = 0, n_bytes = 0;    ///< range of the values in the image; n_bytes is the product of the extents and the size of a number
 };
 
 static_assert(sizeof(ImageHeader) == 72 && sizeof(NodeRecord) == 160);

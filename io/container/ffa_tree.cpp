@@ -82,7 +82,7 @@ std::string FfaNode::place() const {
 
 void FfaNode::fail(const std::string& problem) const { throw_malformed(buffer_->source, place(), "node " + quoted_excerpt(name) + ": " + problem); }
 
-/// Pre-order walk over nodes. A file of n bytes has at most n / 32 of them, so that memory stays in proportion.
+/// Pre-order parser of nodes. A file of n bytes has at most n / 32 nodes, so memory is proportional to the file size.
 class FfaParser {
  public:
   explicit FfaParser(const FileBuffer& buffer) : buffer_(buffer), bytes_(buffer, std::endian::big), scanner_(buffer, {.comment = '*'}) {}
@@ -175,7 +175,7 @@ class FfaParser {
     const std::uint64_t n = node.n_values();
     if (version_ == 2) {
       const std::size_t at = bytes_.offset();
-      const auto count = bytes_.read<std::int64_t>("the number of values");  // of elements, of bytes: writers differ
+      const auto count = bytes_.read<std::int64_t>("the number of values");  // of elements or of bytes: writers differ
       if (count != static_cast<std::int64_t>(n) && count != static_cast<std::int64_t>(n * size))
         throw_malformed(buffer_.source, "byte " + std::to_string(at),
                         "found " + std::to_string(count) + " as the number of values, expected " + std::to_string(n));
@@ -188,7 +188,7 @@ class FfaParser {
     if (version_ == 1) marker(n_bytes, "the end of the values of \"" + node.name + "\"");
   }
 
-  /// "name, TYPE, columns, rows, children", commas or blanks between.
+  /// Reads "name, TYPE, columns, rows, children", separated by commas or blanks.
   std::uint64_t ascii_header(FfaNode& node) {
     if (scanner_.at_end()) scanner_.fail_expected("a node: name, type, columns, rows, children");
     node.begin_ = scanner_.offset();
@@ -231,7 +231,7 @@ class FfaParser {
     if (scanner_.at_line_end()) scanner_.next_line();
   }
 
-  /// 'text on one line'
+  /// Reads 'text on one line'.
   std::string quoted() {
     if (scanner_.at_end()) scanner_.fail_expected("a string in single quotes");
     const std::string line(scanner_.rest_of_line());

@@ -12,7 +12,7 @@
 
 namespace sterna::io {
 
-/// A node of a tree that was read. Its values are decoded when asked for; the FileBuffer must outlive it.
+/// A node of an FFA tree. Values are decoded on access; the FileBuffer must outlive the node.
 class FfaNode {
  public:
   std::string name;
@@ -25,21 +25,22 @@ class FfaNode {
   bool is_integer() const { return type == 'I' || type == 'J'; }
   bool is_real() const { return type == 'R' || type == 'D'; }
   bool is_text() const { return type == 'S' || type == 'L'; }
+  /// Returns an integer value.
   /// \pre is_integer(); row, column in range
   std::int64_t integer(std::uint64_t row, std::uint64_t column) const;
-  /// Any number; may not be finite.
+  /// Returns an integer or real value; may not be finite.
   /// \pre is_real() or is_integer()
   double real(std::uint64_t row, std::uint64_t column) const;
-  /// The first string, without blanks at its end.
+  /// Returns the first string without trailing blanks.
   /// \pre is_text() and n_values() > 0
   std::string text() const;
 
-  /// The first child of that name; nullptr when there is none.
+  /// Returns the first child of that name, or nullptr.
   const FfaNode* find(std::string_view child) const;
-  /// As find().
-  /// \throws Error(file_malformed)
+  /// Returns the first child of that name.
+  /// \throws Error(file_malformed) if there is none
   const FfaNode& at(std::string_view child) const;
-  /// "byte 120" or "line 7".
+  /// Returns the location for messages: "byte 120" or "line 7".
   std::string place() const;
   [[noreturn]] void fail(const std::string& problem) const;
 
@@ -48,20 +49,20 @@ class FfaNode {
   std::uint64_t place_of(std::uint64_t row, std::uint64_t column) const { return column * n_rows + row; }
 
   const FileBuffer* buffer_ = nullptr;
-  std::size_t begin_ = 0;  ///< of the node, for messages
+  std::size_t begin_ = 0;  ///< offset of the node, for messages
   std::size_t data_ = 0;   ///< first byte of the values
   std::endian order_ = std::endian::big;
   bool is_ascii_ = false;
-  std::vector<double> reals_;           ///< of text files
-  std::vector<std::int64_t> integers_;  ///< of text files
-  std::string text_;                    ///< of text files
+  std::vector<double> reals_;           ///< only for text files
+  std::vector<std::int64_t> integers_;  ///< only for text files
+  std::string text_;                    ///< only for text files
 };
 
-/// Reads the tree; which container it is follows from the content.
+/// Reads the tree; binary version or text is detected from the content.
 /// \throws Error file_malformed, unsupported_format (records of 2 GiB and more in version 1)
 FfaNode parse_ffa(const FileBuffer& buffer);
 
-/// Bytes of a node's type field and of one value.
+/// Returns the number of bytes of one value of type `type`.
 std::size_t ffa_value_size(char type);
 
 }  // namespace sterna::io

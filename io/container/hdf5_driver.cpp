@@ -10,12 +10,12 @@ namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
-/// The library's handle of the file: its own part comes first.
+/// The library's file handle. The library's own part must come first.
 struct OpenFile {
   H5FD_t library{};
   Hdf5Driver* driver = nullptr;
-  haddr_t allocated = 0;  ///< the library's end of what it has given away
-  haddr_t end = 0;        ///< of what was written
+  haddr_t allocated = 0;  ///< end of the space that the library has allocated
+  haddr_t end = 0;        ///< end of the written bytes
 };
 
 OpenFile& of(const H5FD_t* file) { return *reinterpret_cast<OpenFile*>(const_cast<H5FD_t*>(file)); }
@@ -35,7 +35,7 @@ herr_t close_file(H5FD_t* file) {
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
   if (flags)
-    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;  // as its own driver of files
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;  // as HDF5's own driver
   return 0;
 }
 
@@ -56,7 +56,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t n, con
   OpenFile& own = of(file);
   own.driver->attempt([&](AtomicFile& target) { target.put(offset, {static_cast<const char*>(bytes), n}); });
   own.end = std::max<haddr_t>(own.end, offset + n);
-  return 0;  // also when that failed: see Hdf5Driver
+  return 0;  // also after a failure: see Hdf5Driver
 }
 
 herr_t truncate(H5FD_t* file, hid_t, hbool_t) {

@@ -1,4 +1,4 @@
-// How libhdf5 reaches an AtomicFile: a virtual file driver. For hdf5_output.cpp alone, which includes hdf5.h.
+// A virtual file driver through which libhdf5 writes to an AtomicFile. Only for hdf5_output.cpp, which includes hdf5.h.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace sterna::io {
 
-/// What the library writes goes to the file until that fails; then the failure is kept and the rest goes nowhere, because the library crashes at the end of the
-/// program where it cannot write what it needs to close a file, be it on a full disk.
+/// Passes the library's output to the file. After a failure the error is stored and further output is discarded: libhdf5 crashes at program exit if it cannot
+/// write the data needed to close a file, for example on a full disk.
 class Hdf5Driver {
  public:
   /// \pre `file` outlives the driver, which outlives the library's file
@@ -18,14 +18,14 @@ class Hdf5Driver {
   Hdf5Driver(const Hdf5Driver&) = delete;
   Hdf5Driver& operator=(const Hdf5Driver&) = delete;
 
-  /// Makes the library use it for files that are created with this access list. False: the library refuses.
+  /// Selects this driver for files created with the access list. Returns false if the library refuses.
   bool set_on(std::int64_t access);
-  /// Throws what AtomicFile threw in a call of the library, if it did.
+  /// Throws the stored AtomicFile error, if any.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
 
-  /// For the driver's functions: calls f on the file, keeps what it throws.
+  /// Calls f on the file and stores any exception. For the driver's functions.
   template <class F>
   void attempt(const F& f) noexcept {
     if (failure_) return;

@@ -1,5 +1,4 @@
-// Steps: all groups and datasets with their places (the structure is complete before the first value), the values in slabs, the file closed, synced and
-// renamed.
+// Steps: create all groups and datasets (the structure is complete before the first value), write the values in slabs, close, sync and rename the file.
 #include "io/container/hdf5_output.h"
 
 #include <hdf5.h>
@@ -15,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are handed over as they lie in memory");
 
-/// While it lives, this thread's failures in the library are not printed.
+/// Suppresses the library's error output of this thread during its lifetime.
 class QuietLibrary {
  public:
   QuietLibrary() {
@@ -43,7 +42,7 @@ class QuietLibrary {
       {.code = ErrorCode::write_failed, .attempted = "writing " + file.path().string(), .problem = std::string(doing) + ": the HDF5 library says: " + text});
 }
 
-/// Closes what the library opened.
+/// Closes a library object at the end of its lifetime.
 class Handle {
  public:
   Handle(const AtomicFile& file, hid_t id, herr_t (*close)(hid_t), const char* doing) : id_(id), close_(close) {
@@ -54,7 +53,7 @@ class Handle {
     if (id_ >= 0) close_(id_);
   }
   Handle& operator=(Handle&&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: it stands for the number
+  operator hid_t() const { return id_; }  // NOLINT: represents the id
   herr_t close() { return close_(std::exchange(id_, -1)); }
 
  private:
@@ -94,13 +93,13 @@ class Hdf5Writer {
   }
 
  private:
-  /// The system's reason comes first: the library does not always hear of it.
+  /// Throws on failure. A stored system error takes precedence, because the library does not always receive it.
   void require(herr_t status, const char* doing) const {
     driver_.rethrow();
     if (status < 0) fail(file_, doing);
   }
 
-  /// A group keeps and indexes the order of creation (CGNS lists children by it), and no times.
+  /// Sets group properties: creation order tracked and indexed (CGNS lists children by it), no time stamps.
   static void set_up_group(const AtomicFile& file, hid_t plist) {
     if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0)
       fail(file, "creating the structure");
@@ -154,9 +153,9 @@ class Hdf5Writer {
     for (const Hdf5OutputAttribute& attribute : node.attributes) add_attribute(datasets_.back(), attribute);
   }
 
-  /// Whole rows, or all of an array at once.
+  /// Writes whole rows, or a complete array at once.
   void put(std::size_t number, std::uint64_t first_value, std::string_view bytes) const {
-    const QuietLibrary quiet;  // of the thread that this is
+    const QuietLibrary quiet;  // for the calling thread
     const OutputArray& array = *arrays_[number];
     const std::uint64_t n_values = bytes.size() / byte_size(array.kind), row = array.extents.front() == 0 ? 1 : count_of(array) / array.extents.front();
     const Handle in_file(file_, H5Dget_space(datasets_[number]), H5Sclose, "writing");

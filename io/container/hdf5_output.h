@@ -1,4 +1,4 @@
-// Writer of HDF5 files by libhdf5: a tree of groups and datasets whose values are streamed. No times: the same bytes each time.
+// Writer of HDF5 files with libhdf5: a tree of groups and datasets whose values are streamed. Contains no time stamps, so that the output is reproducible.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@ namespace sterna::io {
 struct Hdf5OutputAttribute {
   std::string name;
   NumberKind kind = NumberKind::text;
-  std::vector<std::uint64_t> extents;  ///< empty = a scalar; a text is a scalar of bytes.size()
+  std::vector<std::uint64_t> extents;  ///< empty = a scalar; a string is a scalar of bytes.size()
   std::string bytes;                   ///< little endian
 };
-/// A text of `size` bytes, cut or filled with NUL; without a NUL at its end it is stored as one that needs none.
+/// Returns a string attribute of `size` bytes, truncated or padded with NUL. Without a trailing NUL the string type is one that needs no terminator.
 Hdf5OutputAttribute text_attribute(std::string name, std::string text, std::size_t size);
 
 /// A group (no array) or a dataset.
 struct Hdf5OutputNode {
   std::string name;
   std::vector<Hdf5OutputAttribute> attributes;
-  std::vector<Hdf5OutputNode> children;  ///< of a group, in the order of creation, which the file keeps
+  std::vector<Hdf5OutputNode> children;  ///< children of a group, in creation order, which the file keeps
   bool is_dataset = false;
   OutputArray array;
 };
 
-/// Writes the file under `root`, readable from HDF5 1.8 on; whole or not at all.
+/// Writes the file under `root`, readable from HDF5 1.8 on; completely or not at all.
 /// \pre names of siblings differ, attributes are below 64 kB
-/// \throws Error write_failed; what the arrays throw; cancelled
+/// \throws Error write_failed; errors of the arrays; cancelled
 void write_hdf5(const Hdf5OutputNode& root, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -8,7 +8,7 @@
 namespace sterna::io {
 namespace {
 
-/// Bytes that the library collects before it writes them.
+/// Buffer size of the library, in bytes.
 constexpr std::size_t k_buffer = std::size_t{1} << 22;
 
 class NetcdfWriter {
@@ -55,7 +55,7 @@ class NetcdfWriter {
   }
 
  private:
-  /// The library's codes are negative; what the system says is passed on as it is.
+  /// Throws on failure. The library's codes are negative; system errors are passed on unchanged.
   void require(int status, const char* doing) const {
     if (status == NC_NOERR) return;
     if (status > 0) file_.fail(status, doing);

@@ -1,4 +1,4 @@
-// An array of numbers as a container file (HDF5, ADF, NetCDF) holds it: type, byte order, extents, bytes; converted number by number.
+// An array of numbers as stored in a container file (HDF5, ADF, NetCDF): type, byte order, extents, bytes. Numbers are converted on access.
 #pragma once
 
 #include <bit>
@@ -12,11 +12,11 @@
 
 namespace sterna::io {
 
-/// The product of extents.
-/// \throws Error(file_malformed), speaking of `where` in `source`, when it does not fit 64 bits.
+/// Returns the product of the extents.
+/// \throws Error(file_malformed), naming `where` in `source`, if the product does not fit 64 bits.
 std::uint64_t count_of(const std::vector<std::uint64_t>& extents, const std::string& source, const std::string& where);
 
-/// A view of the values; whoever has them (ContainerImage) must outlive it. bytes.size() == count() * byte_size(kind).
+/// A view of the values, whose owner (ContainerImage) must outlive it. bytes.size() == count() * byte_size(kind).
 struct NumberArray {
   NumberKind kind = NumberKind::i4;
   std::endian order = std::endian::little;
@@ -26,12 +26,13 @@ struct NumberArray {
   std::string where;   ///< a path of names
 
   std::uint64_t count() const { return bytes.size() / byte_size(kind); }
-  /// \pre is_integer(kind), i < count(). Unsigned numbers beyond 2^63 come out negative, which every range check refuses.
+  /// Returns an integer. Unsigned numbers beyond 2^63 become negative, which every range check rejects.
+  /// \pre is_integer(kind), i < count()
   std::int64_t integer(std::uint64_t i) const;
-  /// Of any kind of number.
+  /// Returns a number of any kind.
   /// \pre i < count()
   double real(std::uint64_t i) const;
-  /// Bytes up to the first NUL, trailing blanks cut.
+  /// Returns the bytes up to the first NUL, without trailing blanks.
   std::string text() const;
 
   /// Throws Error(file_malformed) unless the numbers are integers (reals) and n of them. \param what "the corners of the faces"

@@ -1,4 +1,4 @@
-// VTU of a surface with numbers on it: what an inspection shows.
+// VTU output of a surface with fields, for inspection.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace sterna::io {
 
-/// Triangles with "marker" = patch number + 1 and each field as an array of 32-bit floats at vertices or cells; names and kinds of patches as field data.
+/// Writes triangles with "marker" = patch number + 1 and each field as a 32-bit float array at vertices or cells; names and kinds of patches are field data.
 /// \pre each field has as many values as the mesh has vertices or triangles
 /// \throws Error write_failed, cancelled
 void write_field_vtu(const TriMesh& mesh, const std::vector<TriMeshField>& fields, const std::filesystem::path& path, const RunContext& context);

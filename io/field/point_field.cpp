@@ -15,7 +15,7 @@ struct Piece {
 
 struct FieldOutline {
   std::vector<Piece> pieces;
-  std::string names;  ///< of all point data, for the message
+  std::string names;  ///< names of all point data arrays, for the message
 };
 
 FieldOutline outline_of(const std::vector<XmlTag>& tags, const std::string& name) {

@@ -1,4 +1,4 @@
-// A scalar at points, as another program or an earlier run left it: the wanted edge lengths of an adapted mesh.
+// A scalar field at points, written by another program or an earlier run: the target edge lengths of an adapted mesh.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ namespace sterna::io {
 
 struct PointField {
   std::vector<Vec3> points;    ///< metres
-  std::vector<double> values;  ///< one for each point
+  std::vector<double> values;  ///< one per point
 };
 
-/// The point data array `name` of a VTU file, of all its pieces, in any encoding that read_volume_vtu() takes.
-/// \throws Error file_malformed (no such array: those that there are; other than one value for each point; not finite), unsupported_format, file_not_found.
+/// Reads the point data array `name` from all pieces of a VTU file, in any encoding that read_volume_vtu() accepts.
+/// \throws Error file_malformed (no such array, with the available names; not one value per point; not finite), unsupported_format, file_not_found.
 PointField read_point_field(const std::filesystem::path& path, const std::string& name, const RunContext& context);
 
 }  // namespace sterna::io

@@ -10,7 +10,7 @@ namespace {
 
 static_assert(sizeof(Point) == 3 * sizeof(double));
 
-/// A small mesh, held in memory, that becomes a document.
+/// A small mesh in memory that can be converted to a document.
 struct SmallGrid {
   const std::vector<Point>* points = nullptr;
   std::vector<std::int32_t> connectivity, offsets, types, marker;
@@ -23,6 +23,7 @@ struct SmallGrid {
     marker.push_back(mark);
   }
 
+  /// Returns the grid as a document.
   /// \pre the grid outlives the document
   VtuDocument document(std::string marker_name) const {
     VtuDocument result;

@@ -1,4 +1,4 @@
-// Writes the geometry of a failure, so that a user can look at it.
+// VTU output of the geometry of a failure, for inspection by the user.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace sterna::io {
 
-/// VTU with the triangles, edges and vertices of the failure.
+/// Writes a VTU file with the triangles, edges and vertices of the failure.
 /// \throws Error(write_failed).
 void write_trouble_vtu(const TroubleGeometry& geometry, const std::filesystem::path& path);
 

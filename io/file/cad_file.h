@@ -1,4 +1,4 @@
-// CAD files by path; what is in them is geom/cad's work.
+// CAD files by path; their contents are handled in geom/cad.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace sterna::io {
 
-/// Whether the name is that of a CAD file: .step .stp .iges .igs .brep .egads, each also with .gz.
+/// Returns true if the extension is that of a CAD file: .step .stp .iges .igs .brep .egads, each also with .gz.
 bool is_cad_file(const std::filesystem::path& path);
 
-/// Reads a STEP, IGES or BREP file, gzipped or not; the format follows from the contents, else from the name.
-/// \throws Error file_not_found, file_malformed, unsupported_format, and what cad::read_cad_bytes throws.
+/// Reads a STEP, IGES or BREP file, optionally gzipped. The format is detected from the contents, else from the name.
+/// \throws Error file_not_found, file_malformed, unsupported_format, and errors of cad::read_cad_bytes.
 CadFile read_cad(const std::filesystem::path& path, const ReadCadOptions& options, const RunContext& context);
 
-/// Writes a model; the format follows from the name. An existing file stays as it was on failure.
-/// \throws Error unsupported_format (a name of none of the three, .gz), write_failed, and what cad::cad_bytes throws.
+/// Writes a model; the format follows from the name. On failure an existing file is unchanged.
+/// \throws Error unsupported_format (other extensions, .gz), write_failed, and errors of cad::cad_bytes.
 void write_cad(const Model& model, const std::filesystem::path& path, const WriteCadOptions& options, const RunContext& context);
 
 }  // namespace sterna::io

@@ -47,28 +47,28 @@ namespace {
 
 bool is_xml(std::string_view head) { return head.substr(std::min(head.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), head.size())).starts_with('<'); }
 bool is_gmsh(std::string_view head) { return head.find("$MeshFormat") != std::string_view::npos; }
-/// The keyword in upper or in lower case.
+/// Returns true if the head contains the data set keyword in upper or lower case.
 bool has_data_set(std::string_view head, std::string_view upper, std::string_view lower) {
   return head.find(upper) != std::string_view::npos || head.find(lower) != std::string_view::npos;
 }
 bool is_vtk_surface(std::string_view head) { return has_data_set(head, "DATASET POLYDATA", "dataset polydata"); }
 bool is_vtk_grid(std::string_view head) { return has_data_set(head, "DATASET UNSTRUCTURED_GRID", "dataset unstructured_grid"); }
-/// An S-expression.
+/// Returns true if the head is an S-expression.
 bool is_fluent(std::string_view head) {
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && head[first] == '(';
 }
 
-/// The one of .aboc and .bboc that is there.
+/// Returns the existing file of .aboc and .bboc.
 std::filesystem::path edge_kinds_path(const std::filesystem::path& path) {
   const std::filesystem::path text = edge_conditions_path(path);
   std::filesystem::path binary = text;
   binary.replace_extension(".bboc");
-  std::error_code ignored;  // of a file that cannot be looked at
+  std::error_code ignored;  // if the file cannot be accessed
   return std::filesystem::exists(text, ignored) ? text : binary;
 }
 
-// One line for each format; the order counts where extensions are shared.
+// One line per format; the order matters where extensions are shared.
 constexpr std::array k_formats = {
     Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .write_surface = write_stl, .carries_patch_names = true},
     Format{.name = "STL binary", .extensions = ".stl", .write_surface = write_stl_binary},
@@ -239,16 +239,16 @@ std::string lower_case_name(const std::filesystem::path& path) {
   return name;
 }
 
-/// A folder that is a case of OpenFOAM, there ("case" with constant/polyMesh or system in it) or to be made ("case/").
+/// Returns true for an OpenFOAM case folder, either existing ("case" with constant/polyMesh or system in it) or to be created ("case/").
 bool is_case_folder(const std::filesystem::path& path) {
-  std::error_code ignored;  // what cannot be looked up is not there
+  std::error_code ignored;  // a path that cannot be accessed is treated as missing
   if (!std::filesystem::exists(path, ignored)) return !path.has_filename() && path.has_parent_path();
   if (!std::filesystem::is_directory(path, ignored)) return false;
   return !path.has_filename() || std::filesystem::exists(path / "system" / "controlDict", ignored) ||
          std::filesystem::exists(path / "constant" / "polyMesh", ignored);
 }
 
-/// The lines with the longest extension that ends the name ("wing.lb8.ugrid" could also end in a plain ".ugrid"), in the table's order.
+/// Returns the lines with the longest extension that ends the name ("wing.lb8.ugrid" also ends in a plain ".ugrid"), in table order.
 std::vector<const Format*> formats_of_name(const std::filesystem::path& path) {
   const std::string name = lower_case_name(path);
   std::vector<const Format*> found;
@@ -287,7 +287,7 @@ const Format& format_of(const std::filesystem::path& path) {
   std::vector<const Format*> candidates = formats_of_name(path);
   if (candidates.empty()) {
     const std::string attempted = "finding the format of " + path.string();
-    std::error_code ignored;  // a path that cannot be asked is no folder
+    std::error_code ignored;  // a path that cannot be accessed is not a folder
     if (std::filesystem::is_directory(path, ignored))
       throw Error({.code = ErrorCode::unsupported_format,
                    .attempted = attempted,
@@ -311,12 +311,12 @@ const Format& format_of(const std::filesystem::path& path) {
 
 bool states_patch_kinds(const std::filesystem::path& path) {
   const Format& format = format_of(path);
-  std::error_code ignored;  // of a file that cannot be looked at
+  std::error_code ignored;  // if the file cannot be accessed
   return format.carries_patch_kinds || (format.kinds_beside && std::filesystem::exists(format.kinds_beside(path), ignored));
 }
 
 const Format& format_of(const std::filesystem::path& path, FormatUse use) {
-  std::error_code ignored;  // a path that cannot be asked is no folder, and format_of says what is wrong with folders
+  std::error_code ignored;  // a path that cannot be accessed is not a folder; format_of reports errors of folders
   if (!is_known_format(path) && !std::filesystem::is_directory(path, ignored) && path != "-" && !path.string().starts_with("/dev/")) {
     const bool is_surface = use == FormatUse::read_surface || use == FormatUse::write_surface;
     throw_unknown_extension("finding the format of " + path.string(),

@@ -1,6 +1,6 @@
-// The one table of formats: name, extensions, what is read and written. Feeds dispatch, `sterna formats`, --help and the manual.
-// A format is one line of k_formats in format_table.cpp. Several lines may share an extension: a file that is read then goes to the line whose `is_content`
-// accepts its first bytes, a file that is written to the first line that writes it, unless the format is named.
+// The table of file formats: name, extensions, supported reading and writing. Used by dispatch, `sterna formats`, --help and the manual.
+// A format is one line of k_formats in format_table.cpp. Several lines may share an extension. A file is then read by the line whose `is_content` accepts its
+// first bytes, and written by the first line with a writer, unless the format is named.
 #pragma once
 
 #include <filesystem>
@@ -23,19 +23,19 @@ using SurfaceWriter = void (*)(const TriMesh&, const std::filesystem::path&, con
 using VolumeReader = HybridMesh (*)(const std::filesystem::path&, const RunContext&);
 using VolumeWriter = void (*)(const HybridMesh&, const std::filesystem::path&, const RunContext&);
 using NumberedWriter = void (*)(const HybridMesh&, const std::filesystem::path&, Numbering, const RunContext&);
-/// The files of a mesh that is more than one, in a fixed order.
+/// Returns the files of a mesh that consists of several files, in a fixed order.
 using FileList = std::vector<std::filesystem::path> (*)(const std::filesystem::path&);
-/// Throws Error(write_failed) where `path` must not be written; called before the work whose result it is to hold.
+/// Throws Error(write_failed) if `path` must not be written; called before the computation whose result it will hold.
 using OutputTest = void (*)(const std::filesystem::path&);
-/// The file beside a mesh that says what its patches are; empty where there is none.
+/// Returns the path of the second file that states the kinds of the patches; empty if there is none.
 using KindsPath = std::filesystem::path (*)(const std::filesystem::path&);
-/// Whether a file that begins with these bytes (unpacked, at most k_sniffed_bytes) is of the format.
+/// Returns true if a file that begins with these bytes (unpacked, at most k_sniffed_bytes) has this format.
 using ContentTest = bool (*)(std::string_view head);
 
 struct Format {
   std::string_view name;             ///< "SU2"
   std::string_view extensions;       ///< blank-separated, lower case, with dots: ".su2", ".lb8.ugrid"
-  ContentTest is_content = nullptr;  ///< needed where another line has the same extension and reads it too
+  ContentTest is_content = nullptr;  ///< needed if another line has the same extension and a reader
   SurfaceReader read_surface = nullptr;
   SurfaceWriter write_surface = nullptr;
   VolumeReader read_volume = nullptr;
@@ -43,15 +43,15 @@ struct Format {
   bool carries_patch_names = false;
   FileList files = nullptr;
   OutputTest require_output = nullptr;
-  bool carries_patch_kinds = false;         ///< what patches are (wall, inflow ...) stands in the file
-  KindsPath kinds_beside = nullptr;         ///< or in this second file, which hash_input does not cover
+  bool carries_patch_kinds = false;         ///< the file states the kinds of patches (wall, inflow ...)
+  KindsPath kinds_beside = nullptr;         ///< or this second file states them, which hash_input does not cover
   Consumers consumers;                      ///< kinds of solvers that read the format
-  NumberedWriter write_numbered = nullptr;  ///< of formats that number the cells of all kinds as one: the same as write_volume, with an order of the cells
+  NumberedWriter write_numbered = nullptr;  ///< for formats with one numbering for cells of all kinds: write_volume with a cell order
 
   bool is_read() const { return read_surface || read_volume; }
 };
 
-/// What of a format is meant.
+/// Use of a format.
 enum class FormatUse { read_surface, write_surface, read_volume, write_volume };
 bool has_use(const Format& format, FormatUse use);
 
@@ -59,25 +59,26 @@ inline constexpr std::size_t k_sniffed_bytes = 4096;
 
 std::span<const Format> formats();
 
-/// Whether the file, or the one beside it, says of what kind its patches are; else only their names do.
+/// Returns true if the file, or the second file beside it, states the kinds of the patches. Otherwise the kinds follow from the names only.
 bool states_patch_kinds(const std::filesystem::path& path);
 
-/// The format of a file that is to be read, by its name (case-insensitive; ".gz" peeled off) and, where several formats have that extension, by what the file
-/// begins with. A file that cannot be opened, or that is none of them, goes to the first of them: its reader says what it misses.
+/// Returns the format for reading a file: by its extension (case-insensitive, without ".gz") and, where several formats share the extension, by its first
+/// bytes.
+/// A file that cannot be opened or matches none of them is assigned to the first of these formats, whose reader reports the error.
 /// \throws Error(unsupported_format) with the list of known extensions.
 const Format& format_of(const std::filesystem::path& path);
-/// The same; where the extension is not known, the error lists the formats that have this use.
+/// Returns the format for reading, as above; if the extension is unknown, the error lists the formats that have this use.
 const Format& format_of(const std::filesystem::path& path, FormatUse use);
-/// Whether format_of knows the extension.
+/// Returns true if format_of() knows the extension.
 bool is_known_format(const std::filesystem::path& path);
 
-/// The format to write `path` in: the first of that extension that writes surfaces (volumes), or the one of that name (case-insensitive), whatever the
+/// Returns the format for writing `path`: the first with that extension that writes surfaces (volumes), or the format called `name` (case-insensitive) for any
 /// extension.
 /// \pre use is write_surface or write_volume
-/// \throws Error(unsupported_format) with the list of those that do.
+/// \throws Error(unsupported_format) with the list of formats that have the use.
 const Format& format_to_write(const std::filesystem::path& path, FormatUse use, std::string_view name = {});
 
-/// "SU2 (.su2), VTU (.vtu)": the formats for which it holds, each once, for hints and help.
+/// Returns the formats with this use, each once, for hints and help: "SU2 (.su2), VTU (.vtu)".
 std::string list_formats_with(FormatUse use);
 
 }  // namespace sterna::io

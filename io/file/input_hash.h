@@ -1,4 +1,4 @@
-// What a manifest says of its inputs.
+// Hashes of input files for the manifest.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +6,10 @@
 
 namespace sterna::io {
 
-/// hash_file of a file that one of the table's readers takes; of a format whose mesh is several files (OpenFOAM), hash_files of them.
+/// Returns hash_file() of a file that a reader of the format table accepts, or hash_files() if the format consists of several files (OpenFOAM).
 /// \throws Error(file_not_found), Error(file_malformed), Error(unsupported_format) as format_of
 std::string hash_input(const std::filesystem::path& path);
-/// The same of a file of any kind: whatever no reader of the table takes is one file.
+/// Returns the hash of any file; a file without a reader in the format table is hashed as a single file.
 /// \throws Error(file_not_found)
 std::string hash_any_input(const std::filesystem::path& path);
 

@@ -24,7 +24,7 @@ struct PlaceHash {
   }
 };
 
-/// Positive and negative zero are one place.
+/// Returns a hash key of a position in which positive and negative zero are equal.
 std::array<std::uint64_t, 3> place_of(const Vec3& p) {
   return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
 }
@@ -59,7 +59,7 @@ namespace {
 
 constexpr std::size_t k_named_patches = 4;  ///< in messages
 
-/// Patches and their kinds that the format does not store. The default STL is binary where there is one patch, so it stores no name then.
+/// Warns about patch names and kinds that the format does not store. The default STL is binary for a single patch, so it then stores no name.
 void warn_of_lost_patches(const TriMesh& mesh, const std::filesystem::path& path, const Format& format, const RunContext& context) {
   const bool is_binary_stl = format.name == "STL" && mesh.patches.size() <= 1;
   if (format.carries_patch_names && !is_binary_stl) return;

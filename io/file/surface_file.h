@@ -1,4 +1,4 @@
-// Surfaces from and to files. What a file holds before it becomes a wall is a triangle soup with patch names: readers do no geometry.
+// Reading and writing of surface files. Readers return a triangle soup with patch names and do no geometry processing.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,19 @@
 
 namespace sterna::io {
 
-/// Reads one surface file; the format follows from the extension (".gz" peeled off) and the contents. Polygons are split into
-/// triangles. Polygons with coordinates that are not finite are left out with a warning. A volume mesh gives its boundary faces; SurfaceSoup::n_cells tells.
+/// Reads one surface file; the format follows from the extension (without ".gz") and the contents. Polygons are split into triangles. Polygons with coordinates
+/// that are not finite are left out with a warning. For a volume mesh the boundary faces are returned, and SurfaceSoup::n_cells is its number of cells.
 /// Coordinates are as in the file (no unit applied).
 /// \throws Error file_not_found, file_malformed (line or byte offset and what was expected), unsupported_format.
 SurfaceSoup read_surface_file(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes a surface; the format follows from the extension, or is named. Names and kinds of patches that the format cannot hold are told in the log. An
-/// existing file stays as it was on failure.
+/// Writes a surface; the format follows from the extension, or is named. Names and kinds of patches that the format cannot store are reported in the log. On
+/// failure an existing file is unchanged.
 /// \throws Error unsupported_format, write_failed, overflow, mesh_invalid (coordinates that are not finite), cancelled.
 void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {});
 
-/// The soup as it is, in the form that writers take: nothing is welded, turned or repaired, unless every triangle has corners of its own (STL): then corners at
-/// exactly the same place become one, numbered in the order of their first use.
+/// Converts a soup to the type that writers take, without welding, reorientation or repair. Exception: if no triangles share vertices (STL), vertices with
+/// identical coordinates are merged and numbered in order of first use.
 TriMesh to_tri_mesh(const SurfaceSoup& soup);
 
 }  // namespace sterna::io

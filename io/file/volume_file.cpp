@@ -11,9 +11,9 @@ namespace sterna::io {
 namespace {
 
 constexpr std::string_view k_boundary_name = "boundary";
-constexpr double k_read_end = 0.9;  // of the time; the rest is the test of the boundary
+constexpr double k_read_end = 0.9;  // fraction of the time for reading; the boundary test takes the rest
 
-/// A mesh of so many cells that its faces have no numbers is not tested; its reader was the test of its size.
+/// Finds open faces. A mesh with more cells than its faces can be numbered is not tested; such a size was checked by the reader.
 std::optional<OpenFaces> open_faces_of(const HybridMesh& mesh, std::string_view source, const RunContext& context) {
   try {
     return find_open_faces(mesh, context);

@@ -1,4 +1,4 @@
-// Volume meshes from and to files.
+// Reading and writing of volume mesh files.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,22 @@
 
 namespace sterna::io {
 
-/// What happens to faces of single cells that the file's boundary lacks, and to points that no cell uses. Both are warnings.
+/// Treatment of cell faces that are missing from the file's boundary, and of points that no cell uses. Both give warnings.
 enum class Incomplete {
-  kept,       ///< they stay, so that check() finds them
-  completed,  ///< the faces become the wall "boundary"; the points go
+  kept,       ///< both are kept, so that check() finds them
+  completed,  ///< the faces become the wall "boundary"; the points are removed
 };
 
-/// Reads a volume mesh; format by extension (".gz" accepted) and contents. Cells land in the explicit arrays; wedges and others in the wrong winding are
-/// flipped and counted in the log. Nodes and elements are checked for range. A file without any boundary faces gets the faces of single cells as the wall
-/// "boundary", with a warning.
+/// Reads a volume mesh; the format follows from the extension (".gz" accepted) and the contents. Cells are stored in the explicit arrays. Cells with the wrong
+/// winding, wedges among them, are flipped and counted in the log. Node and element numbers are range-checked. If a file has no boundary faces, the unmatched
+/// faces of cells become the wall "boundary", with a warning.
 /// \throws Error file_not_found, file_malformed (line or offset, expectation), unsupported_format.
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context, Incomplete incomplete = Incomplete::kept);
 
-/// Writes a volume mesh; format by extension, or named. Writes to a temporary name in the same folder, syncs, renames: an existing file stays as it was on
-/// failure. Nodes keep their numbers (renumbered() gives others); so do cells, but formats that number cells of all kinds as one (OpenFOAM, Fluent) take
-/// `cells`, as MeshFaces::order_cells has it. \throws Error unsupported_format, write_failed, overflow.
+/// Writes a volume mesh; the format follows from the extension, or is named. Writes to a temporary name in the same folder, syncs, renames: on failure an
+/// existing file is unchanged. Nodes keep their numbers (renumbered() changes them). Cells do, too, but formats with one numbering for cells of all kinds
+/// (OpenFOAM, Fluent) apply `cells` as in MeshFaces::order_cells.
+/// \throws Error unsupported_format, write_failed, overflow.
 void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {},
                        Numbering cells = Numbering::lines);
 

@@ -1,5 +1,5 @@
-// Sections are nested brackets: (index (header) (body)). Indices are decimal; all other integers are hexadecimal, but in sections 0, 2, 39 and 45. Strings may
-// hold brackets.
+// Sections are nested brackets: (index (header) (body)). Indices are decimal; all other integers are hexadecimal, except in sections 0, 2, 39 and 45. Strings
+// may contain brackets.
 #include "io/grammar/fluent_parser.h"
 
 #include <algorithm>
@@ -28,9 +28,9 @@ enum Section : std::int64_t {
   k_interface_parents = 61
 };
 enum FaceZone : std::int64_t { k_interior = 2, k_wall = 3 };
-constexpr std::int64_t k_single_binary = 2000;  // added to the index of a section whose body is binary; 3000: with doubles
+constexpr std::int64_t k_single_binary = 2000;  // added to the index of a section with a binary body; 3000: with doubles
 constexpr std::int64_t k_double_binary = 3000;
-constexpr std::int64_t k_most_face_nodes = 64;  // of a polygon; more is a damaged file
+constexpr std::int64_t k_most_face_nodes = 64;  // nodes of a polygon; more indicates a damaged file
 
 class FluentParser {
  public:
@@ -99,7 +99,7 @@ class FluentParser {
     throw_malformed(buffer_.source, "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')), problem);
   }
 
-  /// To behind the bracket that closes the innermost open one. Brackets in strings do not count.
+  /// Moves past the bracket that closes the innermost open bracket. Brackets in strings are ignored.
   void skip_to_close() {
     int depth = 1;
     bool in_string = false;
@@ -162,7 +162,7 @@ class FluentParser {
     return header;
   }
 
-  /// Enters the body of n items of at least so many bytes each. A binary body begins right behind its bracket.
+  /// Enters the body of n items of at least the given numbers of bytes each. A binary body begins directly after its bracket.
   void begin_body(bool is_binary, std::uint64_t n, std::size_t min_text, std::size_t min_binary) {
     expect('(', "\"(\" of a body");
     const std::size_t min_bytes = is_binary ? min_binary : min_text;
@@ -188,7 +188,7 @@ class FluentParser {
     expect(')', "\")\" behind a section");
   }
 
-  /// A number of a body.
+  /// Reads a number of the body.
   std::int64_t body_integer(const char* expected) { return bytes_ ? bytes_->read<std::int32_t>(expected) : integer(expected); }
 
   void read_nodes(std::int64_t index, bool is_binary, bool is_double) {
@@ -210,7 +210,7 @@ class FluentParser {
     end_body(index);
   }
 
-  /// Only the number of cells is needed; their kinds follow from the faces.
+  /// Reads the number of cells only; their kinds follow from the faces.
   void read_cells(std::int64_t index, bool is_binary) {
     const Header header = read_header("cells");
     if (header.zone > 0) ++content_.n_cell_zones;
@@ -253,7 +253,7 @@ class FluentParser {
     end_body(index);
   }
 
-  /// (45 (zone type name)(...)), decimal.
+  /// Reads (45 (zone type name)(...)), decimal.
   void read_zone_name() {
     expect('(', "\"(\" of a zone");
     const std::int64_t zone = integer("the number of a zone", 10);
@@ -263,7 +263,7 @@ class FluentParser {
       while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != ')' && text_[position_] != '(') ++position_;
       return std::string(text_.substr(begin, position_ - begin));
     };
-    word();  // the type again, in words
+    word();  // the type again, as a word
     std::string name = word();
     if (!name.empty()) names_[zone] = std::move(name);
     skip_to_close();

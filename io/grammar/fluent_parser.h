@@ -1,4 +1,4 @@
-// The sections of a Fluent mesh as faces with their cells.
+// Parser of Fluent mesh sections into faces with their cells.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,16 @@ namespace sterna::io {
 
 struct FluentContent {
   std::vector<Vec3> points;
-  FaceBasedMesh faces;             ///< patches by number of their zone's appearance
+  FaceBasedMesh faces;             ///< patches numbered in the order in which their zones appear
   Column<PatchId, Patch> patches;  ///< zones of boundary faces
   std::int64_t n_cell_zones = 0;
   std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, taken as inner faces
 };
 
-/// The kind of patch that a zone of that type and name is.
+/// Returns the patch kind for a zone type and name.
 PatchKind kind_of_fluent_zone(std::int64_t type, std::string_view name);
 
+/// Parses a Fluent mesh.
 /// \throws Error file_malformed, unsupported_format
 FluentContent parse_fluent(const FileBuffer& buffer, const RunContext& context);
 

@@ -29,7 +29,7 @@ T take_bytes(const char* at, std::endian order) {
 
 std::filesystem::path packed_or_plain(const std::filesystem::path& path) {
   const std::filesystem::path packed = path.string() + ".gz";
-  std::error_code status;  // of a file that cannot be looked at; who opens it says what is wrong with it
+  std::error_code status;  // if the file cannot be accessed; opening it reports the error
   return !std::filesystem::exists(path, status) && std::filesystem::exists(packed, status) ? packed : path;
 }
 
@@ -134,7 +134,7 @@ void FoamFile::read_header(std::string_view object_class) {
     fail("found the class " + quoted_excerpt(class_) + ", expected " + std::string(object_class));
 }
 
-/// "LSB;label=32;scalar=64"
+/// Reads "LSB;label=32;scalar=64".
 void FoamFile::read_arch(std::string_view arch) {
   if (arch.find("MSB") != std::string_view::npos) order_ = std::endian::big;
   if (arch.find("label=64") != std::string_view::npos) label_size_ = 8;
@@ -193,7 +193,7 @@ std::vector<std::uint32_t> FoamFile::labels(std::string_view expected, std::uint
     }
     return {};
   }
-  if (!is_binary_ && peek() == "{") {  // all the same
+  if (!is_binary_ && peek() == "{") {  // uniform list
     expect("{");
     const std::uint32_t value = checked(integer(expected), expected, label_limit);
     expect("}");
@@ -256,7 +256,7 @@ void FoamFile::label_lists(std::string_view expected, std::uint64_t label_limit,
 void FoamFile::compact_label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values,
                                    std::vector<std::uint64_t>& first) {
   constexpr std::uint64_t k_any = 0xffffffff;  // offsets of compact lists are labels
-  const std::uint64_t limit = text_.size();    // an entry takes a byte at least
+  const std::uint64_t limit = text_.size();    // an entry takes at least one byte
   const std::vector<std::uint32_t> offsets = labels("the place of a face's first node", limit, k_any);
   values = labels(expected, limit, label_limit);
   first.assign(offsets.begin(), offsets.end());

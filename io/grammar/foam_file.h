@@ -1,4 +1,4 @@
-// One file of OpenFOAM: its header, then lists in text or binary.
+// Reader of one OpenFOAM file: its header, then lists in text or binary.
 #pragma once
 
 #include <bit>
@@ -14,34 +14,34 @@
 
 namespace sterna::io {
 
-/// `path`.gz where that is there and `path` is not, else `path`.
+/// Returns `path`.gz if it exists and `path` does not, else `path`.
 std::filesystem::path packed_or_plain(const std::filesystem::path& path);
 
-/// All members that read throw Error file_malformed with the line (the byte inside binary lists).
+/// Reading members throw Error file_malformed with the line (the byte inside binary lists).
 class FoamFile {
  public:
-  /// Loads `path`, or `path`.gz, and reads the header. \param object_class what the header must say ("labelList"); several are separated by blanks
+  /// Loads `path`, or `path`.gz, and reads the header. \param object_class the class required in the header ("labelList"); alternatives are separated by blanks
   FoamFile(const std::filesystem::path& path, std::string_view object_class, const RunContext& context);
 
   const std::string& object_class() const { return class_; }
   const std::string& source() const { return buffer_.source; }
 
-  /// A list of labels. \param limit how many there can be; every label is in [0, label_limit)
+  /// Reads a list of labels. \param limit maximum length; every label is in [0, label_limit)
   std::vector<std::uint32_t> labels(std::string_view expected, std::uint64_t limit, std::uint64_t label_limit);
-  /// A list of finite vectors.
+  /// Reads a list of finite vectors.
   std::vector<Vec3> vectors(std::string_view expected);
-  /// A list of lists of labels as text, faceList: nodes of all and where each begins.
+  /// Reads a list of lists of labels in text, faceList: the nodes of all lists and the start of each list.
   void label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values, std::vector<std::uint64_t>& first);
-  /// The same as two lists, faceCompactList.
+  /// Reads a faceCompactList: the same data as two lists.
   void compact_label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values, std::vector<std::uint64_t>& first);
 
-  /// The next word, string (without its quotes) or single character of ( ) { } ; ; empty at the end of the file.
+  /// Returns the next word, string (without its quotes) or single character of ( ) { } ; ; empty at the end of the file.
   std::string_view token();
-  /// Consumes that token.
+  /// Consumes the given token.
   void expect(std::string_view wanted);
   std::uint64_t count(std::string_view expected, std::size_t min_bytes);
   std::int64_t integer(std::string_view expected);
-  /// At the token that was last looked at.
+  /// Throws an error located at the last token read.
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
@@ -50,7 +50,7 @@ class FoamFile {
   void skip_space();
   std::string_view peek();
   double real(std::string_view expected);
-  /// Begins a binary list of n things of that size: consumes "(".
+  /// Begins a binary list of n items of that size: consumes "(".
   void begin_bytes(std::uint64_t n, std::size_t size, std::string_view expected);
   void end_bytes();
   std::int64_t take_label();

@@ -1,5 +1,6 @@
-// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map leads to point numbers. In binary files
-// the sections hold bytes, but their names, and in 2.2 their counts, stay text; so the text scanner leads, and a byte reader takes over inside a section.
+// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map gives point numbers. In binary files the
+// sections contain bytes, but section names, and in 2.2 their counts, are text. So the text scanner controls the parsing, and a byte reader is used inside a
+// section.
 #include "io/grammar/msh_parser.h"
 
 #include <algorithm>
@@ -25,10 +26,10 @@ namespace sterna::io {
 namespace {
 
 constexpr std::int64_t k_surface_dimension = 2;
-/// Versions of one layout of nodes and elements. Physical names have no dimension in files of version 2.0.
+/// Versions with the same layout of nodes and elements. Physical names have no dimension in files of version 2.0.
 constexpr std::array<std::string_view, 4> k_versions_2 = {"2", "2.0", "2.1", "2.2"};
 constexpr std::int64_t k_max_physical_tag = 2147483647;
-/// Shortest line of a node block (tag and newline) and of an element; bounds for the memory that a count may ask for.
+/// Shortest line of a node block (tag and newline) and of an element; they bound the memory that a count may request.
 constexpr std::size_t k_min_node_bytes = 2;
 constexpr std::size_t k_min_element_bytes = 4;
 constexpr std::size_t k_binary_node_bytes = 32;     // tag and coordinates
@@ -37,7 +38,7 @@ constexpr std::size_t k_max_element_nodes = 27;
 constexpr std::size_t k_most_nodes_of_lines = 3;
 constexpr std::size_t k_max_points = 4294967294;  // 32-bit indices
 
-/// Nodes of each Gmsh element type that may occur; 0 = not known.
+/// Returns the number of nodes of a Gmsh element type; 0 = unknown.
 std::size_t nodes_of_type(std::int64_t type) {
   switch (type) {
     case 15: return 1;  // point
@@ -45,15 +46,15 @@ std::size_t nodes_of_type(std::int64_t type) {
     case 2: return 3;   // triangle
     case 3: return 4;   // quadrangle
     case 4: return 4;   // tetrahedron
-    case 5: return 8;   // hexahedron
+    case 5: return 8;   // prism
     case 6: return 6;   // prism
     case 7: return 5;   // pyramid
-    case 8: return 3;   // line of second order
-    case 9: return 6;   // triangle of second order
-    case 10: return 9;  // quadrangle of second order, with and (16) without a node in its middle
+    case 8: return 3;   // second-order line
+    case 9: return 6;   // second-order triangle
+    case 10: return 9;  // second-order quadrangle, with and (16) without a centre node
     case 16: return 8;
-    case 11: return 10;  // tetrahedron of second order
-    case 12: return 27;  // hexahedra, prisms, pyramids of second order: complete, serendipity
+    case 11: return 10;  // second-order tetrahedron
+    case 12: return 27;  // second-order hexahedra, prisms, pyramids: complete, serendipity
     case 17: return 20;
     case 13: return 18;
     case 18: return 15;
@@ -65,7 +66,7 @@ std::size_t nodes_of_type(std::int64_t type) {
 
 constexpr std::int64_t k_msh_triangle6 = 9, k_msh_quad9 = 10, k_msh_quad8 = 16;
 
-/// Faces of second order give their corners.
+/// Returns true for triangles; second-order triangles are reduced to their corners.
 bool is_triangle(std::int64_t type) { return type == 2 || type == 9; }
 bool is_quadrangle(std::int64_t type) { return type == 3 || type == 10 || type == 16; }
 
@@ -142,9 +143,9 @@ class MshParser {
     end_bytes();
   }
 
-  /// 32 bits in binary files.
+  /// Reads an integer; 32 bits in binary files.
   std::int64_t integer(std::string_view expected) { return bytes_ ? bytes_->read<std::int32_t>(expected) : scanner_.integer(expected); }
-  /// 64 bits in binary files of version 4.1.
+  /// Reads a tag; 64 bits in binary files of version 4.1.
   std::int64_t tag(std::string_view expected) {
     if (!bytes_) return scanner_.integer(expected);
     return is_v4_ ? bytes_->read<std::int64_t>(expected) : bytes_->read<std::int32_t>(expected);
@@ -156,7 +157,7 @@ class MshParser {
     return value;
   }
   double coordinate(std::string_view expected) { return bytes_ ? bytes_->read<double>(expected) : scanner_.coordinate(expected); }
-  /// A number of things of at least so many bytes each.
+  /// Reads a number of items of at least the given bytes each.
   std::size_t count(std::string_view expected, std::size_t min_text, std::size_t min_binary) {
     if (!bytes_) return scanner_.count(expected, min_text);
     const std::int64_t n = tag(expected);
@@ -182,7 +183,7 @@ class MshParser {
     scanner_.fail("found the end of the file, expected " + end);
   }
 
-  /// Without the sign, which tells that the group turns the entity round.
+  /// Reads a physical tag without its sign, which marks that the group reverses the entity.
   std::int64_t read_physical_tag() {
     const std::int64_t tag = integer("the tag of a physical group");
     if (std::abs(tag + (tag < 0 ? 1 : 0)) > k_max_physical_tag)
@@ -347,7 +348,7 @@ class MshParser {
     end_bytes();
   }
 
-  /// The tag of an element with its groups, then its nodes. \param n_tags how many numbers of groups there are
+  /// Reads the tag of an element with its groups, then its nodes. \param n_tags number of group tags
   void read_element_v2(std::int64_t type, std::size_t n_tags) {
     std::int64_t physical = 0, entity = 0;
     for (std::size_t k = 0; k < n_tags; ++k) {
@@ -373,7 +374,7 @@ class MshParser {
         ++i;
         continue;
       }
-      const std::int64_t type = integer("an element type");  // of a block
+      const std::int64_t type = integer("an element type");  // type of the block
       const std::size_t n_follow = count("the number of elements of a block", 1, 8);
       const std::size_t n_tags = count("the number of tags of an element", 1, 4);
       if (n_follow == 0 || n_follow > n - i) fail("found a block of " + std::to_string(n_follow) + " elements, expected 1 to " + std::to_string(n - i));

@@ -1,4 +1,4 @@
-// Names of the arrays in a .sterna file, which writer and reader share (docs/sterna_format.md).
+// Array names of .sterna files, shared by writer and reader (docs/sterna_format.md).
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace sterna::io::part {
 
-/// Names of the arrays of a triangulated surface.
+/// Array names of a triangulated surface.
 struct SurfaceNames {
   std::string_view points, triangles, triangle_patch, patches;
 };
@@ -26,18 +26,18 @@ inline constexpr std::string_view k_points = "mesh/points", k_prisms = "mesh/pri
                                   k_periodic_patches = "mesh/periodic/patches", k_periodic_translations = "mesh/periodic/translations";
 inline constexpr std::string_view k_n_layers = "mesh/layers/n_layers", k_base = "mesh/layers/base", k_first_node = "mesh/layers/first_node",
                                   k_is_collapsed = "mesh/layers/is_collapsed", k_line_layers = "mesh/layers/line_layers";
-/// Version of files with k_line_layers: readers that do not know it would take each line for one of n_layers.
+/// Version of files with k_line_layers: older readers would assign n_layers to every growth line.
 inline constexpr std::uint32_t k_line_layers_version = 2;
-/// Version of files in which lines of one column have different numbers of layers.
+/// Version of files in which growth lines of one column have different numbers of layers.
 inline constexpr std::uint32_t k_truncated_version = 3;
 inline constexpr std::string_view k_request = "mesh/request/first_height_max_growth", k_request_target = "mesh/request/target_height",
                                   k_request_reason = "mesh/request/reason", k_request_reasons = "mesh/request/reasons",
                                   k_request_first_height = "mesh/request/first_height", k_request_first_room = "mesh/request/first_room",
                                   k_request_boundary_layer = "mesh/request/boundary_layer", k_request_max_growth = "mesh/request/max_growth",
                                   k_request_layers = "mesh/request/layers";
-/// Before the names of a mesh: the layer that its tetrahedra were made around, where ridges are opened or wakes have sheets.
+/// Prefix for the array names of the layer around which the tetrahedra were generated, used if ridges are opened or there are wake sheets.
 inline constexpr std::string_view k_opened = "opened/";
-/// Version of files with it: readers that do not know it would take the layers of the mesh for that.
+/// Version of files with k_opened: older readers would mistake the layers of the mesh for this layer.
 inline constexpr std::uint32_t k_opened_version = 4;
 inline constexpr std::string_view k_manifest = "manifest", k_certificate = "certificate", k_quality = "quality";
 

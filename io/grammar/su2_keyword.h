@@ -1,4 +1,4 @@
-// "KEY= value" lines of SU2 files, for its surface and its volume reader.
+// "KEY= value" lines of SU2 files, for the surface reader and the volume reader.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace sterna::io {
 
-/// The reserved name of markers between partitions; not a boundary.
+/// Reserved name of markers between partitions, which are not boundaries.
 inline constexpr std::string_view k_su2_partition_marker = "SEND_RECEIVE";
 
-/// Blanks around the two are removed.
+/// Key and value without surrounding blanks.
 struct Su2Keyword {
   std::string_view key, value;
 };
 
-/// No key when the line is something else. "NPOIN= 7", "NPOIN=7" and "NPOIN = 7" are the same.
+/// Splits a line; the key is empty if the line is not a keyword line. "NPOIN= 7", "NPOIN=7" and "NPOIN = 7" are equivalent.
 Su2Keyword split_su2_keyword(std::string_view line);
 
-/// The first number of a keyword's value (old files add a second).
+/// Returns the first number of a keyword's value (old files add a second).
 /// \throws Error(file_malformed) with the cursor's line
 std::uint64_t su2_count(const Su2Keyword& keyword, const LineCursor& cursor);
 
-/// A marker's name without its blanks, as SU2 itself removes them.
+/// Returns a marker's name without blanks, as in SU2 itself.
 std::string su2_marker_name(std::string_view value);
 
 struct Su2Marker {
@@ -34,11 +34,11 @@ struct Su2Marker {
   LineBlock faces;
 };
 
-/// The blocks of one complete mesh of a file; node numbers start at 0 in each.
+/// The blocks of one complete mesh in a file; node numbers start at 0 in each zone.
 struct Su2Zone {
   std::optional<LineBlock> points, elements;
   std::vector<Su2Marker> markers;
-  std::optional<std::uint64_t> n_markers;  ///< announced
+  std::optional<std::uint64_t> n_markers;  ///< number announced in the file
   std::uint64_t n_partition_markers = 0;
 };
 

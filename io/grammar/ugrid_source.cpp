@@ -47,7 +47,7 @@ UgridSource::UgridSource(const FileBuffer& buffer, const UgridVariant& variant) 
 
 void UgridSource::require(std::uint64_t n, std::size_t bytes, std::string_view expected) const {
   if (bytes_) return bytes_->require(n, bytes, expected);
-  if (n > (text_->remaining() + 1) / bytes)  // the last line may lack its end
+  if (n > (text_->remaining() + 1) / bytes)  // the last line may lack its line end
     fail("found " + std::to_string(text_->remaining()) + " bytes to the end of the file, expected the text of " + std::to_string(n) + " " +
              std::string(expected),
          "the file may have been cut short: copy or write it again");
@@ -106,7 +106,7 @@ void UgridSource::fail(const std::string& problem, std::string_view hint) const 
 std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path) {
   std::string stem = mesh_path.filename().string();
   std::filesystem::path file;
-  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+  std::error_code status;  // if the file cannot be accessed; load_file reports the error of an existing file
   if (equal_ignoring_case(mesh_path.extension().string(), ".gz")) stem.resize(stem.size() - 3);
   for (int n_extensions = 0; n_extensions < 2 && stem.find('.') != std::string::npos; ++n_extensions) {  // ".ugrid", then ".lb8"
     stem.resize(stem.rfind('.'));

@@ -1,4 +1,4 @@
-// What the readers and the writer of UGRID (AFLR3) share: the variants by file name, the numbers of any of them, the .mapbc file of FUN3D
+// Shared parts of the UGRID (AFLR3) readers and writer: variants by file name, numbers of any variant, the .mapbc file of FUN3D
 // (docs/method/formats_solvers.md, "UGRID").
 #pragma once
 
@@ -25,36 +25,37 @@ struct UgridVariant {
   std::endian order = std::endian::little;
 };
 
-/// From the end of the name: x.ugrid is text, x.b8.ugrid, x.lb8.ugrid, x.b8l.ugrid, x.lb8l.ugrid, x.b4.ugrid, x.lb4.ugrid are binary; ".gz" is peeled off.
+/// Returns the variant from the name: x.ugrid is text, x.b8.ugrid, x.lb8.ugrid, x.b8l.ugrid, x.lb8l.ugrid, x.b4.ugrid, x.lb4.ugrid are binary; ".gz" is
+/// ignored.
 /// \throws Error(unsupported_format) for the variants with Fortran records (r8, lr8, r4, lr4)
 UgridVariant ugrid_variant(const std::filesystem::path& path);
 
-/// The numbers of a file one by one. Members that take `expected` throw Error(file_malformed) with line or byte offset.
+/// Reads the numbers of a file sequentially. Members with `expected` throw Error(file_malformed) with line or byte offset.
 class UgridSource {
  public:
   /// \pre `buffer` outlives the source
   UgridSource(const FileBuffer& buffer, const UgridVariant& variant);
 
-  /// Makes sure that n items of so many integers or reals each can be left in the file, so that memory for them is justified.
+  /// Checks that the file has enough bytes left for n items of so many integers or reals each, so that memory allocated for them is justified.
   void require_integers(std::uint64_t n, std::size_t per_item, std::string_view expected) const { require(n, per_item * integer_bytes(), expected); }
   void require_reals(std::uint64_t n, std::size_t per_item, std::string_view expected) const { require(n, per_item * real_bytes(), expected); }
 
   std::int64_t integer(std::string_view expected);
   std::uint64_t count(std::string_view expected);
-  /// The coordinates of point `i` (from 0), which must be finite.
+  /// Returns the coordinates of point `i` (from 0), which must be finite.
   Vec3 point(std::uint64_t i);
-  /// The coordinates of the next point, which may be nan or infinite.
+  /// Returns the coordinates of the next point, which may be nan or infinite.
   Vec3 any_point();
-  /// A node number, less 1. \param n_nodes of the file
+  /// Returns a node number less 1. \param n_nodes of the file
   std::uint32_t node(std::uint64_t n_nodes);
-  /// Passes over n integers.
+  /// Skips n integers.
   void skip_integers(std::uint64_t n, std::string_view expected);
 
   [[noreturn]] void fail(const std::string& problem, std::string_view hint = {}) const;
 
  private:
   double real();
-  std::size_t integer_bytes() const { return variant_.is_text ? 2 : variant_.is_wide ? 8 : 4; }  // text: a digit and a blank at least
+  std::size_t integer_bytes() const { return variant_.is_text ? 2 : variant_.is_wide ? 8 : 4; }  // text: at least a digit and a blank
   std::size_t real_bytes() const { return variant_.is_text ? 2 : variant_.is_single ? 4 : 8; }
   void require(std::uint64_t n, std::size_t bytes, std::string_view expected) const;
 
@@ -69,15 +70,15 @@ struct UgridPatch {
   std::string name;  ///< may be empty
 };
 
-/// The .mapbc file beside the mesh, wing.mapbc or wing.lb8.mapbc for wing.lb8.ugrid: a count, then lines "id condition name". Empty when there is none.
+/// Reads the .mapbc file beside the mesh, wing.mapbc or wing.lb8.mapbc for wing.lb8.ugrid: a count, then lines "id condition name". Empty if there is none.
 /// \throws Error(file_malformed) with its line
-std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path);  ///< that file
+std::filesystem::path found_mapbc(const std::filesystem::path& mesh_path);  ///< path of the .mapbc file found; empty if there is none
 std::map<std::int64_t, UgridPatch> read_mapbc(const std::filesystem::path& mesh_path, const RunContext& context);
 
-/// Where the writer puts it: wing.mapbc for wing.lb8.ugrid.
+/// Returns the path that the writer uses: wing.mapbc for wing.lb8.ugrid.
 std::filesystem::path mapbc_path(const std::filesystem::path& mesh_path);
 
-/// The kind that a condition number of FUN3D means (the old grid codes 3, 4, 5 too); nullopt for others.
+/// Returns the patch kind of a FUN3D condition number (the old grid codes 3, 4, 5 too); nullopt for others.
 std::optional<PatchKind> kind_of_condition(std::int64_t condition);
 
 }  // namespace sterna::io

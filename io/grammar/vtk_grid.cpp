@@ -28,7 +28,7 @@ std::optional<PatchKind> kind_named(std::string_view name) {
 
 bool bounds_nothing(std::int64_t type) { return (type >= k_vtk_empty && type < k_vtk_triangle) || type == k_vtk_curved_edge; }
 
-/// Corners of a face of second order, which are its first nodes; 0 for other types.
+/// Returns the number of corners of a second-order face, which are its first nodes; 0 for other types.
 std::size_t corners_of_curved_face(std::int64_t type) {
   switch (type) {
     case 22:            // quadratic triangle
@@ -137,7 +137,7 @@ class FaceCollector {
     builder_.add_polygon(corners_);
   }
 
-  /// Every other triangle of a strip is turned.
+  /// Adds a strip; every second triangle is reversed.
   void add_strip(std::size_t cell, std::span<const std::uint64_t> nodes) {
     if (nodes.size() < 3)
       fail(grid_, *piece_, "the triangle strip " + std::to_string(cell) + " has " + std::to_string(nodes.size()) + " nodes, expected 3 or more");

@@ -1,5 +1,4 @@
-// What the VTK formats (legacy, VTU, VTP) hold once their arrays are decoded, and what becomes of it: a surface or a volume mesh (docs/method/formats.md, "VTK
-// family").
+// Decoded contents of the VTK formats (legacy, VTU, VTP), and conversion to a surface or a volume mesh (docs/method/formats.md, "VTK family").
 #pragma once
 
 #include <array>
@@ -17,46 +16,46 @@
 
 namespace sterna::io {
 
-/// Cell arrays that number boundaries, in order of preference.
+/// Cell arrays that identify boundaries, in order of preference.
 inline constexpr std::array<std::string_view, 5> k_vtk_marker_names = {"marker", "boundary", "CellEntityIds", "gmsh:physical", "ids"};
-/// Single numbers of this name, "patch:<kind>:<name>", say which marker means which patch; written by us.
+/// Prefix of single numbers "patch:<kind>:<name>", which sterna writes to map markers to patches.
 inline constexpr std::string_view k_vtk_patch_prefix = "patch:";
 std::string vtk_patch_key(const Patch& patch);
 
-/// Cells whose nodes stand one after the other.
+/// Cells whose nodes are stored consecutively.
 struct VtkCells {
   std::optional<VtuValues> connectivity;
-  std::optional<VtuValues> ends;   ///< of each cell's nodes in `connectivity`; integers
-  std::optional<VtuValues> types;  ///< absent: all of `type`
+  std::optional<VtuValues> ends;   ///< end of each cell's nodes in `connectivity`; integers
+  std::optional<VtuValues> types;  ///< absent: all cells have type `type`
   int type = 0;
   std::size_t size() const { return ends ? ends->size() : 0; }
 };
 
 struct VtkPiece {
   std::string where;          ///< for messages: "piece at byte 400"
-  std::vector<Point> points;  ///< perhaps with coordinates that are not finite
+  std::vector<Point> points;  ///< coordinates may not be finite
   std::vector<VtkCells> cells;
   std::optional<VtuValues> markers;  ///< per cell, over all of `cells`
-  std::string marker_name;           ///< of that array
+  std::string marker_name;           ///< name of that array
 };
 
 struct VtkGrid {
   std::string source;
-  bool is_surface = false;  ///< PolyData: its cells never are volumes
+  bool is_surface = false;  ///< PolyData: never has volume cells
   std::vector<VtkPiece> pieces;
   std::map<std::uint64_t, Patch> patches;  ///< by marker
   bool single_precision = false;
 
-  /// Takes "patch:<kind>:<name>"; other names of field data are not ours.
+  /// Parses "patch:<kind>:<name>"; other field data are ignored.
   void add_patch(std::string_view field_name, std::uint64_t marker);
 };
 
-/// Triangles, quads, polygons, pixels, strips, corners of faces of second order; of a volume mesh its boundary faces. Points that no face uses are left out of
-/// a volume mesh; one without faces gives no triangles.
+/// Returns the faces as a surface: triangles, quads, polygons, pixels, strips, and corners of second-order faces; for a volume mesh its boundary faces. Points
+/// that no face uses are left out of a volume mesh; a mesh without faces gives no triangles.
 /// \throws Error file_malformed (indices out of range, sizes that disagree), overflow, cancelled.
 SurfaceSoup surface_of(const VtkGrid& grid, const RunContext& context);
 
-/// Cells in the explicit arrays, windings repaired.
+/// Returns a volume mesh with cells in the explicit arrays and windings repaired.
 /// \throws Error file_malformed, unsupported_format (other cells), overflow, cancelled.
 HybridMesh volume_of(const VtkGrid& grid, const RunContext& context);
 

@@ -1,5 +1,5 @@
-// Three lines, then keywords in any order; each announces numbers, as text or as big-endian bytes behind the keyword's line. The text scanner leads; a byte
-// reader takes over inside a binary block. Attributes that are no patch numbers are passed over by their size.
+// Three lines, then keywords in any order. Each announces numbers, as text or as big-endian bytes after the keyword's line. The text scanner controls the
+// parsing; a byte reader is used inside a binary block. Attributes other than patch numbers are skipped by their size.
 #include "io/grammar/vtk_legacy.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct TypeName {
   std::string_view name;
   Type type;
 };
-/// vtkIdType is written as int; long is that of 64-bit systems.
+/// vtkIdType is written as int; long has the size of 64-bit systems.
 constexpr std::array<TypeName, 19> k_legacy_types = {{{"char", Type::int8},
                                                       {"signed_char", Type::int8},
                                                       {"unsigned_char", Type::uint8},
@@ -53,7 +53,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// "%20" and the like in names.
+/// Decodes "%20" and similar escapes in names.
 std::string unescaped(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -75,7 +75,7 @@ void append_value(std::vector<char>& bytes, T value) {
   std::memcpy(bytes.data() + place, &value, sizeof(T));
 }
 
-/// The values of a block of cells whose nodes are announced by their number: "3 0 1 2 4 2 3 5 6".
+/// Splits a block of cells, each with its number of nodes first: "3 0 1 2 4 2 3 5 6".
 VtkCells split_counted(const VtuValues& values, std::size_t n_cells, const auto& fail) {
   std::vector<char> nodes, ends;
   std::uint64_t n_nodes = 0;
@@ -191,7 +191,7 @@ class LegacyParser {
     cells_[section]->type = grid_.is_surface ? k_surface_sections[section].type : 0;
   }
 
-  /// Version 5.1: where the nodes of each cell begin, with the end of the last; then the nodes.
+  /// Version 5.1: reads the offsets of the nodes of each cell, with the end of the last; then the nodes.
   VtkCells take_offset_cells(std::size_t n_offsets, std::size_t n_nodes) {
     scanner_.skip_token("OFFSETS");
     const VtuValues offsets = read_values(parse_integer_type(), n_offsets, 1, "offsets");
@@ -245,7 +245,7 @@ class LegacyParser {
     scanner_.skip_token("the name of a field");
     const std::size_t n_arrays = count("the number of arrays");
     for (std::size_t i = 0; i < n_arrays; ++i) {
-      if (is_next("METADATA")) {  // of the array before
+      if (is_next("METADATA")) {  // metadata of the previous array
         scanner_.skip_token("METADATA");
         skip_metadata();
       }
@@ -256,7 +256,7 @@ class LegacyParser {
     }
   }
 
-  /// The best of the arrays that number patches is kept, as are the names of patches; others are passed over. \param type none: strings
+  /// Stores the preferred array of patch numbers and the patch names; skips other arrays. \param type none: strings
   void take_array(const std::string& name, std::optional<Type> type, std::size_t n_tuples, std::size_t n_components) {
     if (n_components > 0 && n_tuples > buffer_.bytes.size() / n_components)
       fail("an array of " + std::to_string(n_tuples) + " times " + std::to_string(n_components) + " values is larger than the file");
@@ -273,7 +273,7 @@ class LegacyParser {
     }
   }
 
-  /// To the next empty line.
+  /// Skips to the next empty line.
   void skip_metadata() {
     scanner_.next_line();
     while (scanner_.remaining() > 0 && !scanner_.rest_of_line().empty()) {
@@ -282,7 +282,7 @@ class LegacyParser {
 
   // ---- values
 
-  /// Whether that word follows; the place stays, for what follows may be bytes.
+  /// Returns true if that word follows. The position is unchanged, because the next data may be bytes.
   bool is_next(std::string_view word) {
     const std::size_t place = scanner_.offset();
     const bool is_there = equal_ignoring_case(scanner_.peek(), word);
@@ -352,14 +352,14 @@ class LegacyParser {
     }
   }
 
-  /// Bytes in binary files, reals in text.
+  /// Skips colours: bytes in binary files, reals in text.
   void skip_colours(std::size_t n, std::size_t n_components) {
     if (n_components > 0 && n > buffer_.bytes.size() / n_components)
       fail("colours of " + std::to_string(n) + " times " + std::to_string(n_components) + " values are larger than the file");
     skip_values(Type::uint8, n * n_components);
   }
 
-  /// A line each in text; in binary files the first two bits of the length say of how many bytes it is: 3 one, 2 two, 1 four, 0 eight.
+  /// Skips strings: one per line in text. In binary files the first two bits give the width of the length field in bytes: 3 one, 2 two, 1 four, 0 eight.
   void skip_strings(std::size_t n) {
     if (!is_binary_) {
       scanner_.next_line();
@@ -392,7 +392,7 @@ class LegacyParser {
     std::string_view name;
     int type;
   };
-  /// In the order in which CELL_DATA counts them, whatever that of the file.
+  /// Surface sections in the order in which CELL_DATA counts them, regardless of the order in the file.
   static constexpr std::array<SurfaceSection, 4> k_surface_sections = {{{"vertices", 2}, {"lines", 4}, {"polygons", 7}, {"triangle_strips", 6}}};
 
   const FileBuffer& buffer_;
@@ -403,7 +403,7 @@ class LegacyParser {
   bool has_points_ = false;
   std::size_t section_offset_ = 0;
   std::vector<Point> points_;
-  std::array<std::optional<VtkCells>, 4> cells_;  ///< of a grid: the first only
+  std::array<std::optional<VtkCells>, 4> cells_;  ///< an unstructured grid uses the first entry only
   std::optional<VtuValues> types_;
   bool is_in_attributes_ = false;
   bool is_cell_data_ = false;

@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, Type>, 10> k_types = {{{"Int8",
                                                                         {"Float32", Type::float32},
                                                                         {"Float64", Type::float64}}};
 
-/// Deflate makes at most 1032 bytes of one, LZ4 255: a block that claims more is damaged, and no memory is reserved for it.
+/// Deflate expands a byte to at most 1032 bytes, LZ4 to 255. A block that claims more is damaged, and no memory is reserved for it.
 constexpr std::uint64_t k_max_zlib_expansion = 1032;
 constexpr std::uint64_t k_array_expansion_floor = 4096;
 
@@ -47,7 +47,7 @@ constexpr std::array<std::int8_t, 256> make_base64_table() {
 }
 constexpr std::array<std::int8_t, 256> k_base64 = make_base64_table();
 
-/// Decodes groups of four characters; padded groups may stand between (VTK encodes header and data apart). nullopt: not base64.
+/// Decodes groups of four characters. Padded groups may occur in between (VTK encodes header and data separately). nullopt: not base64.
 std::optional<std::string> from_base64(std::string_view text) {
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -89,7 +89,7 @@ bool append_ascii(std::string_view text, std::vector<char>& bytes) {
 
 /// Unpacks a block of exactly n bytes.
 bool unpack(std::string_view packed, bool is_lz4, char* to, std::size_t n) {
-  constexpr std::size_t k_most = std::numeric_limits<int>::max();  // of LZ4
+  constexpr std::size_t k_most = std::numeric_limits<int>::max();  // limit of LZ4
   if (is_lz4)
     return packed.size() <= k_most && n <= k_most &&
            LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()), static_cast<int>(n)) == static_cast<int>(n);
@@ -98,7 +98,7 @@ bool unpack(std::string_view packed, bool is_lz4, char* to, std::size_t n) {
          n_found == n;
 }
 
-/// A compressed block and where its bytes go.
+/// A compressed block and the destination of its bytes.
 struct Block {
   std::string_view packed;
   std::size_t place = 0;

@@ -1,4 +1,4 @@
-// Values of the DataArrays of a VTU file, in any of its encodings (docs/method/formats.md, "VTU and VTP").
+// Values of the DataArrays of a VTU file, in any encoding (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class VtuValues {
   double real(std::size_t i) const {
     return visit<double>(i, [](auto value) { return static_cast<double>(value); });
   }
-  /// An id or count; negative ones come out as huge numbers, which range checks refuse.
+  /// Returns an id or count; negative values become huge numbers, which range checks reject.
   /// \pre is_integer()
   std::uint64_t id(std::size_t i) const {
     return visit<std::uint64_t>(i, [](auto value) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)); });
@@ -59,11 +59,11 @@ class VtuValues {
   std::vector<char> bytes_;
 };
 
-/// Decodes arrays of one file.
+/// Decodes the arrays of one file.
 /// \throws Error file_malformed, unsupported_format.
 class VtuDecoder {
  public:
-  /// \param tags of the whole file; the last is AppendedData when there is such a section. Both must outlive the decoder.
+  /// \param tags all tags of the file; the last is AppendedData if there is such a section. `buffer` and `tags` must outlive the decoder.
   VtuDecoder(const FileBuffer& buffer, const std::vector<XmlTag>& tags, const RunContext& context);
   VtuValues decode(const XmlTag& data_array) const;
 
@@ -78,9 +78,9 @@ class VtuDecoder {
   RunContext context_;
   Packing packing_ = Packing::none;
   std::size_t word_size_ = 4;
-  std::string_view appended_;  ///< behind the '_'
+  std::string_view appended_;  ///< after the '_'
   bool appended_is_base64_ = false;
-  std::vector<std::uint64_t> offsets_;  ///< of all appended arrays, ascending
+  std::vector<std::uint64_t> offsets_;  ///< offsets of all appended arrays, ascending
 };
 
 }  // namespace sterna::io

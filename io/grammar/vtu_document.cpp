@@ -1,5 +1,5 @@
-// The file: an XML head with the offset of each array, then the arrays, each a header of block sizes and the compressed blocks. Sizes and offsets are known
-// only after compression: their places are reserved, and filled in when the arrays are written.
+// File layout: an XML head with the offset of each array, then the arrays, each a header of block sizes and the compressed blocks. Sizes and offsets are known
+// only after compression: space is reserved for them and filled in when the arrays are written.
 #include "io/grammar/vtu_document.h"
 
 #include <lz4.h>
@@ -43,7 +43,7 @@ std::string_view name_of(VtuType type) {
   return "";
 }
 
-/// All arrays of a document in file order.
+/// Returns all arrays of a document in file order.
 std::vector<const VtuArray*> arrays_of(const VtuDocument& document) {
   std::vector<const VtuArray*> arrays = {&document.points, &document.connectivity, &document.offsets};
   if (document.kind == VtuKind::unstructured_grid) arrays.push_back(&document.types);
@@ -105,7 +105,7 @@ void pack_zlib(const VtuArray& array, const char* raw, std::size_t n_bytes, Byte
   out.end_at(place + n_packed);
 }
 
-/// A raw LZ4 block, not a frame. \pre n_bytes <= k_vtu_block, far below LZ4's limit of 2 GB
+/// Compresses to a raw LZ4 block, not a frame. \pre n_bytes <= k_vtu_block, far below LZ4's limit of 2 GB
 void pack_lz4(const char* raw, std::size_t n_bytes, ByteBuffer& out) {
   const int n_most = LZ4_compressBound(static_cast<int>(n_bytes));
   char* const place = out.reserve(static_cast<std::size_t>(n_most));
@@ -126,7 +126,8 @@ void compress_block(const VtuArray& array, VtuPacking packing, std::uint64_t beg
   else pack_zlib(array, raw.get(), n_bytes, out);
 }
 
-/// Packed: "[number of blocks][block size][size of a shorter last block or 0][packed sizes]", then the blocks. Else the number of bytes, then the bytes.
+/// Appends an array. Packed: "[number of blocks][block size][size of a shorter last block or 0][packed sizes]", then the blocks. Otherwise the number of bytes,
+/// then the bytes.
 void append_array(AtomicFile& file, const VtuArray& array, VtuPacking packing, const RunContext& context) {
   const std::uint64_t per_block = k_vtu_block / size_of(array.type);
   const std::uint64_t n_blocks = (array.n_values + per_block - 1) / per_block;
@@ -182,7 +183,7 @@ void write_vtu(const VtuDocument& document, const std::filesystem::path& path, c
   }
   file.append("\n</AppendedData>\n</VTKFile>\n");
   std::string text = head(document, offsets);
-  text.resize(n_head, ' ');  // blanks between tags are no content
+  text.resize(n_head, ' ');  // blanks between tags are ignored
   file.overwrite(0, text);
   const StageTimer timer(context, "sync");
   file.commit();

@@ -1,4 +1,4 @@
-// VTU files of any content: named arrays, made on the fly block by block, compressed by all threads, appended raw (docs/method/formats.md, "VTU and VTP").
+// VTU files of any content: named arrays, generated block by block, compressed in parallel, appended raw (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <cstdint>
@@ -23,37 +23,38 @@ struct VtuArray {
   std::function<void(std::uint64_t begin, std::uint64_t end, char* out)> fill;
 };
 
-/// How arrays are packed. zlib is smallest and read by all; LZ4 is packed several times faster (meshio does not read it); none is fastest.
+/// Compression of arrays. zlib is smallest and most widely supported; LZ4 compresses several times faster (meshio does not read it); none is fastest.
 enum class VtuPacking { zlib, lz4, none };
-/// From the name: x.raw.vtu none, x.lz4.vtu LZ4, others zlib.
+/// Returns the compression from the name: x.raw.vtu none, x.lz4.vtu LZ4, others zlib.
 VtuPacking vtu_packing(const std::filesystem::path& path);
 
-/// What a file is to VTK: cells of any kind (.vtu), or a surface of polygons (.vtp).
+/// VTK data set type: cells of any kind (.vtu), or a surface of polygons (.vtp).
 enum class VtuKind { unstructured_grid, poly_data };
 
-/// A grid of one piece.
+/// A grid with one piece.
 struct VtuDocument {
   VtuKind kind = VtuKind::unstructured_grid;
   std::uint64_t n_points = 0;
   std::uint64_t n_cells = 0;
   VtuArray points;                        ///< 3 components
-  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (not of PolyData)
+  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (unused for PolyData)
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name
   VtuPacking packing = VtuPacking::zlib;
 };
 
-/// An array over values that live as long as the document.
+/// Returns an array over values, which must outlive the document.
 VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values);
 
-/// Binary appended, packed as the document says (zlib: level k_zlib_level), little endian, UInt64 headers. Same bytes for any number of threads.
-/// \throws Error write_failed, cancelled, and what a fill function throws.
+/// Writes binary appended data, compressed as specified in the document (zlib: level k_zlib_level), little endian, UInt64 headers. The bytes do not depend on
+/// the number of threads.
+/// \throws Error write_failed, cancelled, and errors of fill functions.
 void write_vtu(const VtuDocument& document, const std::filesystem::path& path, const RunContext& context);
 
-/// Fastest level: a mesh shrinks to about 40 %; level 6 gains a few percent more for five times the time.
+/// Fastest level: a mesh shrinks to about 40 %; level 6 gains a few percent more at five times the time.
 inline constexpr int k_zlib_level = 1;
-/// Bytes per compressed block; a multiple of 24, so that points and values do not straddle blocks.
+/// Bytes per compressed block; a multiple of 24, so that points and values do not cross block boundaries.
 inline constexpr std::size_t k_vtu_block = 3u << 19;
 
 }  // namespace sterna::io

@@ -1,4 +1,4 @@
-// Tags first, then the arrays of each piece.
+// The tags are parsed first, then the arrays of each piece.
 #include "io/grammar/vtu_grid.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view k_grid_type = "UnstructuredGrid";
 constexpr std::string_view k_surface_type = "PolyData";
 
-/// A section of cells and the VTK type of all of them; 0: the array "types" says. PolyData counts its cells in this order.
+/// A section of cells and the VTK type of all its cells; 0: types are in the array "types". PolyData counts its cells in this order.
 struct VtuSection {
   std::string_view name;
   int type = 0;

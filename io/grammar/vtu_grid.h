@@ -1,4 +1,4 @@
-// VTK's XML files as arrays: UnstructuredGrid (.vtu) and PolyData (.vtp), any encoding (docs/method/formats.md, "VTU and VTP").
+// Reader of VTK's XML files as arrays: UnstructuredGrid (.vtu) and PolyData (.vtp), any encoding (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Strict reader of binary formats over a loaded file: fixed-width numbers of either byte order, errors with their byte offset.
+// Strict reader of binary formats over a loaded file: fixed-width numbers of either byte order. Errors state the byte offset.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace sterna::io {
 
-/// The functions that take `expected` throw Error(file_malformed) with byte offset, what was found and that text.
+/// Functions with `expected` throw Error(file_malformed) with the byte offset, the value found and the expectation.
 class ByteReader {
  public:
   /// \pre `buffer` outlives the reader.
@@ -27,7 +27,7 @@ class ByteReader {
   std::size_t remaining() const { return bytes_.size() - position_; }
   std::endian order() const { return order_; }
 
-  /// Makes sure that `n` things of `size` bytes each are left in the file. No overflow for any n.
+  /// Checks that `n` items of `size` bytes each are left in the file. No overflow for any n.
   void require(std::uint64_t n, std::size_t size, std::string_view expected) const {
     if (size != 0 && n > remaining() / size)
       fail("found " + std::to_string(remaining()) + " bytes to the end of the file, expected " + std::to_string(n) + " times " + std::to_string(size) +
@@ -41,7 +41,7 @@ class ByteReader {
     return take<T>();
   }
 
-  /// As read(), when require() has already been asked.
+  /// read() without the check, for use after require().
   /// \pre sizeof(T) bytes are left
   template <class T>
   requires std::is_arithmetic_v<T> T take() {

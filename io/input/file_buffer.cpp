@@ -13,11 +13,12 @@
 namespace sterna::io {
 namespace {
 
-/// Unpacked over packed size. Mesh text reaches about 10, repetitive test files 50; deflate itself allows 1032, which only bombs need.
+/// Maximum ratio of unpacked to packed size. Mesh text reaches about 10, repetitive test files 50; deflate itself allows 1032, reached only by decompression
+/// bombs.
 constexpr std::size_t k_max_expansion = 200;
-/// Bytes that may be unpacked whatever the packed size: small files of zeros are harmless.
+/// Number of bytes that may be unpacked regardless of the packed size: small files of zeros are harmless.
 constexpr std::size_t k_gzip_expansion_floor = std::size_t{1} << 24;
-/// Bytes per call of read or inflate; between two of them a stop request is honoured.
+/// Bytes per call of read or inflate; the stop request is checked between calls.
 constexpr std::size_t k_piece = std::size_t{1} << 22;
 constexpr std::size_t k_longest_excerpt = 40;
 
@@ -33,8 +34,8 @@ std::vector<char> read_all(const std::filesystem::path& path, const std::string&
   if (!file) throw_file(ErrorCode::file_not_found, source, "the file cannot be opened: " + std::generic_category().message(errno));
 
   std::vector<char> bytes;
-  const std::uintmax_t size = std::filesystem::file_size(path, status);  // not known for a pipe: then the vector grows
-  if (!status) bytes.reserve(static_cast<std::size_t>(size) + 1);        // one more, to meet the end without growing
+  const std::uintmax_t size = std::filesystem::file_size(path, status);  // unknown for a pipe: then the vector grows
+  if (!status) bytes.reserve(static_cast<std::size_t>(size) + 1);        // one more, to detect the end without growing
   for (;;) {
     context.check_stop();
     const std::size_t n_before = bytes.size();
@@ -83,7 +84,7 @@ std::vector<char> unpack(const std::vector<char>& packed, const std::string& sou
     if (bytes.size() > limit)
       throw_malformed(source, where(), "the gzip data unpacks to more than " + std::to_string(limit) + " bytes, which no mesh file does");
     if (state == Z_STREAM_END) {
-      // Another member may follow at once; padding with zeros (tapes, block devices) is ignored as gzip itself does.
+      // Another member may follow directly; padding with zeros (tapes, block devices) is ignored as in gzip.
       const auto rest = packed.begin() + static_cast<std::ptrdiff_t>(n_fed - stream.avail_in);
       if (std::all_of(rest, packed.end(), [](char c) { return c == '\0'; })) is_complete = true;
       else inflateReset(&stream);
@@ -110,7 +111,7 @@ FileBuffer load_file(const std::filesystem::path& path, const RunContext& contex
 std::string file_head(const std::filesystem::path& path, std::size_t n_bytes) {
   std::error_code status;
   if (!std::filesystem::is_regular_file(path, status)) return {};                               // a pipe can be read only once
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);  // takes plain files too
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);  // also opens plain files
   if (!file) return {};
   std::string head(n_bytes, '\0');
   head.resize(static_cast<std::size_t>(std::max(0, gzread(file.get(), head.data(), static_cast<unsigned>(n_bytes)))));

@@ -1,4 +1,4 @@
-// A whole file in memory: what every reader starts from. A gzipped file (by content, whatever its name) arrives unpacked.
+// A whole file in memory, the input of every reader. A gzipped file (detected by content, not by name) is unpacked.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,20 @@
 namespace sterna::io {
 
 struct FileBuffer {
-  std::string source;       ///< the path as the user gave it, for messages
+  std::string source;       ///< the path as given by the user, for messages
   std::vector<char> bytes;  ///< unpacked
   std::string_view text() const { return {bytes.data(), bytes.size()}; }
 };
 
-/// Loads `path`, and unpacks it when it begins with a gzip header (several members are joined).
-/// Memory stays in proportion to the file: unpacking stops at k_max_expansion times the packed size.
+/// Loads `path`, and unpacks it if it begins with a gzip header (several members are joined).
+/// Memory is proportional to the file size: unpacking stops at k_max_expansion times the packed size.
 /// \throws Error file_not_found (missing, a folder, unreadable), file_malformed (empty, damaged or suspiciously expanding gzip data), cancelled.
 FileBuffer load_file(const std::filesystem::path& path, const RunContext& context);
 
-/// The first bytes of a regular file, unpacked, at most `n_bytes`; fewer, perhaps none, when they cannot be had: whoever loads the file says why.
+/// Returns the first bytes of a regular file, unpacked, at most `n_bytes`; fewer, possibly none, if they cannot be read. load_file() reports the reason.
 std::string file_head(const std::filesystem::path& path, std::size_t n_bytes);
 
-/// "\"3.0x\"": bytes of a file made safe and short for a message.
+/// Returns bytes of a file quoted, escaped and shortened for a message: "\"3.0x\"".
 std::string quoted_excerpt(std::string_view bytes);
 
 /// Throws Error(file_malformed) "reading SOURCE: WHERE: PROBLEM", e.g. where = "line 12" or "byte 84".

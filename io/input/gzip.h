@@ -1,4 +1,4 @@
-// Bytes packed by zlib, for what is embedded in other files.
+// Compression with zlib, for data embedded in other files.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace sterna::io {
 
-/// A gzip stream without name and time: the same bytes each time.
-/// \throws Error(internal) when zlib has no memory
+/// Returns a gzip stream without name and time, so that the output is reproducible.
+/// \throws Error(internal) if zlib has no memory
 std::string gzip(std::string_view bytes);
-/// RFC 4648, with padding, on one line.
+/// Returns base64 (RFC 4648) with padding, on one line.
 std::string base64(std::string_view bytes);
 
 }  // namespace sterna::io

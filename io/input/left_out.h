@@ -1,4 +1,4 @@
-// What a reader leaves out of what it returns, counted by kind and reported once.
+// Counts of items that a reader leaves out, by kind, reported once.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace sterna::io {
 
 class LeftOut {
  public:
-  /// \param what a plural: "lines", "free-form surfaces (surf)"
+  /// Counts n items. \param what a plural: "lines", "free-form surfaces (surf)"
   void add(std::string_view what, std::uint64_t n = 1) {
     if (n > 0) counts_[std::string(what)] += n;
   }
   bool empty() const { return counts_.empty(); }
-  /// "3 curves, 12 lines"
+  /// Returns "3 curves, 12 lines".
   std::string text() const {
     std::string text;
     for (const auto& [what, n] : counts_) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + what;
     return text;
   }
-  /// "FILE: left out: 3 curves, 12 lines", if anything was: a warning, or a note for what bounds nothing.
+  /// Reports "FILE: left out: 3 curves, 12 lines" if any item was left out: as a warning, or as a note for items that bound nothing.
   void warn(const std::string& source, const RunContext& context) const {
     if (!empty()) context.warn(source + ": left out: " + text());
   }

@@ -13,12 +13,12 @@
 namespace sterna::io {
 namespace {
 
-/// Seconds. A file is held as soon as it is made; what lies between the two takes microseconds.
+/// Minimum age in seconds. A file is locked directly after its creation; the gap takes microseconds.
 constexpr std::time_t k_least_age = 60;
 
 bool is_temporary(const std::string& name) { return name.starts_with(".sterna-") && name.ends_with(".part"); }
 
-/// Whether the name still means what was opened: another process may have removed it and begun its own of that name meanwhile.
+/// Returns true if the name still refers to the opened file. Another process may have removed the file and created its own of that name meanwhile.
 bool is_still_named(const std::filesystem::path& path, const struct stat& opened) {
   struct stat named {};
   return ::lstat(path.c_str(), &named) == 0 && named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
@@ -30,7 +30,7 @@ void remove_if_left(const std::filesystem::path& path) {
   struct stat status {};
   const bool is_old =
       ::fstat(descriptor, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) && ::time(nullptr) - status.st_mtime > k_least_age;
-  std::error_code ignored;  // it does no harm where it is
+  std::error_code ignored;  // a leftover does no harm
   if (is_old && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_still_named(path, status)) std::filesystem::remove_all(path, ignored);
   ::close(descriptor);
 }
@@ -40,13 +40,13 @@ void remove_if_left(const std::filesystem::path& path) {
 void hold(int descriptor) noexcept { static_cast<void>(::flock(descriptor, LOCK_EX | LOCK_NB)); }
 
 void remove_leftovers(const std::filesystem::path& folder) noexcept try {
-  std::error_code failure;  // of a folder that cannot be listed: who writes into it says what is wrong
+  std::error_code failure;  // if the folder cannot be listed; writing into it reports the error
   std::vector<std::filesystem::path> found;
   for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, failure), end; !failure && it != end; it.increment(failure))
     if (is_temporary(it->path().filename().string())) found.push_back(it->path());
   for (const std::filesystem::path& path : found) remove_if_left(path);
 } catch (const std::exception&) {
-  // Out of memory for a list of names: they stay.
+  // No memory for a list of names: the files are kept.
 }
 
 }  // namespace sterna::io

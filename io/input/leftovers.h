@@ -5,12 +5,12 @@
 
 namespace sterna::io {
 
-/// Tells remove_leftovers() of other processes that a temporary file or folder is being written: until `descriptor` and its copies are closed, also by the
-/// death of the process. Does nothing on file systems without locks, on which nothing is removed either.
+/// Marks a temporary file or folder as in use for remove_leftovers() of other processes. The mark ends when `descriptor` and its copies are closed, also by the
+/// death of the process. Does nothing on file systems without locks; there remove_leftovers() removes nothing, either.
 void hold(int descriptor) noexcept;
 
-/// Removes what is called ".sterna-*.part" in `folder`, is held by nobody and has not changed for a minute. What cannot be removed, or not be proved to be held
-/// by nobody, stays.
+/// Removes entries named ".sterna-*.part" in `folder` that no process holds and that have not changed for a minute. Entries that cannot be removed, or whose
+/// lock state is unknown, are kept.
 void remove_leftovers(const std::filesystem::path& folder) noexcept;
 
 }  // namespace sterna::io

@@ -11,7 +11,7 @@
 namespace sterna::io {
 namespace {
 
-/// Lines per chunk: some 300 kB of text, so that a task is long against its cost and short against the file.
+/// Lines per chunk: about 300 kB of text, long compared with the overhead of a task and short compared with the file.
 constexpr std::uint64_t k_lines_per_chunk = 8192;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
@@ -51,7 +51,7 @@ double LineCursor::real(const char* expected, std::uint64_t number) {
     at_ = result.ptr;
     return value;
   }
-  // What from_chars does not take: values below the smallest double, and Fortran's exponent 1.0D-3.
+  // Handles numbers that from_chars rejects: values below the smallest double, and Fortran's exponent 1.0D-3.
   const char* const field_end = std::find_if(first, end_, ends_field);
   std::string spelling(first, std::min(static_cast<std::size_t>(field_end - first), k_longest_number));
   std::replace_if(

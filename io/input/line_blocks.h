@@ -1,5 +1,5 @@
-// Text files of blocks: a keyword announces n lines, one item on each. A first pass finds where the blocks and their chunks of lines begin (as fast as memchr);
-// then all threads parse the chunks. Blank lines and '%' comments do not count; CRLF is accepted.
+// Text files of blocks: a keyword announces n lines with one item each. A first pass finds the start of blocks and of their chunks of lines (as fast as
+// memchr); then all threads parse the chunks. Blank lines and '%' comments are ignored; CRLF is accepted.
 #pragma once
 
 #include <cstdint>
@@ -16,41 +16,40 @@ struct LineChunk {
   const char* begin = nullptr;
   const char* end = nullptr;
   std::uint64_t line = 0;        ///< number of the line at `begin`, from 1
-  std::uint64_t first_item = 0;  ///< its number in the block
+  std::uint64_t first_item = 0;  ///< number of the first item in the block
   std::uint64_t n_items = 0;
 };
 
 struct LineBlock {
   std::uint64_t n_items = 0;
-  std::uint64_t line = 0;  ///< of the keyword
+  std::uint64_t line = 0;  ///< line of the keyword
   std::vector<LineChunk> chunks;
 };
 
-/// Walks over the lines of a text, and over the fields of a line. Throws Error(file_malformed) with the line.
+/// Iterates over the lines of a text, and over the fields of a line. Throws Error(file_malformed) with the line.
 class LineCursor {
  public:
   LineCursor(std::string_view text, std::string_view source) : at_(text.data()), end_(at_ + text.size()), source_(source) {}
   LineCursor(const LineChunk& chunk, std::string_view source) : at_(chunk.begin), end_(chunk.end), line_(chunk.line), source_(source) {}
 
-  /// Moves to the first field of the next line with content (from the beginning: the current one); false at the end of the text.
+  /// Moves to the first field of the next line with content (at the beginning: the current line). Returns false at the end of the text.
   bool find_content();
-  /// Moves behind the current line's end.
+  /// Moves past the end of the current line.
   void next_line();
   std::uint64_t line() const { return line_; }
   const char* position() const { return at_; }
-  /// From the position to the end of the line, without blanks at its end.
+  /// Returns the text from the position to the end of the line, without trailing blanks.
   std::string_view rest_of_line() const;
 
-  /// Fields of the current line; blanks or commas before them are skipped. \p expected: "coordinate of node 7"; the number is added to the text when it is
-  /// given.
+  /// Reads a field of the current line; blanks or commas before it are skipped. \p expected: "coordinate of node 7"; `number` is appended to the text if given.
   double real(const char* expected, std::uint64_t number);
-  /// real(), but numbers that are not finite are accepted: nan, inf, 1e999.
+  /// Reads a number like real(), but accepts numbers that are not finite: nan, inf, 1e999.
   double coordinate(const char* expected, std::uint64_t number);
   std::uint64_t integer(const char* expected, std::uint64_t number);
-  /// An integer below `limit`.
+  /// Reads an integer below `limit`.
   std::uint32_t index(std::uint64_t limit, const char* expected, std::uint64_t number);
 
-  /// Takes the n items from the next line on as a block.
+  /// Takes the next n items, from the next line on, as a block.
   /// \pre the position is in the keyword's line
   LineBlock take_block(std::uint64_t n, std::string_view keyword);
 

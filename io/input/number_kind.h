@@ -1,4 +1,4 @@
-// The kinds of numbers that container files (HDF5, ADF, NetCDF) hold. It includes nothing of sterna: the helper that reads them shares it.
+// Kinds of numbers in container files (HDF5, ADF, NetCDF). Includes nothing of sterna, because the helper process shares this header.
 #pragma once
 
 #include <array>

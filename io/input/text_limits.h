@@ -1,4 +1,4 @@
-// Limits that readers and writers of text share.
+// Limits shared by readers and writers of text.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace sterna::io {
 
-inline constexpr std::size_t k_stop_interval = 1 << 16;  ///< items between two looks at the stop token
+inline constexpr std::size_t k_stop_interval = 1 << 16;  ///< items between two checks of the stop token
 inline constexpr std::size_t k_longest_number = 1000;    ///< characters of a number
 inline constexpr std::uint64_t k_max_int32 = std::numeric_limits<std::int32_t>::max();
 

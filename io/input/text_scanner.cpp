@@ -128,12 +128,12 @@ double TextScanner::real(std::string_view expected) {
 double TextScanner::coordinate(std::string_view expected) {
   begin_token(expected);
   const std::size_t begin = position_ + (text_[position_] == '-' || text_[position_] == '+' ? 1 : 0);
-  if (text_.substr(begin, 3) != "1.#") return any_real(expected);  // how Microsoft's library writes nan and inf; '#' begins no comment there
+  if (text_.substr(begin, 3) != "1.#") return any_real(expected);  // nan and inf as written by Microsoft's library; '#' begins no comment there
   while (position_ < text_.size() && class_of(text_[position_]) == k_other) ++position_;
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A number of any value.
+/// Reads a number of any value.
 double TextScanner::any_real(std::string_view expected) {
   begin_token(expected);
   const char* const first = text_.data() + position_ + (text_[position_] == '+' ? 1 : 0);
@@ -147,7 +147,7 @@ double TextScanner::any_real(std::string_view expected) {
   }
   if (result.ec == std::errc::result_out_of_range) {
     const std::string spelling(first, std::min(static_cast<std::size_t>(result.ptr - first), k_longest_number));
-    value = std::strtod(spelling.c_str(), nullptr);  // from_chars does not tell 1e-999 (zero) from 1e+999 (an error)
+    value = std::strtod(spelling.c_str(), nullptr);  // from_chars does not distinguish 1e-999 (zero) from 1e+999 (an error)
   }
   position_ = end;
   return value;
@@ -166,7 +166,7 @@ std::int64_t TextScanner::integer(std::string_view expected) {
 
 std::size_t TextScanner::count(std::string_view expected, std::size_t min_bytes) {
   const std::int64_t value = integer(expected);
-  // The last line may lack its line end: one byte of grace.
+  // The last line may lack its line end, so one extra byte is allowed.
   const std::size_t limit = (remaining() + 1) / std::max<std::size_t>(1, min_bytes);
   if (value < 0 || static_cast<std::uint64_t>(value) > limit)
     fail("found " + std::to_string(value) + " as " + std::string(expected) + ", but the " + std::to_string(remaining()) +

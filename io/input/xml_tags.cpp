@@ -55,7 +55,7 @@ class TagScanner {
     return true;
   }
 
-  /// \returns whether the tag closes itself
+  /// Reads a tag. \returns true if the tag is self-closing
   bool take_tag(std::vector<XmlTag>& tags) {
     XmlTag tag{.offset = at_++};
     tag.name = take_until(std::string(k_blanks) + (peek() == '/' ? ">" : "/>"), peek() == '/' ? 1 : 0);
@@ -79,7 +79,7 @@ class TagScanner {
     return is_closed;
   }
 
-  /// Up to one of `ends`, of which the first `n_free` characters are not looked at.
+  /// Reads up to one of `ends`; the first `n_free` characters are not compared.
   std::string_view take_until(const std::string& ends, std::size_t n_free) {
     const std::size_t end = text_.find_first_of(ends, at_ + n_free);
     if (end == std::string_view::npos) fail("the file ends within a tag");
@@ -123,7 +123,7 @@ std::string xml_escaped(std::string_view text) {
       case '<': out += "&lt;"; break;
       case '>': out += "&gt;"; break;
       case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // control characters are not XML
+      default: out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // control characters are not valid XML
     }
   }
   return out;

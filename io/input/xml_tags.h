@@ -1,4 +1,4 @@
-// Tags of an XML text in order, as a flat list: enough for VTK's files, whose raw data sections no XML parser takes.
+// Tags of an XML text in order, as a flat list. Sufficient for VTK's files, whose raw data sections XML parsers reject.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ struct XmlTag {
   std::string_view text;                                        ///< between this tag and the next
   std::size_t offset = 0;                                       ///< byte of its '<'
 
-  /// Value of an attribute; \p fallback when there is none.
+  /// Returns the value of an attribute; \p fallback if there is none.
   std::string_view attribute(std::string_view key, std::string_view fallback = {}) const;
 };
 
-/// All tags up to the end of the text, or up to and with `last`, whose text is all the rest. Comments and declarations are passed over.
+/// Returns all tags up to the end of the text, or up to and including `last`, whose text is the remainder. Comments and declarations are skipped.
 /// \throws Error(file_malformed) with the byte offset.
 std::vector<XmlTag> scan_xml_tags(std::string_view text, std::string_view last, std::string_view source);
 
-/// Text as the value of an attribute; control characters become blanks.
+/// Escapes text for use as an attribute value; control characters become blanks.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace sterna::io

@@ -1,5 +1,5 @@
-// Cells from faces: the kind follows from the numbers of triangles and quads; the nodes from one face and what is opposite. Each rebuilt cell is compared with
-// its faces, one by one.
+// Cells from faces: the kind follows from the numbers of triangles and quads, the nodes from one face and the nodes opposite to it. Each reconstructed cell is
+// compared with its faces, one by one.
 #include "io/mesh/face_based_mesh.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t k_most_faces = 6;
 
-/// A face as seen from the cell: right-hand normal out of it.
+/// A face as seen from the cell; the right-hand normal points out of the cell.
 struct OutwardFace {
   std::array<std::uint32_t, 4> nodes{};
   std::size_t size = 0;
@@ -22,7 +22,7 @@ struct OutwardFace {
   bool has(std::uint32_t node) const { return std::find(nodes.begin(), nodes.begin() + size, node) != nodes.begin() + size; }
 };
 
-/// Same nodes in the same sense.
+/// Returns true if both faces have the same nodes with the same orientation.
 bool is_same_cycle(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   if (a.size() != b.size()) return false;
   const auto start = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
@@ -32,13 +32,13 @@ bool is_same_cycle(std::span<const std::uint32_t> a, std::span<const std::uint32
   return true;
 }
 
-/// A cell under construction. Numbers of nodes are those of the file.
+/// A cell under construction. Node numbers are as in the file.
 class CellBuilder {
  public:
   std::array<OutwardFace, k_most_faces> faces;
   std::size_t n_faces = 0;
 
-  /// \returns the nodes in CGNS order; of size 0 when the faces are not those of a tetrahedron, pyramid, prism or hexahedron
+  /// Reconstructs the cell. \returns the nodes in CGNS order; size 0 if the faces do not form a tetrahedron, pyramid, prism or hexahedron
   std::span<const std::uint32_t> build(CellKind& kind) {
     const auto n_quads = static_cast<std::size_t>(std::count_if(faces.begin(), faces.begin() + n_faces, [](const OutwardFace& f) { return f.size == 4; }));
     const std::size_t n_triangles = n_faces - n_quads;
@@ -54,7 +54,7 @@ class CellBuilder {
   }
 
  private:
-  /// The face of that size with the lowest node; turned so that this one is first.
+  /// Returns the face of that size with the lowest node, rotated so that this node is first.
   OutwardFace lowest_face(std::size_t size) {
     OutwardFace* found = nullptr;
     for (std::size_t f = 0; f < n_faces; ++f) {
@@ -65,7 +65,7 @@ class CellBuilder {
     return *found;
   }
 
-  /// The base in the cell's order is the outward face backwards; above it an apex, or a node over each of its nodes.
+  /// Builds the cell over a base. In cell order the base is the reversed outward face; above it is an apex, or one node over each base node.
   bool build_over(const OutwardFace& base, bool has_apex) {
     const std::size_t n = base.size;
     for (std::size_t k = 0; k < n; ++k) nodes_[k] = base.nodes[(n - k) % n];
@@ -83,7 +83,7 @@ class CellBuilder {
     return true;
   }
 
-  /// The neighbour of `node` outside the base, in any face that has both.
+  /// Finds the neighbour of `node` outside the base, in any face that has both.
   bool find_above(std::uint32_t node, const OutwardFace& base, std::uint32_t& above) const {
     for (std::size_t f = 0; f < n_faces; ++f) {
       const std::span<const std::uint32_t> nodes = faces[f].span();
@@ -99,7 +99,7 @@ class CellBuilder {
     return false;
   }
 
-  /// Each face of the cell is one of the given faces, which are as many.
+  /// Returns true if each face of the cell is one of the given faces; their number is equal.
   bool agrees(CellKind kind) const {
     for (const LocalFace& local : cell_faces(kind)) {
       std::array<std::uint32_t, 4> nodes;
@@ -113,7 +113,7 @@ class CellBuilder {
   std::array<std::uint32_t, 8> nodes_{};
 };
 
-/// Faces of each cell, in ascending order; bit 0 of an entry: the cell is the neighbour, so that the face points into it.
+/// Faces of each cell, in ascending order. Bit 0 of an entry is set if the cell is the neighbour, so that the face points into it.
 struct FacesOfCells {
   std::vector<std::uint64_t> first, entries;
 };

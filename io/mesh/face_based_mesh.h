@@ -1,4 +1,4 @@
-// A mesh that a file gives by its faces (OpenFOAM, Fluent), and its cells rebuilt from them.
+// A mesh given by its faces (OpenFOAM, Fluent), and reconstruction of its cells.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,23 @@
 
 namespace sterna::io {
 
-/// Faces with their cells. Internal faces have a neighbour, boundary faces a patch.
+/// Faces with their cells. Internal faces have a neighbour, boundary faces have a patch.
 struct FaceBasedMesh {
   static constexpr std::uint32_t k_none = NodeId::k_invalid;
-  std::vector<std::uint32_t> nodes;      ///< of all faces, one after the other
-  std::vector<std::uint64_t> first;      ///< of each face in `nodes`, and the end; starts with 0
+  std::vector<std::uint32_t> nodes;      ///< nodes of all faces, concatenated
+  std::vector<std::uint64_t> first;      ///< start of each face in `nodes`, and the end; the first value is 0
   std::vector<std::uint32_t> owner;      ///< the face's right-hand normal points out of it
   std::vector<std::uint32_t> neighbour;  ///< k_none at the boundary
-  std::vector<PatchId> patch;            ///< invalid inside
+  std::vector<PatchId> patch;            ///< invalid for internal faces
   std::uint64_t n_cells = 0;
 
   std::size_t n_faces() const { return owner.size(); }
 };
 
-/// Fills the explicit cells and the boundary of `mesh`, whose points and patches are there. Cells of a kind keep their order; prisms stand on the triangle with
-/// their lowest node.
+/// Adds the explicit cells and the boundary to `mesh`, which already has points and patches. Cells of a kind keep their order; a prism's base is the triangle
+/// with the lowest node.
 /// \pre node and cell numbers in range
-/// \throws Error file_malformed (a cell whose faces do not close, a face with the wrong sense), unsupported_format (polyhedra, faces of five and more nodes)
+/// \throws Error file_malformed (a cell with an open surface, a face with the wrong orientation), unsupported_format (polyhedra, faces of five and more nodes)
 void add_cells_and_boundary(const FaceBasedMesh& faces, HybridMesh& mesh, const std::string& source, const RunContext& context);
 
 }  // namespace sterna::io

@@ -9,7 +9,7 @@
 namespace sterna::io {
 namespace {
 
-/// The exact formulas with bilinear faces: a valid but warped prism can have a negative volume once its sides are cut along one diagonal.
+/// Returns the exact volume with bilinear faces. With sides split along one diagonal, a valid but warped prism could have a negative volume.
 template <std::size_t N>
 double signed_volume(const HybridMesh& mesh, const std::array<NodeId, N>& nodes) {
   std::array<Point, N> p;
@@ -50,7 +50,7 @@ std::int64_t flip_cells(const HybridMesh& mesh, std::vector<std::array<NodeId, N
       [](std::int64_t a, std::int64_t b) { return a + b; });
 }
 
-/// Boundary faces found by their lowest node. Triangles are numbered first, then quads.
+/// Table of boundary faces by their lowest node. Triangles are numbered first, then quads.
 class FaceTable {
  public:
   explicit FaceTable(const HybridMesh& mesh) : mesh_(mesh), first_(mesh.points.size() + 1, 0) {
@@ -68,7 +68,7 @@ class FaceTable {
     return mesh_.boundary_quads[face - n].nodes;
   }
 
-  /// Calls f(face, is_reversed) for each boundary face with the nodes of a cell's face, given in the outward sense.
+  /// Calls f(face, is_reversed) for each boundary face with the nodes of a cell's face, given in outward orientation.
   template <class F>
   void find(std::span<const NodeId> outward, const F& f) const {
     const std::uint32_t key = lowest(outward);

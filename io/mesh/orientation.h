@@ -1,4 +1,4 @@
-// Windings of meshes that were read: formats and programs disagree on them, so readers measure and repair.
+// Windings of meshes that were read. Formats and programs use different conventions, so readers check and repair the winding.
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@ struct FlipCounts {
   std::int64_t faces = 0;
 };
 
-/// Flips every explicit cell of negative volume (tets and wedges: two nodes swapped in each triangle; pyramids, hexahedra: in each quad), then turns every
-/// boundary face that is the reverse of a cell's face. Both are told in the log. Faces of no cell, and faces with crossed quads, stay; `check` reports them.
+/// Flips every explicit cell of negative volume (tets and wedges: two nodes swapped in each triangle; pyramids, hexahedra: in each quad). Then reverses every
+/// boundary face whose orientation is opposite to that of its cell's face. Both are reported in the log. Faces without a cell, and faces with crossed quads,
+/// are kept; `check` reports them.
 /// \pre node ids in range. Parallel, same result for any number of threads.
 FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context);
 

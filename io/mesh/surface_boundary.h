@@ -1,4 +1,4 @@
-// A surface as the boundary of a volume mesh without cells, and back: what formats share that hold both.
+// Conversion between a surface and the boundary of a volume mesh without cells, shared by formats that store both.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace sterna::io {
 
-/// The surface's triangles as boundary faces, in their order; node i is vertex i.
+/// Winding of the surface's triangles as boundary faces. They keep their order; node i is vertex i.
 enum class Winding { kept, turned };
 HybridMesh as_boundary(const TriMesh& mesh, Winding winding);
 
-/// The boundary of a file's volume mesh, whose cells were only counted; or a surface, without any.
+/// The boundary of a file's volume mesh, whose cells were only counted, or a surface without cells.
 struct FileBoundary {
   HybridMesh mesh;            ///< without cells
   std::uint64_t n_cells = 0;  ///< in the file
 };
 
-/// The boundary faces of a volume mesh: triangles, then quads split in two; points that no face uses are left out. Winding as in the mesh, out of the fluid.
-/// Patches without faces are dropped.
+/// Returns the boundary faces of a volume mesh: triangles, then quads split in two. Points that no face uses are left out. The winding is that of the mesh, out
+/// of the fluid. Patches without faces are dropped.
 /// \pre faces have patches
 SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source, const RunContext& context);
 SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source, const RunContext& context);

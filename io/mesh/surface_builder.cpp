@@ -72,7 +72,7 @@ void SurfaceBuilder::note_not_finite(std::size_t number, std::span<const std::ui
   }
 }
 
-/// Leaves the polygons and triangles out that have a corner which is not finite.
+/// Removes polygons and triangles that have a corner that is not finite.
 void SurfaceBuilder::drop_not_finite() {
   std::vector<Polygon> kept_polygons;
   std::vector<std::array<std::uint32_t, 3>> kept;

@@ -1,4 +1,4 @@
-// Collects what a surface file lists (points, polygons, patch names) and makes a SurfaceSoup of it.
+// Builds a SurfaceSoup from the contents of a surface file: points, polygons, patch names.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ class SurfaceBuilder {
   void reserve_points(std::size_t n) { soup_.points.reserve(n); }
   void reserve_polygons(std::size_t n);
 
-  /// Coordinates may be nan or infinite: finish() leaves out what uses such points.
-  /// \throws Error(overflow) when there are more points than 32-bit indices.
+  /// Adds a point. Coordinates may be nan or infinite: finish() leaves out the polygons that use such points.
+  /// \throws Error(overflow) if there are more points than 32-bit indices.
   std::uint32_t add_point(const Vec3& p);
 
-  /// Polygons added from now on belong to the patch of this name; patches are numbered in the order of their first call.
+  /// Sets the patch of the polygons added afterwards; patches are numbered in the order of their first call.
   void set_patch(std::string_view name);
 
-  /// Indices may refer to points that are added later.
+  /// Adds a polygon. Indices may refer to points that are added later.
   /// \pre 3 <= corners.size() <= k_max_polygon_corners
   void add_polygon(std::span<const std::uint32_t> corners);
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -40,13 +40,13 @@ class SurfaceBuilder {
     soup_.patch.push_back(current_patch_);
   }
 
-  /// Splits the polygons, drops patches without triangles. With `drop_unused_points` (the boundary of a volume mesh) only the points in use stay, in their
-  /// order. Polygons with corners that are not finite are left out with a warning; then only the points in use stay, too.
+  /// Splits the polygons and drops patches without triangles. With `drop_unused_points` (for the boundary of a volume mesh) unused points are removed; the
+  /// order of the others is kept. Polygons with corners that are not finite are left out with a warning; unused points are then removed, too.
   /// \pre every index is below n_points()
   SurfaceSoup finish(const RunContext& context, bool drop_unused_points = false);
 
  private:
-  struct Polygon {  // of more than three corners; its triangles come before triangle `before`
+  struct Polygon {  // more than three corners; its triangles come before triangle `before`
     std::size_t before = 0;
     std::size_t first_corner = 0;
     std::size_t n_corners = 0;
@@ -64,12 +64,12 @@ class SurfaceBuilder {
   std::uint32_t current_patch_ = 0;
   bool has_not_finite_ = false;
   std::size_t n_not_finite_ = 0;  ///< polygons
-  std::string not_finite_place_;  ///< of the first of them: "polygon 7 of 12, beside (1, 0, 2)"
+  std::string not_finite_place_;  ///< location of the first such polygon: "polygon 7 of 12, beside (1, 0, 2)"
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;
 };
 
-/// "patch_7": the name of a patch that the file only numbers.
+/// Returns the name of a patch that has only a number in the file: "patch_7".
 std::string numbered_patch(std::int64_t number);
 
 }  // namespace sterna::io

@@ -1,4 +1,4 @@
-// Structured networks of points as quads: what LaWGS and PLOT3D share.
+// Structured networks of points as quads, shared by LaWGS and PLOT3D.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace sterna::io {
 
-/// Quads of a network of n_lines lines of n_points points each, which were added line by line from `first_point` on. A quad runs along its first line, then
-/// back on the next.
+/// Adds the quads of a network of n_lines lines with n_points points each, which were added line by line from `first_point` on. The corners of a quad follow
+/// the first line forwards, then the second line backwards.
 void add_network(SurfaceBuilder& builder, std::uint32_t first_point, std::size_t n_points, std::size_t n_lines);
 
 }  // namespace sterna::io

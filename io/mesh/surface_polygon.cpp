@@ -13,7 +13,7 @@ struct Vec2 {
   friend bool operator==(const Vec2&, const Vec2&) = default;
 };
 
-/// Twice the signed area; positive when a, b, c turn left. Rounding can only pick another split of the same polygon, never break one.
+/// Returns twice the signed area; positive if a, b, c turn left. Rounding errors can only change the choice of the split, never make a split invalid.
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 void split_quad(std::span<const Vec3> q, std::vector<Triangle>& triangles) {
@@ -32,7 +32,7 @@ void split_quad(std::span<const Vec3> q, std::vector<Triangle>& triangles) {
   }
 }
 
-/// The polygon seen along its mean normal (Newell), so that it turns left.
+/// Projects the polygon along its mean normal (Newell), so that it is counter-clockwise.
 std::vector<Vec2> project(std::span<const Vec3> corners) {
   Vec3 normal;
   for (std::size_t i = 0; i < corners.size(); ++i) normal += cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
@@ -74,7 +74,7 @@ class EarClipper {
       triangles.push_back({previous_[corner], corner, next_[corner]});
       next_[previous_[corner]] = next_[corner];
       previous_[next_[corner]] = previous_[corner];
-      corner = next_[next_[corner]];  // not the neighbour: clipping in turn gives better shapes than a fan
+      corner = next_[next_[corner]];  // not the neighbour: clipping ears alternately gives better shapes than a triangle fan
       --n_left;
     }
     for (std::uint32_t b = next_[corner]; next_[b] != corner; b = next_[b]) triangles.push_back({corner, b, next_[b]});

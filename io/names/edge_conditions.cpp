@@ -19,7 +19,7 @@ Condition condition_of(PatchKind kind) {
     case PatchKind::inflow: return {"external", "nacelle exhaust"};
     case PatchKind::outflow: return {"external", "nacelle inlet"};
     case PatchKind::slip:
-    case PatchKind::symmetry:  // the spelling of Edge's own symmetry is in no source; at a plane a slip wall is the same
+    case PatchKind::symmetry:  // the spelling of Edge's own symmetry condition is undocumented; on a plane a slip wall is equivalent
     case PatchKind::interface: break;
   }
   return {"wall", "weak euler"};
@@ -42,7 +42,7 @@ std::string text_of(const FfaNode& node, std::string_view child) {
   return value.text();
 }
 
-/// x for x.bmsh, x.v2.bmsh, x.amsh, each perhaps with .gz.
+/// Returns x for x.bmsh, x.v2.bmsh, x.amsh, each optionally with .gz.
 std::filesystem::path stem_of(std::filesystem::path path) {
   if (path.extension() == ".gz") path.replace_extension();
   path.replace_extension();
@@ -58,7 +58,7 @@ std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::pat
   std::map<std::string, PatchKind> kinds;
   for (const char* const extension : {".aboc", ".bboc"}) {
     const std::filesystem::path path = stem_of(mesh_path).string() + extension;
-    std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+    std::error_code status;  // if the file cannot be accessed; load_file reports the error of an existing file
     if (!std::filesystem::exists(path, status)) continue;
     const FileBuffer buffer = load_file(path, context);
     const FfaNode root = parse_ffa(buffer);

@@ -11,15 +11,15 @@
 
 namespace sterna::io {
 
-/// Kinds by boundary name from x.aboc or x.bboc beside the mesh x.bmsh, x.v2.bmsh or x.amsh; empty when there is neither.
+/// Reads the kinds by boundary name from x.aboc or x.bboc beside the mesh x.bmsh, x.v2.bmsh or x.amsh; empty if neither exists.
 /// \throws Error(file_malformed)
 std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::path& mesh_path, const RunContext& context);
 
-/// Where the writer puts them: x.aboc.
+/// Returns the path that the writer uses: x.aboc.
 std::filesystem::path edge_conditions_path(const std::filesystem::path& mesh_path);
 
-/// Text of an .aboc file. Inflow and outflow become engine exhaust and inlet, whose parameters are left to the user: a warning. \param names of all patches;
-/// those without name are left out
+/// Returns the text of an .aboc file. Inflow and outflow become engine exhaust and inlet, whose parameters the user must set: a warning. \param names names of
+/// all patches; patches with an empty name are left out
 std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const std::vector<std::string>& names, const RunContext& context);
 
 }  // namespace sterna::io

@@ -6,7 +6,7 @@
 namespace sterna::io {
 namespace {
 
-/// At most n bytes of a UTF-8 text, not cut within a character.
+/// Cuts a UTF-8 string to at most n bytes, never within a character.
 std::string cut(std::string text, std::size_t n) {
   if (text.size() <= n) return text;
   while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xc0) == 0x80) --n;
@@ -27,7 +27,7 @@ std::vector<std::string> names_by_rules(const Column<PatchId, Patch>& patches, c
   for (const PatchId patch : patches.ids()) {
     std::string name = patches[patch].name;
     std::replace_if(name.begin(), name.end(), is_awkward, '_');
-    const auto is_blank = [](char c) { return c == ' '; };  // readers strip blanks at the ends
+    const auto is_blank = [](char c) { return c == ' '; };  // readers strip leading and trailing blanks
     name.erase(std::find_if_not(name.rbegin(), name.rend(), is_blank).base(), name.end());
     name.erase(name.begin(), std::find_if_not(name.begin(), name.end(), is_blank));
     if (name.empty()) name = "patch_" + std::to_string(patch.value() + 1);

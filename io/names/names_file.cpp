@@ -31,7 +31,7 @@ std::filesystem::path names_path(const std::filesystem::path& mesh_path) {
 std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path, const RunContext& context) {
   std::map<std::int64_t, Patch> patches;
   const std::filesystem::path path = names_path(mesh_path);
-  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+  std::error_code status;  // if the file cannot be accessed; load_file reports the error of an existing file
   if (!std::filesystem::exists(path, status)) return patches;
   const FileBuffer buffer = load_file(path, context);
   TextScanner scanner(buffer, {.comment = '#', .line_bound = true});

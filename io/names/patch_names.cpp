@@ -7,7 +7,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::string_view k_reserved = "SEND_RECEIVE";  // SU2's partition boundaries; a fatal error in current versions
+constexpr std::string_view k_reserved = "SEND_RECEIVE";  // name of SU2's partition boundaries; a fatal error in current versions
 
 bool is_awkward(char c) {
   const auto u = static_cast<unsigned char>(c);

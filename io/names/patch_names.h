@@ -1,4 +1,4 @@
-// Patch names between sterna and the files: what a format cannot spell, and what a name says about the patch.
+// Conversion of patch names between sterna and files: names that a format cannot store, and patch kinds implied by names.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace sterna::io {
 
-/// Names that SU2 can take, in patch order: blanks, commas, brackets, '%', '=' and control characters become '_', an empty name "patch_<n>" (from 1), a
-/// repeated one and the reserved SEND_RECEIVE get a number. Each change is a warning in the log.
+/// Returns names that are valid in SU2, in patch order: blanks, commas, brackets, '%', '=' and control characters become '_', an empty name becomes "patch_<n>"
+/// (from 1), a repeated name and the reserved SEND_RECEIVE get a number. Each change is a warning in the log.
 std::vector<std::string> su2_marker_names(const Column<PatchId, Patch>& patches, const RunContext& context);
 
-/// The kind that a file without kinds means by a name, as CEASIOMpy reads it: contains "farfield" or "symmetry" (any case), else a wall.
+/// Returns the patch kind implied by a name in a file without kinds, as in CEASIOMpy: contains "farfield" or "symmetry" (any case), else a wall.
 PatchKind kind_of_name(std::string_view name);
 
-/// Patch of that name, added (with kind_of_name) when there is none yet.
+/// Returns the patch of that name; adds it (with kind_of_name) if there is none yet.
 PatchId find_or_add_patch(Column<PatchId, Patch>& patches, std::string_view name);
 
 }  // namespace sterna::io

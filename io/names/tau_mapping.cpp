@@ -17,7 +17,7 @@ std::string_view trimmed_word(std::string_view text) {
   return text;
 }
 
-/// "1, 4, 7"
+/// Parses "1, 4, 7".
 std::vector<std::int64_t> numbers_of(std::string_view list, const FileBuffer& buffer, const std::string& where) {
   std::vector<std::int64_t> numbers;
   while (!list.empty()) {
@@ -43,7 +43,7 @@ std::filesystem::path bmap_path(const std::filesystem::path& mesh_path) {
 
 std::map<std::int64_t, TauMarker> read_bmap(const std::filesystem::path& mesh_path, const RunContext& context) {
   std::map<std::int64_t, TauMarker> markers;
-  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+  std::error_code status;  // if the file cannot be accessed; load_file reports the error of an existing file
   const std::filesystem::path path = bmap_path(mesh_path);
   if (!std::filesystem::exists(path, status)) return markers;
   const FileBuffer buffer = load_file(path, context);
@@ -81,7 +81,7 @@ std::string bmap_text(const std::vector<TauMarker>& markers) {
   for (const TauMarker& marker : markers) {
     text += "\n                  Markers: " + std::to_string(marker.number) + "\n                     Type: " + marker.condition +
             "\n                     Name: " + marker.name + "\n";
-    // TAU writes values on the surfaces that are marked so.
+    // TAU writes values on surfaces with this flag.
     if (marker.condition.ends_with("wall")) text += " Write surface data (0/1): 1\n";
     text += "\n block end\n ---------------------------\n";
   }
@@ -94,7 +94,7 @@ std::string tau_condition(PatchKind kind) {
     case PatchKind::slip: return "euler wall";
     case PatchKind::symmetry: return "symmetry plane";
     case PatchKind::inflow: return "engine exhaust";  // flow enters the domain from the engine
-    case PatchKind::outflow: return "engine inflow";  // and leaves it there
+    case PatchKind::outflow: return "engine inflow";  // flow leaves the domain into the engine
     case PatchKind::farfield: return "farfield";
     case PatchKind::interface: break;
   }

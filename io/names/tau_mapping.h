@@ -1,4 +1,4 @@
-// TAU's boundary mapping file (.bmap): which condition each marker has. Format: docs/method/formats_solvers.md, "TAU boundary mapping".
+// TAU's boundary mapping file (.bmap), which assigns a condition to each marker. Format: docs/method/formats_solvers.md, "TAU boundary mapping".
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ struct TauMarker {
   std::string condition;  ///< "viscous wall"; may be empty
 };
 
-/// mesh.bmap for mesh.taumesh, mesh.grid.
+/// Returns mesh.bmap for mesh.taumesh, mesh.grid.
 std::filesystem::path bmap_path(const std::filesystem::path& mesh_path);
-/// By number; none when there is no such file beside the mesh. Keys other than Markers, Type and Name are passed over.
+/// Reads the markers by number; empty if there is no such file beside the mesh. Keys other than Markers, Type and Name are ignored.
 /// \throws Error(file_malformed) with the line.
 std::map<std::int64_t, TauMarker> read_bmap(const std::filesystem::path& mesh_path, const RunContext& context);
 std::string bmap_text(const std::vector<TauMarker>& markers);
 
 std::string tau_condition(PatchKind kind);
-/// By the condition where it says a kind, else by the name.
+/// Returns the kind implied by the condition, if any, else by the name.
 PatchKind kind_of_tau(const TauMarker& marker);
 
 }  // namespace sterna::io

@@ -1,4 +1,4 @@
-// TAU's German names of the arrays of a primary grid.
+// TAU's German names of the arrays of a primary grid, by kind of element.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ constexpr TauElement tau_element(CellKind kind) {
 }
 inline constexpr TauElement k_tau_triangle = {"surfacetriangle", "surfacetriangles"};
 inline constexpr TauElement k_tau_quad = {"surfacequadrilateral", "surfacequadrilaterals"};
-/// In the order of files.
+/// Cell kinds in the order of TAU files.
 inline constexpr std::array<CellKind, 4> k_tau_kinds = {CellKind::tetrahedron, CellKind::prism, CellKind::pyramid, CellKind::hexahedron};
 
 }  // namespace sterna::io

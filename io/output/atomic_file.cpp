@@ -14,11 +14,11 @@
 namespace sterna::io {
 namespace {
 
-/// Attempts at a free temporary name; leftovers of killed runs with the same process number can occupy a few.
+/// Number of attempts to find a free temporary name; leftovers of killed runs with the same process number can occupy a few.
 constexpr int k_max_names = 1000;
-/// As soon as so many bytes are there, the disk begins to take them while more are made: else it would stand idle until fsync.
+/// Once this many bytes are ready, writing to the disk begins while more are generated; otherwise the disk would be idle until fsync.
 constexpr std::uint64_t k_send_bytes = 1u << 23;
-constexpr mode_t k_new_file_mode = 0666;  // the umask takes its part
+constexpr mode_t k_new_file_mode = 0666;  // reduced by the umask
 constexpr mode_t k_permission_bits = 07777;
 
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
@@ -59,7 +59,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
     if (descriptor_ >= 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_names) continue;
-    temporary_.clear();  // not ours
+    temporary_.clear();  // not created by this object
     fail(error_number, "creating a file");
   }
   hold(descriptor_);
@@ -79,7 +79,7 @@ void AtomicFile::append(std::string_view bytes) {
 
 void AtomicFile::send() {
   if (size_ < n_sent_ + k_send_bytes) return;
-  // Begins what commit() waits for and reports on; a file system that cannot begin early does it all then.
+  // Begins the transfer that commit() waits for and checks; a file system that cannot begin early transfers everything in commit().
   static_cast<void>(::sync_file_range(descriptor_, static_cast<off_t>(n_sent_), static_cast<off_t>(size_ - n_sent_), SYNC_FILE_RANGE_WRITE));
   n_sent_ = size_;
 }
@@ -112,7 +112,7 @@ void AtomicFile::resize(std::uint64_t n_bytes) {
 void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) { write_at(offset, bytes); }
 
 void AtomicFile::adopt() {
-  ::close(descriptor_);  // a library may have put another file in its place
+  ::close(descriptor_);  // a library may have replaced the file
   descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0) fail(errno, "opening the file again");
   hold(descriptor_);
@@ -124,7 +124,7 @@ void AtomicFile::adopt() {
 
 void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail(errno, "syncing");
-  const int descriptor = descriptor_, held = ::dup(descriptor_);  // held until it has its name
+  const int descriptor = descriptor_, held = ::dup(descriptor_);  // locked until the file has its final name
   descriptor_ = -1;
   const auto do_or_fail = [&](int status, std::string_view doing) {
     if (status == 0) return;
@@ -158,8 +158,8 @@ void AtomicFile::fail(int error_number, std::string_view doing) {
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) {
-    // Frees the disk also where a library has the file open: it needs room for what it must put there to close it. Nobody reads it any more, so a failure does
-    // no harm.
+    // Frees the space even if a library has the file open, which needs room to write the data required for closing it. Nobody reads the file any more, so a
+    // failure is harmless.
     (void)!::ftruncate(descriptor_, 0);
     ::close(descriptor_);
   }

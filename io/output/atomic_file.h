@@ -1,4 +1,4 @@
-// A file that appears whole or not at all: written under a temporary name in the same folder, renamed when complete.
+// Output file that is written completely or not at all: written under a temporary name in the same folder, renamed when complete.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace sterna::io {
 
-/// Output file. Until commit() an existing file of that name stays as it was; a file that is destroyed uncommitted (exception, cancel) leaves no trace.
-/// A symbolic link is followed, so that the link stays and its target is replaced; anything but a regular file is refused.
-/// \throws Error(write_failed) from every member, with the system's reason; the temporary is gone then.
+/// Output file. Until commit() an existing file of that name is unchanged. A file that is destroyed uncommitted (exception, cancel) leaves no trace.
+/// A symbolic link is followed: the link is kept and its target is replaced. Anything but a regular file is refused.
+/// \throws Error(write_failed) from every member, with the system's reason; the temporary file is removed then.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -19,28 +19,28 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Adds bytes at the end. Not buffered: give it pieces of some 100 kB where speed matters.
+  /// Appends bytes. Not buffered: use pieces of about 100 kB where speed matters.
   void append(std::string_view bytes);
-  /// Replaces bytes that were written before.
+  /// Overwrites bytes written earlier.
   /// \pre offset + bytes.size() <= size()
   void overwrite(std::uint64_t offset, std::string_view bytes);
   std::uint64_t size() const { return size_; }
 
-  /// For a library that places its bytes itself: writes them anywhere, reads back what was written (zeros where nothing was), sets the end.
+  /// Random access for libraries: writes bytes at any offset, reads written bytes back (zeros in gaps), sets the end.
   void put(std::uint64_t offset, std::string_view bytes);
   void get(std::uint64_t offset, std::span<char> bytes);
   void resize(std::uint64_t n_bytes);
 
-  const std::filesystem::path& path() const { return path_; }  ///< as the caller named it
+  const std::filesystem::path& path() const { return path_; }  ///< as given by the caller
 
-  /// Where the contents are until commit(): for a library that writes a file of that name itself, in place of append(). Afterwards adopt() takes what it has
-  /// written.
+  /// Returns the path of the contents until commit(), for a library that writes a file itself in place of append(). Call adopt() afterwards to take over the
+  /// library's file.
   const std::filesystem::path& temporary() const { return temporary_; }
   void adopt();
-  /// Throws Error(write_failed) with the system's reason, e.g. errno of a library's failure; 0 = it has none.
+  /// Throws Error(write_failed) with the system's reason, e.g. errno of a library's failure; 0 = no reason known.
   [[noreturn]] void fail(int error_number, std::string_view doing);
 
-  /// Syncs the contents to the disk and renames. After a crash of the machine either the old or the new file is there, each whole.
+  /// Syncs the contents to the disk and renames the file. After a system crash either the old or the new file exists, complete.
   void commit();
 
  private:
@@ -48,16 +48,16 @@ class AtomicFile {
   void write_at(std::uint64_t offset, std::string_view bytes);
   void discard() noexcept;
 
-  std::filesystem::path path_;    ///< as the caller named it, for messages
+  std::filesystem::path path_;    ///< as given by the caller, for messages
   std::filesystem::path target_;  ///< links resolved
   std::filesystem::path temporary_;
   int descriptor_ = -1;
-  unsigned mode_ = 0;  ///< permissions, as it was created
+  unsigned mode_ = 0;  ///< permissions at creation
   std::uint64_t size_ = 0;
-  std::uint64_t n_sent_ = 0;  ///< of them, those whose way to the disk has begun
+  std::uint64_t n_sent_ = 0;  ///< number of bytes whose transfer to the disk has begun
 };
 
-/// An AtomicFile of these bytes, committed.
+/// Writes these bytes to an AtomicFile and commits it.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace sterna::io

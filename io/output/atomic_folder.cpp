@@ -15,12 +15,12 @@
 namespace sterna::io {
 namespace {
 
-constexpr int k_max_folder_names = 1000;    // as AtomicFile: leftovers of killed runs
-constexpr mode_t k_new_folder_mode = 0777;  // the umask takes its part
+constexpr int k_max_folder_names = 1000;    // as in AtomicFile: leftovers of killed runs
+constexpr mode_t k_new_folder_mode = 0777;  // reduced by the umask
 
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // the files are synced already; not every file system opens folders
+  if (descriptor < 0) return;  // the files are synced already; not every file system can open folders
   ::fsync(descriptor);
   ::close(descriptor);
 }
@@ -56,7 +56,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
     if (::mkdir(temporary_.c_str(), k_new_folder_mode) == 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_folder_names) continue;
-    temporary_.clear();  // not ours
+    temporary_.clear();  // not created by this object
     fail(error_number, "creating a folder");
   }
   held_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -68,12 +68,12 @@ AtomicFolder::~AtomicFolder() { discard(); }
 void AtomicFolder::commit() {
   sync_folder(temporary_);
   if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
-    discard();  // what was the old folder
+    discard();  // the old folder after the exchange
   } else if (errno == ENOENT) {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno, "renaming");
     temporary_.clear();
   } else {
-    // A file system without exchange: the old folder steps aside, and comes back when the new one cannot take its place.
+    // File system without exchange: the old folder is renamed, and restored if the new folder cannot take its name.
     const std::filesystem::path aside = temporary_.string() + ".old";
     if (::rename(target_.c_str(), aside.c_str()) != 0) fail(errno, "renaming the old folder");
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
@@ -96,7 +96,7 @@ void AtomicFolder::fail(int error_number, std::string_view doing) {
 }
 
 void AtomicFolder::discard() noexcept {
-  std::error_code ignored;  // a destructor cannot tell; what is left has a name that says what it is
+  std::error_code ignored;  // a destructor cannot report errors; the name of the leftover identifies it
   if (!temporary_.empty()) std::filesystem::remove_all(temporary_, ignored);
   temporary_.clear();
   if (held_ >= 0) ::close(held_);

@@ -1,4 +1,4 @@
-// The cells of a mesh sorted by kind, for writers: random access to cell i of a kind without making the columns' cells explicit.
+// The cells of a mesh sorted by kind, for writers: random access to cell i of a kind without expanding the columns' cells.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace sterna::io {
 
-/// Kinds in the order in which writers put them: prisms before the rest (the layers first), tetrahedra last.
+/// Order of cell kinds in files: prisms first (the layers before the rest), tetrahedra last.
 inline constexpr std::array<CellKind, 4> k_kinds_in_file = {CellKind::prism, CellKind::pyramid, CellKind::hexahedron, CellKind::tetrahedron};
 
-/// View of a mesh that must outlive it. Cells of one kind: those of the columns (column by column, layer by layer), then the explicit ones; so
-/// a mesh of columns and its explicit_cells() have the same sequence.
+/// View of a mesh, which must outlive the view. Cells of one kind: cells of the columns (column by column, layer by layer), then the explicit cells. A mesh of
+/// columns and its explicit_cells() thus have the same sequence.
 class CellSections {
  public:
   explicit CellSections(const HybridMesh& mesh);
@@ -60,10 +60,10 @@ class CellSections {
   const HybridMesh* mesh_;
   bool all_columns_are_prisms_ = true;
   std::array<std::vector<std::uint32_t>, 4> columns_;  ///< by kind; empty where all columns are prisms
-  std::array<LayerNumbers, 4> numbers_;                ///< by kind: of the cells in columns
+  std::array<LayerNumbers, 4> numbers_;                ///< numbering of the cells in columns, by kind
 };
 
-/// Boundary faces by patch, in mesh order within each: what marker-oriented formats need.
+/// Boundary faces by patch, in mesh order within each patch, for marker-oriented formats.
 class FacesByPatch {
  public:
   /// \throws Error(mesh_invalid) for a face whose patch does not exist.

@@ -1,5 +1,5 @@
-// Numbers of what columns have layer by layer (cells, faces of a side), one column after the other: arithmetic where all columns have as many layers, a table
-// of beginnings where they differ.
+// Numbering of items that columns have layer by layer (cells, faces of a side), one column after the other. Arithmetic where all columns have the same number
+// of layers, a table of offsets where the numbers differ.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace sterna::io {
 class LayerNumbers {
  public:
   LayerNumbers() = default;
-  /// Of n columns, the i-th of them with count(i) items; n_layers of the block if its lines have as many.
+  /// Numbering for n columns, the i-th with count(i) items; n_layers of the block if all its growth lines have that number.
   template <class Count>
   LayerNumbers(const LayerBlock& layers, std::uint64_t n, const Count& count)
       : per_column_(static_cast<std::uint64_t>(std::max(layers.n_layers, 0))), size_(n * per_column_) {
@@ -28,7 +28,7 @@ class LayerNumbers {
   std::uint64_t n_layers(std::uint64_t i) const { return first_.empty() ? per_column_ : first_[i + 1] - first_[i]; }
 
   struct Place {
-    std::uint64_t i, layer;  ///< i-th column; layer 0 is its first item, the one nearest to the wall
+    std::uint64_t i, layer;  ///< i-th column; layer 0 is the column's first item, at the wall
   };
   /// \pre number < size()
   Place at(std::uint64_t number) const {

@@ -9,14 +9,14 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_count_interval = 1024;  // cells between two stored counts: 1 MB for 62 M cells, some microseconds to count on from one
+constexpr std::uint64_t k_count_interval = 1024;  // cells between two stored counts: 1 MB for 62 M cells, some microseconds to count from a stored value
 constexpr std::uint32_t k_unmatched = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint32_t k_matched_often = std::numeric_limits<std::uint32_t>::max() - 2;
 constexpr std::uint64_t k_most_slots = k_matched_often;
 /// Kinds of explicit cells in the order of for_each_cell().
 constexpr std::array<CellKind, 4> k_explicit_kinds = {CellKind::prism, CellKind::pyramid, CellKind::hexahedron, CellKind::tetrahedron};
 
-/// A face for comparison: its nodes in ascending order, the fourth of a triangle invalid.
+/// Returns the key of a face for comparison: its nodes in ascending order, the fourth invalid for triangles.
 std::array<NodeId, 4> key_of(const CellFace& face) {
   std::array<NodeId, 4> key{};
   std::copy_n(face.nodes.begin(), face.size, key.begin());
@@ -73,7 +73,7 @@ void MeshFaces::number_cells() {
                  .problem = std::to_string(n_cells()) + " cells, but cells are numbered up to " + std::to_string(k_most_slots)});
 }
 
-/// Two columns over the same edge of the base see each other layer by layer.
+/// Pairs the sides of columns. Two columns over the same edge of the base are neighbours layer by layer.
 void MeshFaces::pair_sides() {
   struct Edge {
     std::uint64_t lines;
@@ -258,7 +258,7 @@ void MeshFaces::match_loose_faces(const RunContext& context) {
   }
   for (std::size_t i = 0; i < n_nodes; ++i) end_of[i + 1] += end_of[i];
   std::vector<std::uint32_t> sorted(n_slots_);
-  // Filling moves each node's beginning to its end, so that afterwards a node's slots are [end_of[i - 1], end_of[i]).
+  // Filling moves each node's start to its end. Afterwards a node's slots are [end_of[i - 1], end_of[i]).
   for (Slot slot = 0; slot < n_slots_; ++slot) {
     const CellFace face = loose_face(slot);
     sorted[end_of[std::min_element(face.nodes.begin(), face.nodes.begin() + face.size)->index()]++] = static_cast<std::uint32_t>(slot);

@@ -1,4 +1,4 @@
-// Who is on the other side: the faces of a mesh for the formats that store faces with their two cells (OpenFOAM, Fluent).
+// Face-to-cell connectivity for the formats that store faces with their two cells (OpenFOAM, Fluent).
 #pragma once
 
 #include <algorithm>
@@ -15,41 +15,42 @@
 
 namespace sterna::io {
 
-/// A face by value, right-hand normal out of the cell that it was asked from.
+/// A face by value. The right-hand normal points out of the cell for which the face was requested.
 struct CellFace {
   std::array<NodeId, 4> nodes{};
-  std::uint32_t size = 0;       ///< 0: no face (both lines of a side have ended)
+  std::uint32_t size = 0;       ///< 0: no face (both growth lines of a side have ended)
   std::uint32_t neighbour = 0;  ///< cell on the other side, or MeshFaces::k_boundary
   std::span<const NodeId> span() const { return {nodes.data(), size}; }
 };
 
-/// Faces of a mesh that must outlive it. Cells are numbered as for_each_cell() meets them: column by column, layer by layer, then prisms, pyramids, hexahedra,
-/// tetrahedra; after order_cells() as that says. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12
-/// bytes for each of them and 4 for each node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
+/// Faces of a mesh, which must outlive this object. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids,
+/// hexahedra, tetrahedra; after order_cells() as defined there. Inside the columns neighbours follow from the numbering; only the other faces are matched
+/// through a table: 12 bytes per face and 4 per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest
+/// node.
 class MeshFaces {
  public:
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t k_most_faces = 6;
 
-  /// Parallel, same result for any number of threads.
-  /// \throws Error mesh_invalid: a face of one cell only that is no boundary face, of three cells, a boundary face of no cell, a node that does not exist;
-  /// overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
+  /// Matches the faces. Parallel, same result for any number of threads.
+  /// \throws Error mesh_invalid: a face of only one cell that is not a boundary face, a face of three cells, a boundary face without a cell, a node that does
+  /// not exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
   MeshFaces(const HybridMesh& mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }
-  std::uint64_t n_column_cells() const { return n_column_cells_; }  ///< the first ones of for_each_cell()
+  std::uint64_t n_column_cells() const { return n_column_cells_; }  ///< the first cells of for_each_cell()
 
-  /// Gives the cells other numbers: `both`, columns as wholes, from the wall on, and the explicit cells by bandwidth_order of these; `bandwidth`, all cells;
-  /// `lines`, as they are. Two more numbers for each cell.
+  /// Renumbers the cells. `both`: columns as units, from the wall outwards, and the explicit cells, with both ordered by bandwidth_order; `bandwidth`: all
+  /// cells; `lines`: unchanged. Stores two more numbers per cell.
   void order_cells(Numbering numbering, const RunContext& context);
-  /// Of a cell by its number in for_each_cell().
+  /// Returns the number of a cell, given by its number in for_each_cell().
   std::uint32_t number_of(std::uint64_t cell) const { return new_of_old_.empty() ? static_cast<std::uint32_t>(cell) : new_of_old_[cell]; }
-  /// Cells that share a face.
+  /// Returns the graph of cells that share a face.
   NeighbourGraph cell_graph(const RunContext& context) const;
   CellKind kind(std::uint64_t cell) const;
-  /// The faces of a cell. \returns how many; some may have size 0
+  /// Computes the faces of a cell. \returns their number; some faces may have size 0
   std::size_t faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const;
-  /// Cell behind a boundary face.
+  /// Returns the cell of a boundary face.
   std::uint32_t cell_of_triangle(std::size_t i) const { return number_of(partner_[first_boundary_ + i]); }
   std::uint32_t cell_of_quad(std::size_t i) const { return number_of(partner_[first_boundary_ + mesh_->boundary_triangles.size() + i]); }
 
@@ -58,12 +59,13 @@ class MeshFaces {
 
   struct Count {
     std::uint64_t faces = 0;
-    std::uint64_t nodes = 0;  ///< of all these faces
+    std::uint64_t nodes = 0;  ///< number of nodes of these faces
   };
-  /// Internal faces whose lower cell is below `cell`.
+  /// Counts the internal faces whose lower cell is below `cell`.
   Count internal_before(std::uint64_t cell) const;
 
-  /// Calls f(cell, face) for the faces between cells whose lower cell is in [begin, end), seen from it: by that cell, then by the other ("upper triangular").
+  /// Calls f(cell, face) for the internal faces whose lower cell is in [begin, end), oriented as seen from that cell. Order: by lower cell, then by the other
+  /// cell ("upper triangular").
   template <class F>
   void for_each_internal(std::uint64_t begin, std::uint64_t end, const F& f) const {
     std::array<CellFace, k_most_faces> faces;
@@ -78,7 +80,7 @@ class MeshFaces {
   }
 
  private:
-  /// A face that is not between two cells of columns: of an explicit cell, bottom, top or open side of a column, of the boundary.
+  /// A face that is not between two cells of columns: a face of an explicit cell, the bottom, top or open side of a column, or a boundary face.
   using Slot = std::uint64_t;
   struct ExplicitBlock {
     CellKind kind;
@@ -87,9 +89,9 @@ class MeshFaces {
   };
 
   std::uint64_t old_of(std::uint64_t cell) const { return old_of_new_.empty() ? cell : old_of_new_[cell]; }
-  /// faces_of by the numbers of for_each_cell().
+  /// faces_of() in the numbering of for_each_cell().
   std::size_t given_faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const;
-  /// What is ordered: a cell, or a column as a whole.
+  /// Returns the unit for ordering: a cell, or a whole column.
   std::uint64_t unit_of(std::uint64_t cell, bool is_by_column) const;
   NeighbourGraph unit_graph(bool is_by_column, const RunContext& context) const;
   CellFace side(std::size_t column, std::size_t k, int layer) const;
@@ -98,7 +100,7 @@ class MeshFaces {
   const ExplicitBlock& block_of(std::uint64_t cell) const;
   std::span<const NodeId> explicit_nodes(CellKind kind, std::uint64_t i) const;
   CellFace explicit_face(CellKind kind, std::uint64_t i, std::size_t k) const;
-  /// The nodes of a loose face, and in `neighbour` the cell that it belongs to (k_boundary: a boundary face).
+  /// Returns the nodes of a loose face; `neighbour` is the cell to which the face belongs (k_boundary: a boundary face).
   CellFace loose_face(Slot slot) const;
   void number_cells();
   void pair_sides();
@@ -109,17 +111,17 @@ class MeshFaces {
   const HybridMesh* mesh_;
   std::uint64_t n_live_ = 0;         ///< columns with cells
   std::vector<std::uint32_t> live_;  ///< their numbers; empty: all
-  LayerNumbers cells_;               ///< of live columns
+  LayerNumbers cells_;               ///< cells of live columns
   std::uint64_t n_column_cells_ = 0;
   std::uint64_t n_explicit_ = 0;
   std::array<ExplicitBlock, 4> blocks_{};
   std::vector<std::uint32_t> beside_;      ///< per live column and side: live column, n_live_ + number of an open side, or k_boundary for none
   std::vector<std::uint64_t> open_sides_;  ///< 3 * live column + side
-  LayerNumbers open_faces_;                ///< of open sides
+  LayerNumbers open_faces_;                ///< faces of open sides
   Slot first_open_ = 0, first_boundary_ = 0, n_slots_ = 0;
   std::vector<std::uint32_t> partner_;                  ///< per slot
   std::vector<Count> internal_before_;                  ///< per k_count_interval cells
-  std::vector<std::uint32_t> old_of_new_, new_of_old_;  ///< of order_cells; empty: as they are
+  std::vector<std::uint32_t> old_of_new_, new_of_old_;  ///< from order_cells(); empty: unchanged numbering
 };
 
 }  // namespace sterna::io

@@ -1,4 +1,4 @@
-// Bytes made by all threads, written in order: chunks are filled in parallel, a batch at a time, while the batch before goes to the disk.
+// Parallel generation of bytes with ordered output: chunks are filled in parallel, one batch at a time, while the previous batch is written to the disk.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace sterna::io {
 
-/// Growing bytes that are never cleared (std::string would fill them first).
+/// Growing byte buffer that is never initialised (std::string would clear its bytes first).
 class ByteBuffer {
  public:
-  /// Room for `n` more bytes; write there and say with end_at() how far.
+  /// Reserves room for `n` more bytes; write there, then set the end with end_at().
   char* reserve(std::size_t n) {
     if (size_ + n > capacity_) grow(size_ + n);
     return bytes_.get() + size_;
@@ -34,22 +34,22 @@ class ByteBuffer {
   std::size_t capacity_ = 0;
 };
 
-/// Fills one chunk's bytes into an empty buffer; called from any thread.
+/// Fills the bytes of one chunk into an empty buffer; called from any thread.
 using FillChunk = std::function<void(std::size_t chunk, ByteBuffer& out)>;
 
-/// Takes the bytes of the chunks in order, one call at a time; called from any thread.
+/// Receives the bytes of the chunks in order, one call at a time; called from any thread.
 using TakeBytes = std::function<void(std::string_view bytes)>;
 
-/// Hands over the bytes of chunks 0 .. n_chunks-1, in order; the same for any number of threads. At most 2 * k_batch_chunks buffers live at a time. Reports
-/// progress in [0, 1] of `context`.
-/// \throws what `fill` and `take` throw; Error(cancelled).
+/// Passes the bytes of chunks 0 .. n_chunks-1 to `take`, in order; the result does not depend on the number of threads. At most 2 * k_batch_chunks buffers
+/// exist at a time. Reports progress in [0, 1] of `context`.
+/// \throws errors of `fill` and `take`; Error(cancelled).
 void write_ordered(const TakeBytes& take, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 
-/// The same to the end of `file`.
-/// \throws what AtomicFile::append throws, too
+/// Appends the bytes of the chunks to `file`.
+/// \throws as the overload above; errors of AtomicFile::append
 void write_ordered(AtomicFile& file, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 
-/// Chunks per batch: enough for 16 threads, and with buffers of 0.3 - 1.6 MB below 100 MB in all.
+/// Chunks per batch: enough for 16 threads; with buffers of 0.3 - 1.6 MB below 100 MB in total.
 inline constexpr std::size_t k_batch_chunks = 32;
 
 }  // namespace sterna::io

@@ -14,7 +14,7 @@ void stream_arrays(const std::vector<const OutputArray*>& arrays, const PutValue
   std::vector<OutputSection> sections;
   for (const OutputArray* array : arrays) sections.insert(sections.end(), array->content.begin(), array->content.end());
   std::size_t array = 0;
-  std::uint64_t n_done = 0;  // values of it
+  std::uint64_t n_done = 0;  // values of the array
   const auto append = [&](std::string_view bytes) {
     if (bytes.empty()) return;
     while (n_done == count_of(*arrays[array])) {
@@ -28,7 +28,7 @@ void stream_arrays(const std::vector<const OutputArray*>& arrays, const PutValue
 }
 
 std::unique_lock<std::mutex> hold_container_libraries() {
-  static std::mutex libraries;  // theirs is the state that it guards
+  static std::mutex libraries;  // guards the global state of the libraries
   return std::unique_lock(libraries);
 }
 

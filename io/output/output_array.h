@@ -1,4 +1,4 @@
-// Arrays that a library writes into a container file: described first, then streamed, made by all threads.
+// Arrays that a library writes into a container file: described first, then generated in parallel and streamed.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace sterna::io {
 
-/// Values to be written: kind and extents (slowest first); the sections of `content` together give byte_size(kind) * product of extents bytes, little endian,
+/// An array to be written: kind and extents (slowest first). The sections of `content` together give byte_size(kind) * product of extents bytes, little endian,
 /// in items of any size.
 struct OutputArray {
   NumberKind kind = NumberKind::i4;
@@ -30,14 +30,14 @@ OutputArray output_numbers(NumberKind kind, std::vector<std::uint64_t> extents, 
 }
 std::uint64_t count_of(const OutputArray& array);  ///< product of the extents
 
-/// Takes the next values of an array: whole items of its sections, all in order, one call at a time, from any thread.
+/// Receives the next values of an array: whole items of its sections, in order, one call at a time, from any thread.
 using PutValues = std::function<void(std::size_t array, std::uint64_t first_value, std::string_view bytes)>;
 
-/// Hands over the values of all arrays, one array after the other.
-/// \throws what the sections and `put` throw; Error(cancelled)
+/// Passes the values of all arrays to `put`, one array after the other.
+/// \throws errors of the sections and of `put`; Error(cancelled)
 void stream_arrays(const std::vector<const OutputArray*>& arrays, const PutValues& put, const RunContext& context);
 
-/// The libraries of container files have global state: whoever writes with them holds this.
+/// Locks the container libraries, which have global state. Every writer that uses them must hold this lock.
 std::unique_lock<std::mutex> hold_container_libraries();
 
 }  // namespace sterna::io

@@ -30,7 +30,7 @@ ScratchFolder::ScratchFolder(std::string_view purpose) {
 }
 
 ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;  // what cannot be removed stays, as temporary files do
+  std::error_code ignored;  // files that cannot be removed are left as temporary files
   if (!is_kept_) std::filesystem::remove_all(path_, ignored);
 }
 

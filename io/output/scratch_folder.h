@@ -1,4 +1,4 @@
-// Folders for what a run needs and nobody keeps.
+// Temporary folders of a run.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +6,10 @@
 
 namespace sterna::io {
 
-/// A new folder below that of temporary files (TMPDIR); removed with all that is in it when the object goes, unless it is kept.
+/// A new folder in the system's temporary folder (TMPDIR). The destructor removes it with its contents, unless it is kept.
 class ScratchFolder {
  public:
-  /// \p purpose: part of its name, "view" of sterna-view-a1b2c3
+  /// Creates the folder. \p purpose: part of its name, "view" of sterna-view-a1b2c3
   /// \throws Error(write_failed)
   explicit ScratchFolder(std::string_view purpose);
   ~ScratchFolder();

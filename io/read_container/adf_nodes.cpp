@@ -1,5 +1,5 @@
-// ADF by libcgns (its layer cgio). A node becomes what it is in a CGNS file of HDF5: a group with the attributes "label" and "type", its values in a dataset "
-// data".
+// ADF with libcgns (its layer cgio). A node is mapped to its form in a CGNS file in HDF5: a group with the attributes "label" and "type", its values in a
+// dataset " data".
 #include <cgns_io.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class AdfNodes {
       return;
     }
     std::array<char, CGIO_MAX_LABEL_LENGTH + 1> label{};
-    std::array<char, 64> type{};  // ADF gives up to 32, whatever CGIO_MAX_DATATYPE_LENGTH says
+    std::array<char, 64> type{};  // ADF returns up to 32 characters, regardless of CGIO_MAX_DATATYPE_LENGTH
     if (cgio_get_label(file_, id, label.data()) != 0) fail(where, "reading the label");
     if (cgio_get_data_type(file_, id, type.data()) != 0) fail(where, "reading the type");
     if (limits_.is_left_out(label.data()) || limits_.is_left_out(name)) {

@@ -1,6 +1,6 @@
-// sterna-read-container: reads an HDF5, NetCDF or ADF file by its library, in a process of its own, because these libraries crash, loop and allocate without
-// bound on damaged or hostile files. The protocol is container_wire.h. Steps: limits; the nodes of the file with their extents, checked against the file's
-// size; the image with their values.
+// sterna-read-container: reads an HDF5, NetCDF or ADF file with its library in a separate process, because these libraries crash, loop and allocate without
+// bound on damaged or hostile files. The protocol is container_wire.h. Steps: set limits; read the nodes of the file with their extents, checked against the
+// file size; write the image with their values.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -19,25 +19,25 @@ namespace {
 
 using namespace sterna::io;
 
-/// The file again, for libraries that want a path; the descriptor is what keeps others from being opened.
+/// The same file by path, for libraries that require a path; the descriptor limit keeps other files from being opened.
 constexpr const char* k_path = "/proc/self/fd/3";
-constexpr std::uint64_t k_cpu_seconds = 10;                ///< that any file may take: only loops need more
-constexpr std::uint64_t k_bytes_per_cpu_second = 1 << 20;  ///< and beyond them; unpacking makes 50 times that
-/// One file may be open beside the five descriptors: links to other files, data in other files and plug-ins of libraries cannot be opened.
+constexpr std::uint64_t k_cpu_seconds = 10;                ///< for any file: only endless loops need more
+constexpr std::uint64_t k_bytes_per_cpu_second = 1 << 20;  ///< additional time by size; unpacking produces 50 times as much
+/// One file may be open in addition to the five descriptors: links to other files, data in other files and library plug-ins cannot be opened.
 constexpr rlim_t k_descriptors = wire::k_image_fd + 2;
 
 void limit_process(std::uint64_t file_size) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  close_range(wire::k_image_fd + 1, ~0u, 0);  // what the parent's parent left open
+  close_range(wire::k_image_fd + 1, ~0u, 0);  // inherited from the parent's parent
   const rlimit descriptors{k_descriptors, k_descriptors};
   setrlimit(RLIMIT_NOFILE, &descriptors);
   const std::uint64_t seconds = k_cpu_seconds + file_size / k_bytes_per_cpu_second;
   const rlimit cpu{seconds, seconds + 1};
   setrlimit(RLIMIT_CPU, &cpu);
   reader::limit_memory(reader::k_library_memory + 4 * file_size);
-  setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);  // some network disks refuse locks; we only read
+  setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);  // some network disks refuse locks; this process only reads
 }
 
 std::string_view map_file(std::uint64_t size) {
@@ -73,5 +73,5 @@ int main(int argc, char** argv) {
                            .problem = "reading it needs more memory than a file of " + std::to_string(limits.file_size) + " bytes justifies",
                            .hint = {}});
   }
-  std::_Exit(0);  // the libraries' own ends of a damaged file are not wanted
+  std::_Exit(0);  // skips the libraries' exit handlers, which may fail on a damaged file
 }

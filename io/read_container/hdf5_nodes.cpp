@@ -1,5 +1,5 @@
-// HDF5 by libhdf5. Links by name and to other files are not followed, and a group or dataset that is reached a second time is a link too, so that no cycle is
-// walked.
+// HDF5 with libhdf5. Links by name and to other files are not followed. A group or dataset that is reached a second time is recorded as a link, too, which
+// avoids cycles.
 #include <hdf5.h>
 #include <sys/mman.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using wire::Trouble;
 
-/// The library's reason for the last failure, innermost first.
+/// Returns the library's reason for the last failure, innermost first.
 std::string library_reason() {
   std::string text;
   const auto take = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
@@ -36,7 +36,7 @@ std::string library_reason() {
                 .hint = "the file may have been cut short: copy or write it again"};
 }
 
-/// Closes what the library opened.
+/// Closes a library object at the end of its lifetime.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& where, const char* doing) : id_(id), close_(close) {
@@ -45,7 +45,7 @@ class Handle {
   ~Handle() { close_(id_); }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: it stands for the number
+  operator hid_t() const { return id_; }  // NOLINT: represents the id
 
  private:
   hid_t id_;
@@ -57,7 +57,7 @@ struct Type {
   bool is_big_endian = false;
   bool is_known = false;
   bool is_variable_text = false;
-  std::uint64_t text_size = 0;  ///< of a text of fixed length; 0 = no text
+  std::uint64_t text_size = 0;  ///< length of a fixed-length string; 0 = not a string
 };
 
 Type type_of(hid_t id) {
@@ -83,7 +83,8 @@ Type type_of(hid_t id) {
   return {};
 }
 
-/// The library asks for the real path of what it opens. A file that only memory holds (it was packed) has none: the library gets a copy of its bytes.
+/// Opens the file. The library requires the real path of a file. A file that exists only in memory (it was packed) has none: the library gets a copy of its
+/// bytes.
 hid_t open_file(const char* path, const Limits& limits) {
   char* const real_path = realpath(path, nullptr);
   if (real_path) {
@@ -93,7 +94,7 @@ hid_t open_file(const char* path, const Limits& limits) {
   void* const bytes = mmap(nullptr, limits.file_size, PROT_READ | PROT_WRITE, MAP_PRIVATE, wire::k_file_fd, 0);
   if (bytes == MAP_FAILED) throw std::bad_alloc();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "the file", "opening it");
-  constexpr std::size_t k_step = 1 << 20;  // it does not grow
+  constexpr std::size_t k_step = 1 << 20;  // the file does not grow
   if (H5Pset_fapl_core(access, k_step, false) < 0 || H5Pset_file_image(access, bytes, limits.file_size) < 0) fail("the head of the file", "opening it");
   const hid_t file = H5Fopen("unpacked", H5F_ACC_RDONLY, access);
   munmap(bytes, limits.file_size);
@@ -130,7 +131,7 @@ class Hdf5Nodes {
     }
     const std::string label = add_attributes(group, own, path);
     if (depth > 0 && limits_.is_left_out(label)) {
-      image_.nodes().resize(own + 1);  // its attributes too
+      image_.nodes().resize(own + 1);  // also removes its attributes
       image_.nodes()[own].role = wire::Role::left_out;
       return;
     }
@@ -144,7 +145,7 @@ class Hdf5Nodes {
     std::string name;
     bool is_hard = false;
   };
-  /// In order of creation where the group keeps it, else of name.
+  /// Returns the links in creation order if the group tracks it, else by name.
   std::vector<Link> links_of(hid_t group, const std::string& path) const {
     const Handle plist(H5Gget_create_plist(group), H5Pclose, shown(path), "reading a group");
     unsigned order = 0;
@@ -174,7 +175,7 @@ class Hdf5Nodes {
 
   // ---- attributes
 
-  /// \returns the text of the attribute "label", which CGNS has
+  /// Adds the attributes. \returns the string of the attribute "label", used by CGNS
   std::string add_attributes(hid_t object, std::uint32_t parent, const std::string& path) {
     H5O_info_t info{};
     if (H5Oget_info2(object, &info, H5O_INFO_NUM_ATTRS) < 0) fail(shown(path), "counting the attributes");
@@ -224,7 +225,7 @@ class Hdf5Nodes {
 
   // ---- datasets
 
-  /// Kind and extents; those of a text of fixed length have the length as the last.
+  /// Sets kind and extents; the last extent of fixed-length strings is their length.
   static void set_shape(Node& node, const Type& type, hid_t space, const std::string& where) {
     node.kind = type.kind;
     node.is_big_endian = type.is_big_endian;
@@ -257,7 +258,7 @@ class Hdf5Nodes {
     add_attributes(*dataset, own, path);
   }
 
-  /// Whether the file holds all the values that the extents promise.
+  /// Checks that the file contains all values required by the extents.
   void check_layout(hid_t dataset, hid_t plist, hid_t space, Node& node, const std::string& path) const {
     const H5D_layout_t layout = H5Pget_layout(plist);
     if (layout < 0) fail(path, "reading its layout");
@@ -282,7 +283,7 @@ class Hdf5Nodes {
     std::uint64_t n_expected = 1, n_bytes = byte_size(node.kind);
     bool is_sound = true;
     for (std::size_t k = 0; k < node.extents.size(); ++k) {
-      const std::uint64_t along = k < static_cast<std::size_t>(rank) ? shape[k] : node.extents[k];  // beyond the rank: the length of a text
+      const std::uint64_t along = k < static_cast<std::size_t>(rank) ? shape[k] : node.extents[k];  // beyond the rank: the string length
       if (along == 0) return node.give_up(Trouble::malformed, "found chunks of no size");
       if (k < static_cast<std::size_t>(rank)) is_sound = is_sound && !__builtin_mul_overflow(n_expected, (node.extents[k] - 1) / along + 1, &n_expected);
       is_sound = is_sound && !__builtin_mul_overflow(n_bytes, along, &n_bytes);
@@ -311,7 +312,7 @@ class Hdf5Nodes {
 
 void add_hdf5_nodes(const char* path, const Limits& limits, Image& image) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are reported, not printed
-  H5PLset_loading_state(0);                     // no code that the environment names
+  H5PLset_loading_state(0);                     // loads no plug-ins named in the environment
   Hdf5Nodes(path, limits, image).add();
 }
 

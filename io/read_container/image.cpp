@@ -13,12 +13,12 @@ namespace {
 using wire::ImageHeader;
 using wire::NodeRecord;
 
-/// Bytes that the smallest node takes in any container: an attribute of NetCDF.
+/// Minimum number of bytes of a node in any container: a NetCDF attribute.
 constexpr std::uint64_t k_smallest_node = 12;
 
 constexpr std::uint64_t aligned(std::uint64_t n) { return (n + wire::k_alignment - 1) / wire::k_alignment * wire::k_alignment; }
 
-/// The text of an image, piece by piece.
+/// Collects the text section of an image.
 class TextPool {
  public:
   wire::Text add(std::string_view text) {
@@ -32,7 +32,7 @@ class TextPool {
   std::string text_;
 };
 
-/// The memfd, mapped at its full size.
+/// Maps the memfd at its full size.
 char* map_image(std::uint64_t size) {
   if (ftruncate(wire::k_image_fd, static_cast<off_t>(size)) != 0) throw std::bad_alloc();
   void* const block = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, wire::k_image_fd, 0);
@@ -50,7 +50,7 @@ void put(char*& at, const void* data, std::size_t n) {
 std::uint64_t Node::n_bytes() const {
   if (trouble != wire::Trouble::none || !has_values()) return 0;
   std::uint64_t n = byte_size(kind);
-  for (const std::uint64_t extent : extents) n *= extent;  // check_size() has seen that it fits
+  for (const std::uint64_t extent : extents) n *= extent;  // check_size() has checked the range
   return n;
 }
 
@@ -111,7 +111,7 @@ void Image::write() {
   ImageHeader header{.n_nodes = static_cast<std::uint32_t>(nodes_.size()), .text_size = text.text().size()};
   const std::uint64_t first_value = aligned(sizeof header + sizeof(NodeRecord) * records.size() + text.text().size()), size = first_value + n_values;
   for (NodeRecord& record : records) record.begin += first_value;
-  limit_memory(k_library_memory + 4 * limits_.file_size + 2 * size);  // chunks are unpacked beside the image
+  limit_memory(k_library_memory + 4 * limits_.file_size + 2 * size);  // chunks are unpacked in addition to the image
   char* const begin = map_image(size);
   char* at = begin;
   put(at, &header, sizeof header);

@@ -1,4 +1,4 @@
-// The helper's side of container_wire.h: nodes are collected first, then the image is laid out and the values are read straight into it.
+// Helper side of container_wire.h: nodes are collected first, then the image is laid out and the values are read directly into it.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace sterna::io::reader {
 
-/// Ends the reading; becomes the parent's error. `where`: a path in the file, or "the file".
+/// Ends the reading; reported by the parent process as its error. `where`: a path in the file, or "the file".
 struct Failure {
   wire::Outcome outcome = wire::Outcome::malformed;
   std::string where, problem, hint;
 };
 
-/// What the file's size justifies, and what is not wanted.
+/// Limits derived from the file size, and names of groups to leave out.
 struct Limits {
   std::uint64_t file_size = 0;
   std::vector<std::string> left_out;
@@ -42,7 +42,7 @@ struct Node {
   std::vector<std::uint64_t> extents;
   wire::Trouble trouble = wire::Trouble::none;
   std::string problem;
-  /// Writes the values' bytes; empty with a trouble or without values.
+  /// Writes the values' bytes; empty if there is a trouble or no values.
   /// \throws Failure
   std::function<void(char* at)> fill;
 
@@ -52,21 +52,21 @@ struct Node {
     problem = std::move(text);
     fill = nullptr;
   }
-  /// Of the values; a trouble is noted where it does not fit 64 bits. 0 with a trouble.
+  /// Returns the number of bytes of the values; 0 if there is a trouble. Stores a trouble if the number does not fit 64 bits.
   std::uint64_t n_bytes() const;
 };
 
 class Image {
  public:
   explicit Image(const Limits& limits) : limits_(limits) {}
-  /// \returns its number.
-  /// \throws Failure when there are more nodes than the file has room for
+  /// Adds a node. \returns its number.
+  /// \throws Failure if there are more nodes than the file size allows
   std::uint32_t add(Node node);
   const std::vector<Node>& nodes() const { return nodes_; }
   std::vector<Node>& nodes() { return nodes_; }
 
-  /// Lays the image out in the memfd, fills it.
-  /// \throws Failure when it would be larger than the file justifies
+  /// Lays out the image in the memfd and fills it.
+  /// \throws Failure if the image would be larger than the file size justifies
   void write();
 
  private:
@@ -74,18 +74,18 @@ class Image {
   std::vector<Node> nodes_;
 };
 
-/// Marks a node of kind and extents as too large (more than `limit` bytes), or of too many extents. \returns its bytes, 0 with a trouble
+/// Marks a node of kind and extents as too large (more than `limit` bytes), or as having too many extents. \returns its bytes, 0 if there is a trouble
 std::uint64_t check_size(Node& node, std::uint64_t limit);
 
-/// The image of a reading that failed.
+/// Writes the image of a failed reading.
 void write_failure(const Failure& failure);
 
-/// The memory of this process in bytes of addresses, from now on.
+/// Limits the address space of this process, in bytes.
 void limit_memory(std::uint64_t n_bytes);
-/// For the libraries, and what they keep of a file's structure.
+/// Memory for the libraries and their data about the file's structure.
 inline constexpr std::uint64_t k_library_memory = std::uint64_t{1} << 30;
 
-// One function for each library, each in its file. They add the nodes of the file at `path`, or of `bytes`.
+// One function per library, each in its own file. They add the nodes of the file at `path`, or of `bytes`.
 void add_hdf5_nodes(const char* path, const Limits& limits, Image& image);
 void add_netcdf_nodes(const char* path, std::string_view bytes, const Limits& limits, Image& image);
 void add_adf_nodes(const char* path, const Limits& limits, Image& image);

@@ -1,5 +1,5 @@
-// NetCDF by libnetcdf, from memory: so that it notices a file that was cut short, which it fills with zeros when it reads from disk. NetCDF-4 is HDF5 and is
-// looked at as such first: what that finds wrong with a variable (data in other files, chunks that are missing) libnetcdf would not say.
+// NetCDF with libnetcdf, read from memory so that truncated files are detected: reading from disk fills missing data with zeros. NetCDF-4 is HDF5 and is first
+// scanned as such, because libnetcdf does not report problems of variables such as external data or missing chunks.
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
@@ -37,7 +37,7 @@ void require(int status, const std::string& where) {
   if (status == NC_NOERR) return;
   if (status == NC_ENOMEM) throw std::bad_alloc();
   const std::string problem = status == EPERM ? "the file ends before its values do"
-                                              : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: it would have to grow the file
+                                              : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: file would have to grow
   throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = problem, .hint = "the file may have been cut short: copy or write it again"};
 }
 
@@ -45,7 +45,7 @@ class NetcdfNodes {
  public:
   NetcdfNodes(std::string_view bytes, std::map<std::string, const Node*> survey, const Limits& limits, Image& image)
       : survey_(std::move(survey)), limits_(limits), image_(image), is_hdf5_(bytes.starts_with(k_hdf5_signature)) {
-    // The library takes a pointer to non-const but leaves the bytes of a file opened NC_NOWRITE as they are.
+    // The pointer is non-const in the library's interface, but with NC_NOWRITE the bytes are not changed.
     require(nc_open_mem("mesh", NC_NOWRITE, bytes.size(), const_cast<char*>(bytes.data()), &file_), "the head of the file");
   }
 
@@ -116,7 +116,7 @@ class NetcdfNodes {
     image_.add(std::move(node));
   }
 
-  std::map<std::string, const Node*> survey_;  ///< what HDF5 says of the variables
+  std::map<std::string, const Node*> survey_;  ///< results of the HDF5 scan of the variables
   const Limits& limits_;
   Image& image_;
   bool is_hdf5_;

@@ -22,7 +22,7 @@ constexpr std::uint32_t k_first_record_bytes = 8;  // two counts
 constexpr std::size_t k_min_vertex_bytes = 6;      // "0 0 0" and a line end
 constexpr std::size_t k_min_triangle_bytes = 6;
 
-/// Triangles of the file before their components are known.
+/// Triangles of the file, without component numbers.
 using Corners = std::vector<std::array<std::uint32_t, 3>>;
 
 void add_triangles(SurfaceBuilder& builder, const Corners& triangles, const std::vector<std::int64_t>& components) {
@@ -141,7 +141,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
   return soup;
 }
 
-/// The items of a record between its sizes.
+/// Returns the items of a record, enclosed by its sizes.
 template <class Put>
 void add_record(std::vector<OutputSection>& sections, std::uint64_t n_items, std::size_t item_bytes, const Put& put) {
   std::string size(sizeof(std::int32_t), '\0');
@@ -168,7 +168,7 @@ void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const 
 }
 
 void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  constexpr std::uint64_t k_most = std::numeric_limits<std::int32_t>::max() / 12;  // of 12 bytes in a record
+  constexpr std::uint64_t k_most = std::numeric_limits<std::int32_t>::max() / 12;  // for 12 bytes per item in a record
   require_count(std::max(mesh.n_vertices(), mesh.n_triangles()), k_most, "vertices or triangles", "binary Cart3D", path.string());
   require_single_precision(mesh, "binary Cart3D", path.string(), context);
   tell_numbered_patches(mesh, "Cart3D", context);

@@ -9,14 +9,14 @@
 
 namespace sterna::io {
 
-/// Text, or Fortran records of either byte order, by the contents. Scalars of .triq are passed over.
+/// Reads text, or Fortran records of either byte order, detected from the contents. Scalars of .triq are ignored.
 /// \throws Error file_not_found, file_malformed (line or byte offset), cancelled.
 SurfaceSoup read_cart3d(const std::filesystem::path& path, const RunContext& context);
 
-/// Text with every digit; components count patches from 1.
+/// Writes text in full precision; component numbers are patch numbers from 1.
 /// \throws Error write_failed, cancelled.
 void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
-/// Little-endian Fortran records, single precision.
+/// Writes little-endian Fortran records in single precision.
 /// \throws Error write_failed, overflow (float range, 31-bit records), cancelled.
 void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// CGNS with a surface.
+// CGNS files of surfaces.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace sterna::io {
 
-/// The faces of a CGNS file, quads split: see read_boundary_cgns.
+/// Reads the faces of a CGNS file, quads split: see read_boundary_cgns.
 SurfaceSoup read_cgns(const std::filesystem::path& path, const RunContext& context);
 
-/// A base of two dimensions, a section and a family for each patch: see write_volume_cgns.
+/// Writes a base of two dimensions, with a section and a family per patch: see write_volume_cgns.
 void write_cgns(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

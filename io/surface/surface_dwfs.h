@@ -9,11 +9,11 @@
 
 namespace sterna::io {
 
-/// Tags are patches, named by the TagNameMap.
+/// Reads all triangulations. Tags are patches, named by the TagNameMap.
 /// \throws Error file_not_found, file_malformed (byte offset), cancelled.
 SurfaceSoup read_dwfs(const std::filesystem::path& path, const RunContext& context);
 
-/// Every digit, tags count patches from 1.
+/// Writes numbers in full precision; tags are patch numbers from 1.
 /// \throws Error write_failed, cancelled.
 void write_dwfs(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

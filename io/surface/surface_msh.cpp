@@ -1,4 +1,4 @@
-// Gmsh MSH as a surface: triangles and quadrangles of any order by their corners; volume elements are passed over.
+// Gmsh MSH as a surface: triangles and quadrangles of any order by their corners; volume elements are ignored.
 #include "io/surface/surface_msh.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::string physical_names(const TriMesh& mesh, const TrianglesByPatch& triangle
   return text + "$EndPhysicalNames\n";
 }
 
-/// Each patch is a surface of the model; Gmsh wants its box.
+/// Writes the entities: each patch is a surface of the model; Gmsh requires its bounding box.
 std::string entities(const TriMesh& mesh, const TrianglesByPatch& triangles) {
   std::string text = "$Entities\n0 0 " + std::to_string(triangles.used_patches().size()) + " 0\n";
   for (const PatchId patch : triangles.used_patches()) {
@@ -63,7 +63,7 @@ std::string entities(const TriMesh& mesh, const TrianglesByPatch& triangles) {
   return text + "$EndEntities\n";
 }
 
-/// "<first + i>[ <middle>] a b c" for the triangles of a patch; nodes are counted from 1.
+/// Returns lines "<first + i>[ <middle>] a b c" for the triangles of a patch; nodes are counted from 1.
 OutputSection element_lines(const TriMesh& mesh, std::span<const TriangleId> triangles, std::uint64_t first, std::string middle) {
   const std::size_t max_bytes = k_max_integer_text + middle.size() + 3 * k_max_id_text + 2;
   return items_section(triangles.size(), max_bytes, [&mesh, triangles, first, middle = std::move(middle)](std::uint64_t i, char* at) {

@@ -10,10 +10,10 @@
 namespace sterna::io {
 
 /// Reads the surface in an MSH file, plain or gzipped; coordinates as in the file.
-/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+/// \throws Error file_not_found, file_malformed (location, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_msh(const std::filesystem::path& path, const RunContext& context);
 
-/// MSH 4.1 (2.2) as text with every digit: a surface entity and a physical group for each patch.
+/// Writes MSH 4.1 (2.2) as text in full precision, with a surface entity and a physical group per patch.
 /// \throws Error write_failed, cancelled.
 void write_msh(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 void write_msh_2_2(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);

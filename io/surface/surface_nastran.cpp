@@ -1,5 +1,5 @@
-// Cards of fields: eight columns each, sixteen when the name ends in '*', or split by commas; a card goes on in lines that begin with a blank field, '+' or
-// '*'.
+// Cards of fields: eight columns each, sixteen if the name ends in '*', or separated by commas. Lines that begin with a blank field, '+' or '*' continue a
+// card.
 #include "io/surface/surface_nastran.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string_view without_blanks(std::string_view text) {
 
 bool begins_with_word(std::string_view line, std::string_view word) { return equal_ignoring_case(without_blanks(line).substr(0, word.size()), word); }
 
-/// "1.5-3" is 1.5e-3, "1.D3" is 1e3.
+/// Parses a number: "1.5-3" is 1.5e-3, "1.D3" is 1e3.
 bool parse_real(std::string_view field, double& value) {
   std::string text;
   for (std::size_t i = 0; i < field.size(); ++i) {
@@ -53,14 +53,14 @@ bool parse_real(std::string_view field, double& value) {
   return !text.empty() && failure == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
 }
 
-/// "NaN", "-Inf", "Infinity", "1.#QNAN".
+/// Returns true for "NaN", "-Inf", "Infinity", "1.#QNAN".
 bool is_not_finite_text(std::string_view field, double& value) {
   const std::string_view bare = field.starts_with('+') || field.starts_with('-') ? field.substr(1) : field;
   value = std::numeric_limits<double>::quiet_NaN();
   return equal_ignoring_case(bare.substr(0, 3), "nan") || equal_ignoring_case(bare.substr(0, 3), "inf") || bare.starts_with("1.#");
 }
 
-/// What an element card is to a surface.
+/// Interpretation of an element card for surfaces.
 struct ElementCard {
   std::string_view name;
   std::size_t n_corners;  ///< 0: a volume element
@@ -78,7 +78,7 @@ constexpr std::array<ElementCard, 12> k_elements = {{{"CTRIA3", 3},
                                                      {"CPYRA", 0},
                                                      {"CHEXA", 0}}};
 
-/// Cards of elements that are no faces or volumes of a mesh, and of faces that are not read.
+/// Returns true for cards of elements that are neither faces nor volumes of a mesh, and of unsupported faces.
 bool is_other_element(std::string_view name) {
   constexpr std::array<std::string_view, 20> k_names = {"CBAR",   "CBEAM",  "CROD",    "CONROD", "CTUBE",   "CBEND",   "CBUSH",   "CELAS1", "CELAS2", "CELAS3",
                                                         "CSHEAR", "CTRIAX", "CTRIAX6", "CQUADX", "CQUADX4", "CQUADX8", "CTRIAX3", "PLOTEL", "CAERO1", "CAERO2"};
@@ -110,7 +110,7 @@ class BulkParser {
       }
     }
     take_card();
-    // Cards that other files include have neither beginning nor end.
+    // Files meant for inclusion in others have neither beginning nor end.
     if (has_begin && !has_end)
       throw_malformed(buffer_.source, "line " + std::to_string(line_number_), "found the end of the file, expected ENDDATA after BEGIN BULK",
                       "the file may have been cut short: copy or write it again");
@@ -136,7 +136,7 @@ class BulkParser {
     return true;
   }
 
-  /// Executive and case control come before "BEGIN BULK" where there is one.
+  /// Finds the bulk data. Executive and case control precede "BEGIN BULK", if present.
   bool find_bulk() {
     while (next_line())
       if (begins_with_word(line_, "BEGIN") && without_blanks(without_blanks(line_).substr(5)).size() >= 4 &&
@@ -189,7 +189,7 @@ class BulkParser {
       fields_.emplace_back(at < line_.size() ? without_blanks(line_.substr(at, std::min(width, k_line - k_field - at))) : std::string_view());
   }
 
-  /// "$ANSA_NAME_COMMENT;7;PSHELL;left wing;..." and "$HMNAME COMP  7"left wing"" name the PID 7.
+  /// Reads name comments: "$ANSA_NAME_COMMENT;7;PSHELL;left wing;..." and "$HMNAME COMP  7"left wing"" name the PID 7.
   void take_comment() {
     if (equal_ignoring_case(line_.substr(0, 19), "$ANSA_NAME_COMMENT;")) {
       std::string_view rest = line_.substr(19);
@@ -305,7 +305,7 @@ class BulkParser {
   SurfaceBuilder builder_;
   std::size_t position_ = 0, line_number_ = 0;
   std::string_view line_;
-  std::vector<std::string> fields_;  ///< of the card that is being read; the first is its name
+  std::vector<std::string> fields_;  ///< fields of the current card; the first is its name
   std::size_t card_line_ = 0;
   std::unordered_map<std::int64_t, std::uint32_t> point_of_id_;
   std::vector<NastranFace> faces_;
@@ -316,7 +316,7 @@ class BulkParser {
 
 // ---- writing
 
-/// The closest number that 16 characters hold: exponents without 'e', no zero before the point.
+/// Returns the closest number that 16 characters can hold: exponents without 'e', no zero before the decimal point.
 std::string large_field(double value) {
   const auto shortened = [](std::string text) {
     const std::size_t e = text.find('e');

@@ -9,11 +9,12 @@
 
 namespace sterna::io {
 
-/// CTRIA3, CQUAD4 and their kin (corners of those of second order); PID is the patch, named by comments of ANSA and HyperMesh. Volume elements are passed over.
+/// Reads CTRIA3, CQUAD4 and related cards (corners only for second-order elements). The PID is the patch, named by comments of ANSA and HyperMesh. Volume
+/// elements are ignored.
 /// \throws Error file_not_found, file_malformed (line), unsupported_format (INCLUDE, coordinate systems), cancelled.
 SurfaceSoup read_nastran(const std::filesystem::path& path, const RunContext& context);
 
-/// Large fields: coordinates to the 13 or 14 digits that 16 characters hold; a PSHELL and named comments for each patch.
+/// Writes large fields: coordinates to the 13 or 14 digits that 16 characters hold; a PSHELL and name comments per patch.
 /// \throws Error write_failed, overflow (numbers of eight digits), cancelled.
 void write_nastran(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

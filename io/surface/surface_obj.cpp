@@ -1,4 +1,4 @@
-// OBJ: vertices and faces; groups, objects and materials are recorded as they change and one of the three becomes the patches at the end.
+// OBJ: vertices and faces. Changes of group, object and material are recorded, and one of the three becomes the patches at the end.
 #include "io/surface/surface_obj.h"
 
 #include <algorithm>
@@ -19,13 +19,13 @@
 namespace sterna::io {
 namespace {
 
-/// Lines that say nothing about the surface's triangles.
+/// Keywords without effect on the surface's triangles.
 constexpr std::array<std::string_view, 41> k_ignored = {
     "vt",         "vn",        "vp",    "s",     "l",    "p",   "mtllib", "maplib", "usemap", "mg",     "lod",  "bevel", "c_interp", "d_interp",
     "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh", "deg",    "bmat",   "step",   "cstype", "curv", "curv2", "surf",     "parm",
     "trim",       "hole",      "scrv",  "sp",    "end",  "con", "res",    "cdp",    "cdc",    "bzp",    "bsp",  "vc",    "cbp"};
 
-/// What a line of k_ignored holds that is geometry; empty for the rest.
+/// Returns the geometry type of a keyword in k_ignored; empty for the rest.
 std::string_view geometry_of(std::string_view word) {
   if (word == "l") return "lines (l)";
   if (word == "p") return "points (p)";
@@ -35,7 +35,7 @@ std::string_view geometry_of(std::string_view word) {
   return {};
 }
 
-/// The three ways in which a file can name parts of itself.
+/// The three ways to name parts in a file.
 enum Naming : std::size_t { k_group, k_object, k_material, k_n_namings };
 
 /// From polygon `first` on, the parts are called `name`.
@@ -51,13 +51,13 @@ struct Faces {
   std::size_t size() const { return ends.size(); }
 };
 
-/// The highest vertex that a face asks for, and where, because a face may come before its vertices.
+/// The highest vertex referenced by a face, and its location, because a face may precede its vertices.
 struct HighestIndex {
   std::int64_t value = 0;
   std::size_t offset = 0;
 };
 
-/// One corner "7", "7/2", "7//5", "-1/2/5"; the vertex counted from 0.
+/// Parses one corner "7", "7/2", "7//5", "-1/2/5". Returns the vertex counted from 0.
 std::uint32_t parse_corner(TextScanner& scanner, std::size_t n_points, HighestIndex& highest) {
   constexpr std::string_view k_expected = "a vertex number (from 1, or negative from the last), perhaps with /texture/normal";
   const std::string_view token = scanner.token(k_expected);
@@ -82,7 +82,7 @@ void parse_face(TextScanner& scanner, std::size_t n_points, HighestIndex& highes
   faces.ends.push_back(faces.corners.size());
 }
 
-/// Groups name the patches; objects where groups make no difference, materials where objects make none either.
+/// Chooses the names for the patches: groups; objects if groups make no difference; materials if objects make none either.
 const std::vector<NameChange>* choose_naming(const Faces& faces) {
   const std::vector<NameChange>* first_with_name = nullptr;
   for (const std::vector<NameChange>& changes : faces.changes) {
@@ -98,7 +98,7 @@ const std::vector<NameChange>* choose_naming(const Faces& faces) {
   return first_with_name;
 }
 
-/// A file may name its parts in several ways, of which one becomes the patches.
+/// Reports namings that are not used: a file may name its parts in several ways, one of which becomes the patches.
 void tell_other_namings(const Faces& faces, const std::vector<NameChange>* chosen, const std::string& source, const RunContext& context) {
   constexpr std::array<std::string_view, k_n_namings> k_words = {"groups", "objects", "materials"};
   const auto names_of = [](const std::vector<NameChange>& changes) {
@@ -133,7 +133,7 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
     } else if (word == "g" || word == "o" || word == "usemtl") {
       const Naming naming = word == "g" ? k_group : word == "o" ? k_object : k_material;
       faces.changes[naming].push_back({.first = faces.size(), .name = scanner.at_line_end() ? std::string() : std::string(scanner.rest_of_line())});
-      continue;  // rest_of_line has moved on; at a line end the next round skips it
+      continue;  // rest_of_line has moved on; at a line end the next iteration skips it
     } else if (std::find(k_ignored.begin(), k_ignored.end(), word) == k_ignored.end()) {
       scanner.fail_expected("an OBJ keyword such as \"v\", \"f\" or \"g\"");
     } else if (const std::string_view geometry = geometry_of(word); !geometry.empty()) {
@@ -149,7 +149,7 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
   others.tell(buffer.source, context);
   const std::vector<NameChange>* const naming = choose_naming(faces);
   tell_other_namings(faces, naming, buffer.source, context);
-  constexpr std::string_view k_default_group = "default";  // the name that the format gives to what comes before any group
+  constexpr std::string_view k_default_group = "default";  // the format's name for elements before any group
   if (naming) builder.set_patch(k_default_group);
   builder.reserve_polygons(faces.size());
   std::size_t next_change = 0;

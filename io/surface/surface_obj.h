@@ -10,10 +10,10 @@
 namespace sterna::io {
 
 /// Reads the surface in an OBJ file, plain or gzipped; coordinates as in the file.
-/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+/// \throws Error file_not_found, file_malformed (location, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& context);
 
-/// Vertices with every digit, triangles in their order, patches as groups. Blanks in names become '_'.
+/// Writes vertices in full precision, triangles in their order, patches as groups. Blanks in names become '_'.
 /// \throws Error write_failed, cancelled.
 void write_obj(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// OFF as text, with the header variants of Geomview, and the two kinds of OFF BINARY in use.
+// OFF as text, with the header variants of Geomview, and the two variants of OFF BINARY in use.
 #include "io/surface/surface_off.h"
 
 #include <cmath>
@@ -27,12 +27,12 @@ struct OffHeader {
   bool is_binary = false;
 };
 
-/// Letters before "OFF" in their order: ST, C, N, 4, n.
+/// Parses the letters before "OFF" in their order: ST, C, N, 4, n.
 OffHeader parse_header(TextScanner& scanner) {
   OffHeader header;
   const std::string_view first = scanner.peek();
   if (!first.empty() && (first.front() == '+' || (first.front() >= '0' && first.front() <= '9')) && first.find("OFF") == std::string_view::npos)
-    return header;  // the keyword may be left out
+    return header;  // the keyword is optional
   const std::string_view word = scanner.token("\"OFF\"");
   std::string_view rest = word;
   const auto take = [&rest](std::string_view prefix) {
@@ -52,7 +52,7 @@ OffHeader parse_header(TextScanner& scanner) {
   return header;
 }
 
-/// Numbers after a vertex that colours and normals explain; anything else is a file whose lines are not one vertex each.
+/// Returns true if n extra numbers after a vertex can be colours and normals; other counts mean that lines are not one vertex each.
 bool is_count_of_extras(std::size_t n) { return n == 0 || n == 3 || n == 4 || n == 6 || n == 7; }
 
 Vec3 parse_vertex(TextScanner& scanner, const OffHeader& header) {
@@ -95,14 +95,14 @@ SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const OffH
   return builder.finish(context);
 }
 
-/// Geomview's files are big-endian and have a count of colour components after each face; pmp's are little-endian and have none.
+/// Variants: Geomview's files are big-endian with a count of colour components after each face; pmp's are little-endian without it.
 struct BinaryVariant {
   std::endian order;
   bool has_colours;
 };
 constexpr BinaryVariant k_off_variants[] = {{std::endian::little, false}, {std::endian::big, true}, {std::endian::little, true}, {std::endian::big, false}};
 
-/// The whole file in one of the variants. \throws Error when it is not that variant, or damaged.
+/// Reads the whole file in one of the variants. \throws Error if it is not that variant, or damaged.
 SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const BinaryVariant& variant, const RunContext& context) {
   ByteReader reader(buffer, variant.order, offset);
   const auto read_count = [&](std::string_view what) {
@@ -152,7 +152,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
 }
 
 SurfaceSoup read_any_binary(const FileBuffer& buffer, std::size_t offset, const RunContext& context) {
-  std::optional<Error> error;  // of the variant that real files have most
+  std::optional<Error> error;  // error of the variant that is most common in practice
   for (const BinaryVariant& variant : k_off_variants) {
     try {
       return read_binary(buffer, offset, variant, context);

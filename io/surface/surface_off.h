@@ -10,10 +10,10 @@
 namespace sterna::io {
 
 /// Reads the surface in an OFF file, plain or gzipped; coordinates as in the file.
-/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+/// \throws Error file_not_found, file_malformed (location, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_off(const std::filesystem::path& path, const RunContext& context);
 
-/// Text with every digit; the format has no patches.
+/// Writes text in full precision; the format has no patches.
 /// \throws Error write_failed, cancelled.
 void write_off(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

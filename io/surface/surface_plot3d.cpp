@@ -1,5 +1,5 @@
-// The number of blocks, the three dimensions of each, then for each block all x, all y, all z. Text or bytes of either order, the bytes with or without
-// Fortran's record sizes; which of them follows from the first numbers and the size of the file.
+// The number of blocks, the three dimensions of each, then for each block all x, all y, all z. Text or binary of either byte order, the latter with or without
+// Fortran record sizes; the variant is derived from the first numbers and the size of the file.
 #include "io/surface/surface_plot3d.h"
 
 #include <algorithm>
@@ -24,13 +24,13 @@ constexpr std::size_t k_probed_plot3d_bytes = 256;
 constexpr std::uint32_t k_count_record = 4;  // bytes: one integer
 constexpr std::string_view k_cut_hint = "the file may have been cut short: copy or write it again";
 
-/// A block as a network of points, the constant index left out.
+/// A block as a network of points, without the constant index.
 struct GridBlock {
   std::uint64_t n_points = 0, n_lines = 0;
   std::uint64_t size() const { return n_points * n_lines; }
 };
 
-/// \returns nullopt for a block that is no surface. Dimensions are positive.
+/// Returns the block as a grid; nullopt for a block that is not a surface. Dimensions are positive.
 std::optional<GridBlock> block_of(const std::array<std::uint64_t, 3>& n) {
   if (n[2] == 1) return GridBlock{n[0], n[1]};
   if (n[1] == 1) return GridBlock{n[0], n[2]};
@@ -45,7 +45,7 @@ std::optional<GridBlock> block_of(const std::array<std::uint64_t, 3>& n) {
                     "only surfaces, with one dimension of 1, are read");
 }
 
-/// Adds a block, of which axis(a) gives coordinate a of the next point in turn.
+/// Adds a block; axis(a) returns coordinate a of the next point.
 template <class Next>
 void add_block(SurfaceBuilder& builder, std::size_t number, const GridBlock& block, const RunContext& context, const Next& next) {
   std::vector<Vec3> points(block.size());
@@ -157,7 +157,7 @@ class BinaryReader {
     if (has_records_) end_record();
   }
 
-  /// Which reals so many bytes for n points are.
+  /// Returns the precision of the reals from the number of bytes for n points.
   Precision precision_of(std::uint64_t n_bytes, std::uint64_t n) const {
     for (const std::size_t real : {sizeof(double), sizeof(float)})
       for (const bool has_blanks : {false, true})
@@ -199,7 +199,7 @@ SurfaceSoup read_bytes(const FileBuffer& buffer, const RunContext& context) {
     if (ByteReader(buffer, order).take<std::uint32_t>() == k_count_record &&
         ByteReader(buffer, order, 2 * sizeof(std::uint32_t)).take<std::uint32_t>() == k_count_record)
       return BinaryReader(buffer, order, true, context).read();
-  // A number of blocks is small: the order in which it is smaller is that of the file.
+  // The number of blocks is small, so the byte order that gives the smaller number is that of the file.
   const bool is_little = ByteReader(buffer, std::endian::little).take<std::uint32_t>() <= ByteReader(buffer, std::endian::big).take<std::uint32_t>();
   return BinaryReader(buffer, is_little ? std::endian::little : std::endian::big, false, context).read();
 }

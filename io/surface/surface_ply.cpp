@@ -64,7 +64,7 @@ constexpr std::array<PlyTypeName, 16> k_type_names = {{{"char", PlyType::int8},
 /// Face properties that number patches, in order of preference.
 constexpr std::array<std::string_view, 7> k_patch_properties = {"patch", "patch_id", "marker", "boundary", "region", "label", "group"};
 
-/// What a property is to us.
+/// Meaning of a property for the reader.
 enum class Role { skipped, x, y, z, corners, patch };
 
 struct Property {
@@ -149,7 +149,7 @@ void assign_roles(TextScanner& scanner, Element& element) {
   }
 }
 
-/// Bytes that one element takes at least.
+/// Returns the minimum number of bytes of an element.
 std::size_t min_bytes(const Element& element, PlyEncoding encoding) {
   std::size_t n = 0;
   for (const Property& property : element.properties)
@@ -157,7 +157,7 @@ std::size_t min_bytes(const Element& element, PlyEncoding encoding) {
   return n;
 }
 
-/// Ours may name patches: "patch 2 left wing".
+/// Parses a comment of sterna's writer that names a patch: "patch 2 left wing".
 void parse_comment(TextScanner& scanner, PlyHeader& header) {
   if (scanner.peek() != "patch") return;
   scanner.skip_token("patch");
@@ -261,7 +261,7 @@ class ByteValues {
   }
   [[noreturn]] void fail(std::string_view problem) { reader_.fail(problem); }
   void expect_end(std::size_t n_last) {
-    // Some writers end the bytes with a line end.
+    // Some writers add a line end after the bytes.
     constexpr std::size_t k_line_end_bytes = 2;
     if (reader_.remaining() > k_line_end_bytes)
       reader_.fail("found " + std::to_string(reader_.remaining()) + " bytes after the last of " + std::to_string(n_last) +
@@ -274,7 +274,7 @@ class ByteValues {
 
 // ---- elements
 
-/// A list's length, kept in proportion to the file by the reading of its values.
+/// Reads a list's length; reading its values ensures that it is proportional to the file size.
 template <class Values>
 std::size_t read_length(Values& values, const Property& property) {
   const std::int64_t n = values.integer(property.count_type, "the length of a list");

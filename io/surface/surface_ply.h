@@ -9,11 +9,11 @@
 
 namespace sterna::io {
 
-/// Reads the surface in an PLY file, plain or gzipped; coordinates as in the file.
-/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+/// Reads the surface in a PLY file, plain or gzipped; coordinates as in the file.
+/// \throws Error file_not_found, file_malformed (location, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& context);
 
-/// Binary little endian, doubles; faces with an integer "patch" from 1, and a comment "patch <number> <name>" for each.
+/// Writes binary little endian with doubles. Faces have an integer "patch" from 1, with a comment "patch <number> <name>" per patch.
 /// \throws Error write_failed, overflow (31-bit indices), cancelled.
 void write_ply(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// STL: which of the two kinds a file is follows from its size first, because binary files whose header begins with "solid" are common.
+// STL: text or binary is determined from the file size first, because binary files whose header begins with "solid" are common.
 #include "io/surface/surface_stl.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t k_header_bytes = 80;
 constexpr std::size_t k_first_facet = 84;
 constexpr std::size_t k_facet_bytes = 50;
-/// Bytes of the shortest facet in text; a guess for the memory to reserve.
+/// Bytes of the shortest facet in text; estimate for reserving memory.
 constexpr std::size_t k_text_facet_bytes = 150;
 /// Text has no NUL byte; a binary file has one in its header or in the first few facets.
 constexpr std::size_t k_probed_bytes = 1024;
@@ -38,7 +38,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t n_facets, const Ru
   builder.reserve_polygons(n_facets);
   for (std::size_t i = 0; i < n_facets; ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
-    reader.skip(3 * sizeof(float));  // the normal: corners in their order are what counts
+    reader.skip(3 * sizeof(float));  // the normal is ignored: the order of the corners defines it
     std::uint32_t corners[3];
     for (std::uint32_t& corner : corners) {
       Vec3 p;
@@ -46,7 +46,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t n_facets, const Ru
       corner = builder.add_point(p);
     }
     builder.add_triangle(corners[0], corners[1], corners[2]);
-    reader.skip(sizeof(std::uint16_t));  // attribute: colours, mostly
+    reader.skip(sizeof(std::uint16_t));  // attribute, usually colours
   }
   SurfaceSoup soup = builder.finish(context);
   soup.single_precision = true;
@@ -60,7 +60,7 @@ std::string solid_name(std::string_view rest) {
 
 void read_facet(TextScanner& scanner, SurfaceBuilder& builder) {
   scanner.keyword("normal");
-  for (int i = 0; i < 3; ++i) scanner.skip_token("a facet's normal");  // may be nan; corners in their order are what counts
+  for (int i = 0; i < 3; ++i) scanner.skip_token("a facet's normal");  // may be nan; the order of the corners defines the normal
   scanner.keyword("outer");
   scanner.keyword("loop");
   std::uint32_t corners[3];
@@ -100,7 +100,7 @@ SurfaceSoup read_text_solids(const FileBuffer& buffer, const RunContext& context
     } else if (equal_ignoring_case(word, "color")) {
       scanner.rest_of_line();
     } else if (n_solids > 0 && !is_open) {
-      // Complete solids, then something else (Gmsh models were appended to STL files this way): the solids are read, the rest is said to be ignored.
+      // Complete solids followed by other data (Gmsh models were appended to STL files this way): the solids are read, the remainder is reported as ignored.
       context.warn(buffer.source + ": line " + std::to_string(scanner.line()) + ": what follows the last \"endsolid\" is not STL and is ignored");
       break;
     } else {
@@ -117,7 +117,7 @@ SurfaceSoup read_text_solids(const FileBuffer& buffer, const RunContext& context
 
 // ---- writing
 
-/// Unit normal by the right-hand rule; zero for a triangle without area.
+/// Returns the unit normal by the right-hand rule; zero for a triangle without area.
 Vec3 facet_normal(const std::array<Point, 3>& p) {
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double length = norm(n);
@@ -134,7 +134,7 @@ OutputSection binary_facets(const TriMesh& mesh) {
 }
 
 OutputSection text_facets(const TriMesh& mesh, std::span<const TriangleId> triangles) {
-  constexpr std::size_t k_words = 120;  // of a facet, without its numbers
+  constexpr std::size_t k_words = 120;  // text of a facet without its numbers
   return items_section(triangles.size(), k_words + 4 * k_max_point_text, [&mesh, triangles](std::uint64_t i, char* at) {
     const std::array<Point, 3> p = corners(mesh, triangles[i]);
     at = put_point_text(put_text(at, "facet normal "), facet_normal(p));

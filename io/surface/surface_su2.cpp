@@ -1,5 +1,5 @@
-// SU2: blocks of lines behind "KEY= n", in any order (docs/method/formats.md, "SU2 variants"). Markers are the patches; a file without markers and volume
-// elements is a surface mesh whose own triangles and quads are read. What may be trailing on a line is not looked at.
+// SU2: blocks of lines after "KEY= n", in any order (docs/method/formats.md, "SU2 variants"). Markers are the patches. A file without markers and volume
+// elements is a surface mesh whose own triangles and quads are read. Trailing values on a line are ignored.
 #include "io/surface/surface_su2.h"
 
 #include <array>
@@ -47,7 +47,7 @@ class Su2SurfaceReader {
   }
 
  private:
-  // ---- first pass: where the blocks are
+  // ---- first pass: positions of the blocks
 
   void take_line() {
     const std::string_view line = cursor_.rest_of_line();
@@ -75,7 +75,7 @@ class Su2SurfaceReader {
     if (keyword.value != "3") cursor_.fail("found " + quoted_excerpt(keyword.value) + ", expected 3 after NDIME=");
   }
 
-  /// IZONE= stands before each zone, so also before the first.
+  /// Begins a zone. IZONE= precedes each zone, including the first.
   void begin_zone() {
     if (!zones_.empty() || !zone_.is_empty()) finish_zone();
     last_block_.clear();
@@ -179,7 +179,7 @@ class Su2SurfaceReader {
     builder_.set_patch(marker.name);
     for_each_line(marker.faces, [&](LineCursor& cursor, std::uint64_t i) {
       const std::uint64_t type = cursor.integer("the type of face ", i);
-      if (type == k_vtk_line) {  // an edge of an open surface, as programs write it that take a surface for a plane mesh
+      if (type == k_vtk_line) {  // an edge of an open surface, written by programs that treat a surface as a plane mesh
         ++n_lines_;
         return;
       }
@@ -190,7 +190,8 @@ class Su2SurfaceReader {
     });
   }
 
-  /// Where markers have no faces, the faces among the elements are the surface; else those are left out. Cells without any face are left to the caller.
+  /// Reads the elements. If markers have no faces, the faces among the elements are the surface; otherwise these are left out. The caller handles cells without
+  /// faces.
   void read_elements(const SurfaceZone& zone) {
     const bool are_elements_the_surface = !std::exchange(has_marked_faces_, false);
     if (!zone.elements) return;
@@ -217,12 +218,12 @@ class Su2SurfaceReader {
   LineCursor cursor_;
   SurfaceBuilder builder_;
   const RunContext& context_;
-  std::optional<std::uint64_t> n_zones_;  ///< announced
+  std::optional<std::uint64_t> n_zones_;  ///< announced in the file
   std::vector<SurfaceZone> zones_;
-  SurfaceZone zone_;             ///< being indexed
-  std::size_t first_point_ = 0;  ///< of the zone that is read
+  SurfaceZone zone_;             ///< currently indexed
+  std::size_t first_point_ = 0;  ///< first point of the current zone
   std::uint64_t n_points_ = 0;
-  bool has_marked_faces_ = false;  ///< in the zone that is read
+  bool has_marked_faces_ = false;  ///< in the current zone
   std::uint64_t n_lines_ = 0, n_partition_markers_ = 0, n_cells_ = 0;
   std::string last_block_;
   bool is_in_unknown_section_ = false;

@@ -1,4 +1,4 @@
-// TAU primary grids with a surface.
+// TAU primary grids of surfaces.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace sterna::io {
 
-/// The surface elements of a grid, quads split: see read_boundary_tau.
+/// Reads the surface elements of a grid, quads split: see read_boundary_tau.
 SurfaceSoup read_tau(const std::filesystem::path& path, const RunContext& context);
 
-/// A grid without volume elements, normals as in `mesh` (into the fluid); names and conditions go to the .bmap beside it.
+/// Writes a grid without volume elements, with normals as in `mesh` (into the fluid). Names and conditions are written to the .bmap file beside the grid.
 void write_tau(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

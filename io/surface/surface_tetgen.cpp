@@ -1,4 +1,4 @@
-// Part 1 nodes (or "0 ..." and a file .node beside it), part 2 facets, part 3 holes, part 4 regions; the last two say nothing about the surface.
+// Part 1 nodes (or "0 ..." and a file .node beside it), part 2 facets, part 3 holes, part 4 regions; the last two do not describe the surface.
 #include "io/surface/surface_tetgen.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr std::size_t k_min_tetgen_node_bytes = 8;  // "1 0 0 0" and a line end
 constexpr std::size_t k_min_facet_bytes = 2;
 constexpr TextScanner::Rules k_rules{.comment = '#', .line_bound = true};
 
-/// Moves to the next line with content; every record begins on a line of its own.
+/// Moves to the next line with content; every record begins on a new line.
 void find_record(TextScanner& scanner, std::string_view expected) {
   if (scanner.at_end())
     scanner.fail("found the end of the file, expected " + std::string(expected), "the file may have been cut short: copy or write it again");
@@ -51,7 +51,7 @@ class PlcParser {
   }
 
  private:
-  /// \returns false where the count is 0
+  /// Reads the nodes. \returns false if the count is 0
   bool take_nodes(TextScanner& scanner) {
     find_record(scanner, "the number of nodes");
     const std::size_t n = scanner.count("the number of nodes", k_min_tetgen_node_bytes);
@@ -94,7 +94,7 @@ class PlcParser {
     }
   }
 
-  /// Two lists may follow the facets: points in holes, points in regions.
+  /// Reports the two lists that may follow the facets: points in holes, points in regions.
   void tell_holes_and_regions() {
     LeftOut left_out;
     for (const char* what : {"points in holes", "points in regions"}) {
@@ -113,7 +113,7 @@ class PlcParser {
     last_marker_ = marker;
   }
 
-  /// Corners, perhaps over several lines.
+  /// Reads corners, possibly over several lines.
   void take_corners() {
     const std::size_t n = scanner_.count("the number of corners", 1);
     if (n > k_max_polygon_corners)

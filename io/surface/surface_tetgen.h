@@ -1,4 +1,4 @@
-// TetGen input: .smesh and .poly, with their .node file where they refer to one (docs/method/formats_surfaces.md, "TetGen").
+// TetGen input: .smesh and .poly, with the .node file to which they may refer (docs/method/formats_surfaces.md, "TetGen").
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace sterna::io {
 
-/// Facets by their markers. A facet of .poly is one polygon; further polygons of one or two points, which only constrain it, are passed over.
+/// Reads the facets, with markers as patches. A facet of .poly is one polygon; further polygons of one or two points, which only constrain it, are ignored.
 /// \throws Error file_not_found, file_malformed (line), unsupported_format (facets with holes, plane files of Triangle), cancelled.
 SurfaceSoup read_tetgen(const std::filesystem::path& path, const RunContext& context);
 
-/// Nodes and facets counted from 1, every digit, markers count patches from 1, no holes and no regions.
+/// Writes nodes and facets counted from 1, in full precision; markers are patch numbers from 1. No holes and no regions.
 /// \throws Error write_failed, overflow, cancelled.
 void write_smesh(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 void write_poly(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);

@@ -1,4 +1,4 @@
-// UGRID (AFLR3) as a surface: counts, coordinates, triangles, quads and their patch numbers; of the volume cells only that they are all there.
+// UGRID (AFLR3) as a surface: counts, coordinates, triangles, quads and their patch numbers; for volume cells only completeness is checked.
 #include "io/surface/surface_ugrid.h"
 
 #include <array>
@@ -60,7 +60,7 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
     set_patch();
     builder.add_polygon(std::span(quads).subspan(4 * i, 4));
   }
-  // A file that was cut short among its volume cells is not to be trusted.
+  // A file truncated within its volume cells is rejected.
   constexpr std::array<std::size_t, 4> k_cell_corners = {4, 5, 6, 8};
   for (std::size_t kind = 0; kind < k_cell_corners.size(); ++kind) {
     const std::string what = "volume cells of " + std::to_string(k_cell_corners[kind]) + " corners";
@@ -74,7 +74,7 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
 }
 
 void write_ugrid(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  write_volume_ugrid(as_boundary(mesh, Winding::turned), path, context);  // which turns boundary faces
+  write_volume_ugrid(as_boundary(mesh, Winding::turned), path, context);  // the writer turns boundary faces
 }
 
 }  // namespace sterna::io

@@ -1,4 +1,4 @@
-// UGRID (AFLR3): the boundary faces; patch numbers, named by a .mapbc file beside it.
+// UGRID (AFLR3): boundary faces with patch numbers, named in a .mapbc file beside the mesh.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace sterna::io {
 
-/// Reads the surface in an UGRID file, plain or gzipped; coordinates as in the file.
-/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+/// Reads the surface in a UGRID file, plain or gzipped; coordinates as in the file.
+/// \throws Error file_not_found, file_malformed (location, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes the surface as the boundary of a mesh without cells, normals as in `mesh` (into the fluid), variant by the name as in reading; names go to the .mapbc
-/// file beside it.
+/// Writes the surface as the boundary of a mesh without cells, with normals as in `mesh` (into the fluid). The variant follows from the name, as in reading.
+/// Names are written to the .mapbc file beside the mesh.
 /// \throws Error write_failed, overflow (31-bit counts), cancelled.
 void write_ugrid(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

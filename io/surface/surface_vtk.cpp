@@ -12,7 +12,7 @@ namespace {
 
 enum class Encoding { text, binary };
 
-/// Names of arrays have no blanks; what VTK escapes it also reads.
+/// Escapes an array name, which must not contain blanks; VTK decodes these escapes.
 std::string escaped(std::string_view name) {
   constexpr std::string_view k_digits = "0123456789ABCDEF";
   std::string text;
@@ -62,7 +62,7 @@ void write(const TriMesh& mesh, const std::filesystem::path& path, Encoding enco
   require_count(4 * mesh.n_triangles(), std::numeric_limits<std::int32_t>::max(), "values of POLYGONS", "legacy VTK 3.0", path.string());
   const std::string n = std::to_string(mesh.n_triangles());
   const bool is_text = encoding == Encoding::text;
-  const std::string end = is_text ? "" : "\n";  // lines of text end themselves
+  const std::string end = is_text ? "" : "\n";  // lines of text contain their line end
   const std::vector<OutputSection> sections = {fixed_section(head(mesh, encoding)),
                                                is_text ? point_lines(mesh, "") : binary_points(mesh),
                                                fixed_section(end + "POLYGONS " + n + " " + std::to_string(4 * mesh.n_triangles()) + "\n"),

@@ -1,4 +1,4 @@
-// VTKHDF with a surface: an unstructured grid of triangles.
+// VTKHDF files of surfaces: an unstructured grid of triangles.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace sterna::io {
 
-/// The triangles and quads of a VTKHDF file, of a volume mesh its boundary; coordinates as in the file.
-/// \throws what read_volume_vtkhdf throws
+/// Reads the triangles and quads of a VTKHDF file, or the boundary of a volume mesh; coordinates as in the file.
+/// \throws as read_volume_vtkhdf
 SurfaceSoup read_surface_vtkhdf(const std::filesystem::path& path, const RunContext& context);
 
-/// Triangles with "marker" = patch number + 1, names and kinds as field data: see write_volume_vtkhdf.
+/// Writes triangles with "marker" = patch number + 1, names and kinds as field data: see write_volume_vtkhdf.
 void write_surface_vtkhdf(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

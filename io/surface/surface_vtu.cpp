@@ -23,7 +23,7 @@ VtuArray points_array(const TriMesh& mesh) {
           }};
 }
 
-/// value(i) for i in [0, n)
+/// Returns value(i) for i in [0, n).
 template <class Value>
 VtuArray int32_array(std::string name, std::uint64_t n, const Value& value) {
   return {.name = std::move(name), .type = VtuType::int32, .n_values = n, .fill = [value](std::uint64_t begin, std::uint64_t end, char* out) {

@@ -1,4 +1,4 @@
-// A title; then for each object its name, its parameters and its points, free-form: separated by blanks, commas, slashes or line ends.
+// A title; then for each object its name, its parameters and its points in free format, separated by blanks, commas, slashes or line ends.
 #include "io/surface/surface_wgs.h"
 
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t k_min_point_bytes = 6;  // "0 0 0" and a separator
 
-/// How an object is moved into the common system, in this order: rotation about x, y, z (degrees), translation, scale.
+/// Transformation of an object into the global system, in this order: rotation about x, y, z (degrees), translation, scale.
 struct Placement {
   Vec3 rotation, translation, scale;
 
@@ -42,7 +42,7 @@ constexpr std::array<std::string_view, 4> k_mirrors = {"", "y = 0", "z = 0", "x 
 
 class WgsReader {
  public:
-  /// \param buffer a copy whose separators have become blanks
+  /// \param buffer a copy whose separators have been replaced by blanks
   WgsReader(const FileBuffer& buffer, const RunContext& context) : scanner_(buffer), context_(context), builder_(buffer.source) {}
 
   SurfaceSoup read() {
@@ -106,7 +106,7 @@ class WgsReader {
   std::array<std::string, 4> mirrored_;  ///< names of objects by plane; 0: none
 };
 
-/// Commas and slashes outside of quotes and the title separate as blanks do.
+/// Replaces commas and slashes, which separate like blanks, except in quotes and in the title.
 void blank_separators(FileBuffer& buffer) {
   bool is_quoted = false;
   bool is_title = true;

@@ -8,8 +8,8 @@
 
 namespace sterna::io {
 
-/// Each network is a patch of quads, moved into the common system (rotation about x, y, z, translation, scale). Mirror images that a network implies are not
-/// made, and told.
+/// Reads each network as a patch of quads, transformed into the global system (rotation about x, y, z, translation, scale). Mirror images implied by a network
+/// are not generated; this is reported.
 /// \throws Error file_not_found, file_malformed (line), overflow, cancelled.
 SurfaceSoup read_wgs(const std::filesystem::path& path, const RunContext& context);
 

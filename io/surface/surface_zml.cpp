@@ -1,4 +1,4 @@
-// A standard LZ4 frame around a tree: each node has a header, a table of strings (its name, then keys and values), data, children.
+// A standard LZ4 frame around a tree. Each node has a header, a table of strings (its name, then keys and values), data, children.
 #include "io/surface/surface_zml.h"
 
 #include <lz4frame.h>
@@ -25,12 +25,12 @@ constexpr std::uint32_t k_frame_magic = 0x184D2204;
 constexpr std::uint32_t k_node_magic = 0xBFCF4F8B;
 constexpr std::uint32_t k_open_list = 0xFFFFFFFF;
 constexpr std::size_t k_zml_header_bytes = 32;
-constexpr int k_max_depth = 64;  // of real files: 4
-/// LZ4 makes at most 255 bytes of one.
+constexpr int k_max_depth = 64;  // real files have 4
+/// LZ4 expands a byte to at most 255 bytes.
 constexpr std::size_t k_max_zml_expansion = 256;
 constexpr std::size_t k_piece = std::size_t{1} << 20;
 
-/// Unpacked bytes; memory grows with what is really unpacked, not with what the header says.
+/// Unpacks the file. Memory grows with the bytes actually unpacked, not with the size stated in the header.
 FileBuffer unpack(const FileBuffer& packed, const RunContext& context) {
   LZ4F_dctx* raw_state = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&raw_state, LZ4F_VERSION)))
@@ -60,7 +60,7 @@ struct Node {
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes;
   std::size_t width = 1;  ///< bytes of one value
-  std::size_t data = 0;   ///< offset of its data
+  std::size_t data = 0;   ///< offset of the data
   std::size_t n_bytes = 0;
   std::vector<Node> children;
 
@@ -124,7 +124,7 @@ class TreeReader {
   ByteReader reader_;
 };
 
-/// Corners of the elements of a section; surfaces only are read.
+/// Corners of the elements of a section; only surfaces are read.
 struct ElementType {
   std::string_view name;
   std::size_t n_nodes;
@@ -199,7 +199,7 @@ class MeshReader {
   }
   std::uint64_t n_elements_of(const Node& section) const { return section.n_values() / type_of(section).n_nodes; }
 
-  /// The first condition that lists an element names it.
+  /// Reads boundary conditions; the first condition that lists an element names it.
   void take_bocos(const Node& mesh, std::uint64_t n_elements) {
     boco_of_element_.clear();
     boco_names_.clear();
@@ -258,7 +258,7 @@ class MeshReader {
   bool has_mesh_ = false;
   bool has_names_ = false;
   std::size_t first_point_ = 0, n_points_ = 0;
-  std::vector<std::uint32_t> boco_of_element_;  ///< number in boco_names_ from 1, 0 = none
+  std::vector<std::uint32_t> boco_of_element_;  ///< index into boco_names_ from 1, 0 = none
   std::vector<std::string> boco_names_;
 };
 

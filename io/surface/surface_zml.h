@@ -8,7 +8,7 @@
 
 namespace sterna::io {
 
-/// Triangles and quads of all meshes of the file; the first boundary condition that lists a face is its patch, else its section.
+/// Reads the triangles and quads of all meshes of the file. The patch of a face is the first boundary condition that lists it, else its section.
 /// \throws Error file_not_found, file_malformed (byte offset of the unpacked data), unsupported_format (other variants of zml), cancelled.
 SurfaceSoup read_zml(const std::filesystem::path& path, const RunContext& context);
 

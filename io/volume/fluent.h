@@ -1,4 +1,4 @@
-// Fluent .msh, docs/method/formats_solvers.md, "Fluent": volumes, and their walls as surfaces.
+// Fluent .msh, docs/method/formats_solvers.md, "Fluent": volume meshes, and their walls as surfaces.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,19 @@
 
 namespace sterna::io {
 
-/// Reads text and binary sections (2010, 2012, 2013, 3010, 3012, 3013). Cells are rebuilt from the faces; zones of cells are joined; face zones are patches
-/// with the names of sections 45 and 39, kinds by their type. Walls between two cells become inner faces, told in the log.
+/// Reads text and binary sections (2010, 2012, 2013, 3010, 3012, 3013). Cells are reconstructed from the faces; cell zones are joined. Face zones are patches
+/// with the names of sections 45 and 39 and kinds by their type. Walls between two cells become internal faces, reported in the log.
 /// \throws Error file_malformed (line, or byte in binary sections), unsupported_format (two dimensions, polyhedra, hanging nodes), file_not_found
 HybridMesh read_volume_fluent(const std::filesystem::path& path, const RunContext& context);
 
-/// The faces of all walls (zone type 3); of all boundary zones when there is no wall. Normals into the fluid.
+/// Reads the faces of all walls (zone type 3), or of all boundary zones if there is no wall. Normals point into the fluid.
 SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes text; cells are numbered column by column, faces have their normal into the first cell.
+/// Writes text. Cells are numbered column by column; face normals point into the first cell.
 /// \throws Error overflow (2^31 faces), mesh_invalid (faces that do not match), write_failed, cancelled
 void write_volume_fluent(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
-/// The same with the cells in another order (MeshFaces::order_cells); nodes as they are.
+/// Writes the mesh with another cell order (MeshFaces::order_cells); node numbers are unchanged.
 void write_numbered_fluent(const HybridMesh& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context);
 
 }  // namespace sterna::io

@@ -31,7 +31,7 @@ char* put_hex(char* at, std::uint64_t value, char separator) {
   return at;
 }
 
-/// Number and word of a zone's type.
+/// Number and name of a zone type.
 struct ZoneType {
   int number;
   std::string_view word;
@@ -60,7 +60,7 @@ char fluent_type(CellKind kind) {
   return '6';
 }
 
-/// Nodes from 1, backwards so that the normal points into the first cell; then the cells, 0 = outside.
+/// Writes nodes from 1, reversed so that the normal points into the first cell; then the cells, 0 = outside.
 char* put_face(char* at, std::span<const NodeId> nodes, std::uint64_t inner, std::uint64_t outer) {
   *at++ = static_cast<char>('0' + nodes.size());
   *at++ = ' ';

@@ -1,4 +1,4 @@
-// Medit readers. Sections come in any order, elements may come before the vertices: node numbers are checked at the end.
+// Medit readers. Sections come in any order, and elements may precede the vertices: node numbers are checked at the end.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,29 +19,29 @@ namespace {
 
 constexpr std::int32_t k_cookie = 1;
 constexpr std::int32_t k_swapped_cookie = 0x01000000;
-/// Codes of elements of higher order, whose loss would go unnoticed: triangles, quads, tetrahedra, hexahedra.
+/// Codes of higher-order elements, whose loss would go unnoticed: triangles, quads, tetrahedra, hexahedra.
 constexpr std::array<std::int32_t, 4> k_curved_codes = {24, 27, 30, 33};
 
-/// One element: its nodes in the file's numbers, less 1.
+/// An element: its node numbers in the file, less 1.
 template <std::size_t N>
 struct Row {
   std::array<NodeId, N> nodes;
   std::int64_t reference = 0;
 };
 
-/// Where the rows of a section begin: row `first_row` of all of its kind is at byte `offset`.
+/// Start of the rows of a section: row `first_row`, counted over all sections of its kind, is at byte `offset`.
 struct SectionStart {
   std::size_t first_row = 0, offset = 0;
 };
 
-/// The elements of one kind, perhaps of several sections.
+/// The elements of one kind, possibly from several sections.
 template <std::size_t N>
 struct Table {
   std::vector<Row<N>> rows;
   std::vector<SectionStart> starts;
 };
 
-/// What a file holds, in any of its forms.
+/// Contents of a file in any of its forms.
 class MeditReader {
  public:
   MeditReader(const FileBuffer& buffer, bool with_cells, const RunContext& context)
@@ -140,13 +140,13 @@ class MeditReader {
 
   static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-  /// Numbers to the next keyword.
+  /// Skips numbers to the next keyword.
   void skip_text(const std::string& keyword) {
     left_out_.add("sections \"" + keyword + "\"");
     for (std::string_view word = scanner_.peek(); !word.empty() && !is_letter(word[0]); word = scanner_.peek()) scanner_.skip_token("a number");
   }
 
-  /// \returns whether it is a section that is known
+  /// Reads a section. \returns true if the section is known
   template <class Is>
   bool read_section(const Is& is) {
     if (is(k_medit_vertices)) read_vertices();
@@ -174,13 +174,13 @@ class MeditReader {
     if (!std::isfinite(value)) fail("found a number that is not finite, expected " + std::string(expected));
     return value;
   }
-  /// Of a surface it may be nan or infinite: its triangles are left out later.
+  /// Reads a coordinate. For surfaces it may be nan or infinite: such triangles are left out later.
   double coordinate(std::string_view expected) {
     if (with_cells_) return real(expected);
     if (!bytes_) return scanner_.coordinate(expected);
     return version_ == 1 ? static_cast<double>(bytes_->read<float>(expected)) : bytes_->read<double>(expected);
   }
-  /// A number of rows of so many reals and integers.
+  /// Reads a number of rows with the given numbers of reals and integers.
   std::size_t count(std::size_t n_reals, std::size_t n_integers) {
     if (!bytes_) return scanner_.count("the number of entries", 2 * (n_reals + n_integers));
     const std::int64_t n = integer("the number of entries");
@@ -212,7 +212,7 @@ class MeditReader {
     has_vertices_ = true;
   }
 
-  /// \returns their number
+  /// Reads the elements. \returns their number
   template <std::size_t N>
   std::size_t read_rows(Table<N>& table, bool is_wanted, bool is_cells = false) {
     const std::size_t n = count(0, N + 1);
@@ -246,7 +246,7 @@ class MeditReader {
                               std::to_string(points_.size()));
   }
 
-  /// "line 12" or "byte 80" of a row.
+  /// Returns the location of a row: "line 12" or "byte 80".
   template <std::size_t N>
   std::string place_of(const Table<N>& table, std::size_t i) {
     const auto after =
@@ -262,7 +262,7 @@ class MeditReader {
 
   const FileBuffer& buffer_;
   TextScanner scanner_;
-  std::optional<ByteReader> bytes_;  ///< of binary files
+  std::optional<ByteReader> bytes_;  ///< only for binary files
   std::int32_t version_ = 2;
   bool with_cells_;
   std::uint64_t n_cells_ = 0;  ///< in the file

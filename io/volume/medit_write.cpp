@@ -97,7 +97,7 @@ class MeditWriter {
     number(place_ + 4 + place_bytes() + payload_bytes, place_bytes());
   }
 
-  /// Rows that put(at, i) writes.
+  /// Adds rows written by put(at, i).
   void add_rows(const MeditSection& section, std::uint64_t n, OutputSection rows) {
     if (n == 0) return;
     if (is_text_) {
@@ -175,7 +175,7 @@ class MeditWriter {
 }  // namespace
 
 void write_volume_medit(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  const FacesByPatch checked(mesh);  // refuses faces without patch
+  const FacesByPatch checked(mesh);  // rejects faces without patch
   MeditWriter writer(mesh, path);
   const std::vector<OutputSection> sections = writer.sections();
   AtomicFile names(names_path(path));

@@ -14,7 +14,7 @@ namespace {
 
 class PartReader {
  public:
-  /// \p prefix: of all names
+  /// \param prefix prefix of all array names
   PartReader(const ChunkedReader& file, std::string prefix, const RunContext& context) : file_(file), prefix_(std::move(prefix)), context_(context) {}
 
   SternaContent read() {
@@ -41,7 +41,7 @@ class PartReader {
   const StoredArray& at(std::string_view name) const { return file_.at(named(name)); }
   [[noreturn]] void fail(std::string_view name, const std::string& problem) const { file_.fail(named(name), problem); }
 
-  /// All values of an array, of which `Item` has n_components. Fails when it is missing.
+  /// Reads all values of an array with n_components per `Item`. Fails if the array is missing.
   template <class Item>
   std::vector<Item> items(std::string_view name, NumberType type, std::uint32_t n_components) const {
     if (!has(name)) fail(name, "is missing");
@@ -147,7 +147,7 @@ class PartReader {
   StoredEnvelope envelope(std::size_t n_surface_vertices) const {
     StoredEnvelope envelope;
     envelope.direction.raw() = points(part::k_direction);
-    const std::size_t n = envelope.direction.size();  // of walls with layers, as they are when actuator discs are cut into them: whoever continues compares
+    const std::size_t n = envelope.direction.size();  // vertices of walls with layers, with actuator discs cut in; callers that continue compare this number
     envelope.height.raw() = reals(part::k_height, n);
     envelope.target.raw() = reals(part::k_target, n);
     envelope.eq1.raw() = reals(part::k_eq1, n);

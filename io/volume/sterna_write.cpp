@@ -14,7 +14,7 @@ namespace {
 
 static_assert(sizeof(NodeId) == 4 && sizeof(Vec3) == 24 && sizeof(std::array<NodeId, 6>) == 24, "arrays are written as they are in memory");
 
-/// Strings, each with a NUL behind it.
+/// Joins strings, each terminated with NUL.
 std::string joined(const std::vector<std::string>& strings) {
   std::string text;
   for (std::string s : strings) {
@@ -48,7 +48,7 @@ class PartWriter {
   }
 
   void add_envelope(const StoredEnvelope& envelope, const TriMesh& surface) {
-    // Of the walls with layers alone: fewer vertices where the surface has other patches, more where actuator discs are cut into it.
+    // Only for walls with layers: fewer vertices than the surface if it has other patches, more if actuator discs are cut into it.
     const std::size_t n_lines = envelope.height.size();
     for (const std::size_t n : {envelope.direction.size(), envelope.target.size(), envelope.eq1.size(), envelope.cap.size(), envelope.limit.size()})
       require_size(n, n_lines, "values of an envelope");
@@ -76,7 +76,7 @@ class PartWriter {
   }
 
   void add_mesh(const HybridMesh& mesh) {
-    const FacesByPatch checked(mesh);  // refuses faces without patch
+    const FacesByPatch checked(mesh);  // rejects faces without patch
     require_finite(mesh.points.raw());
     require_size(mesh.layers.is_collapsed.size(), mesh.layers.n_lines(), "marks of collapsed lines");
     reals(part::k_points, 3, mesh.points.raw());
@@ -197,7 +197,7 @@ class PartWriter {
   }
 
   ChunkedWriter writer_;
-  std::string prefix_;  ///< of all names
+  std::string prefix_;  ///< prefix of all array names
   std::uint32_t version_ = k_first_chunked_version;
   RunContext context_;
 };

@@ -30,7 +30,7 @@ PatchKind kind_of(std::string_view condition, std::string_view name) {
   return kind_of_name(name);
 }
 
-/// A boundary face of the zone that is read: where it went in the mesh, and its element number in the file.
+/// A boundary face of the current zone: its index in the mesh, and its element number in the file.
 struct Face {
   std::int64_t element = 0;
   std::uint32_t index = 0;
@@ -39,7 +39,7 @@ struct Face {
 
 struct Family {
   std::string condition;   ///< "BCWallViscous"; may be empty
-  std::string patch_name;  ///< noted by our writer; may be empty
+  std::string patch_name;  ///< stored by sterna's writer; may be empty
 };
 
 enum class Contents { volume, boundary };
@@ -70,8 +70,8 @@ class CgnsReader {
   std::uint64_t n_cells() const { return n_cells_; }  ///< in the file; \pre read()
 
  private:
-  /// A surface is looked for in a base of two dimensions first, a volume in one of three; a file without such a base holds a surface alone, which is read as
-  /// one.
+  /// Finds the base. Surfaces prefer a base of two dimensions, volume meshes a base of three. A file without a base of three dimensions contains only a
+  /// surface, which is read as a surface.
   const CgnsNode& find_base() {
     const CgnsNode *found = nullptr, *surface = nullptr;
     int n_bases = 0;
@@ -133,7 +133,7 @@ class CgnsReader {
         sizes.fail("found a zone of " + std::to_string(shape_[k]) + " nodes along an index");
     }
     read_points(zone);
-    if (is_structured) return read_structured(zone, rank);  // its walls only: no volume mesh taken for a surface
+    if (is_structured) return read_structured(zone, rank);  // reads its walls only: prevents use of a volume mesh as a surface
     for (const CgnsNode& node : zone.children)
       if (node.label == "Elements_t") read_section(node);
     std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return std::pair(a.element, a.index) < std::pair(b.element, b.index); });
@@ -162,7 +162,7 @@ class CgnsReader {
       const CgnsNode* const node = grid->find(k_axis_names[axis]);
       if (!node) tree_.fail(*grid, std::string("found no ") + k_axis_names[axis]);
       values[axis] = tree_.data(*node);
-      values[axis].require_reals(static_cast<std::uint64_t>(n_nodes_), "coordinates of the nodes of " + zone.path);  // so there is a file of that size
+      values[axis].require_reals(static_cast<std::uint64_t>(n_nodes_), "coordinates of the nodes of " + zone.path);  // so the file holds that many values
     }
     const std::size_t n = static_cast<std::size_t>(n_nodes_);
     if (first_node_ + n >= NodeId::k_invalid) throw_id_overflow(first_node_ + n);
@@ -189,7 +189,7 @@ class CgnsReader {
     if (start < 1 || end < start - 1 || end == std::numeric_limits<std::int64_t>::max())
       range.fail("found the element range " + std::to_string(start) + " to " + std::to_string(end));
     const std::int64_t n = end - start + 1;
-    if (type != k_cgns_mixed) size_of(section, type);  // refuses by its name what is not read
+    if (type != k_cgns_mixed) size_of(section, type);  // rejects unsupported types by name
     const CgnsNode* const corners_node = section.find("ElementConnectivity");
     if (!corners_node) tree_.fail(section, "found no ElementConnectivity");
     const NumberArray corners = tree_.data(*corners_node);
@@ -213,13 +213,13 @@ class CgnsReader {
     }
   }
 
-  /// A section of cells of one type, which is most of a file.
+  /// Reads a section of cells of one type, which makes up most of a file.
   template <std::size_t N>
   void add_cells(std::vector<std::array<NodeId, N>>& cells, const NumberArray& corners, std::int64_t start, std::int64_t n) {
     if (n == 0) return;
     last_cell_ = std::max(last_cell_, start + n - 1);
     n_cells_ += static_cast<std::uint64_t>(n);
-    std::vector<std::array<NodeId, N>> ignored;  // a surface needs to know that the nodes are sound, not the cells
+    std::vector<std::array<NodeId, N>> ignored;  // for a surface only the node numbers must be valid, the cells are not needed
     std::vector<std::array<NodeId, N>>& found = contents_ == Contents::volume ? cells : ignored;
     const std::size_t first = found.size();
     found.resize(first + static_cast<std::size_t>(n));
@@ -227,7 +227,7 @@ class CgnsReader {
                  [&](std::size_t i) { found[first + i] = nodes_of<N>(corners, i * N, start + static_cast<std::int64_t>(i)); });
   }
 
-  /// Types in front of each element; the offsets that some versions add are not needed.
+  /// Reads a section with a type before each element; the offsets that some versions add are not needed.
   void read_mixed(const NumberArray& corners, std::int64_t start, std::int64_t n) {
     std::uint64_t at = 0;
     for (std::int64_t i = 0; i < n; ++i) {
@@ -242,7 +242,7 @@ class CgnsReader {
       corners.fail("found " + std::to_string(corners.count()) + " numbers, the " + std::to_string(n) + " elements have " + std::to_string(at));
   }
 
-  /// Nodes of an element of a type that is read.
+  /// Returns the number of nodes of a supported element type.
   std::uint64_t size_of(const CgnsNode& section, std::int64_t type) const {
     switch (type) {
       case k_cgns_node: return 1;
@@ -320,7 +320,7 @@ class CgnsReader {
     bool is_empty = false;
   };
 
-  /// Patch and point set of a condition.
+  /// Returns the patch and point set of a condition.
   Condition condition_of(const CgnsNode& node) {
     Condition condition;
     std::string type = tree_.data(node).text(), name = node.name;
@@ -369,7 +369,7 @@ class CgnsReader {
     (face.is_quad ? mesh_.boundary_quads[face.index].patch : mesh_.boundary_triangles[face.index].patch) = patch;
   }
 
-  /// \returns how many faces were named
+  /// Names faces by element numbers. \returns the number of named faces
   std::size_t name_by_elements(const Condition& condition, const CgnsNode& node) {
     const NumberArray& points = condition.points;
     std::int64_t lowest = points.integer(0), highest = lowest;
@@ -378,7 +378,7 @@ class CgnsReader {
       highest = std::max(highest, points.integer(i));
     }
     if (lowest < 1) points.fail("found the element " + std::to_string(lowest));
-    // Known broken files number boundary faces from 1 without the volume cells before them (HLPW1 files of DLR).
+    // Some non-conforming files number boundary faces from 1 without counting the volume cells first (HLPW1 files of DLR).
     const bool are_cells =
         !faces_.empty() && faces_.front().element > last_cell_ && highest <= last_cell_ && highest <= static_cast<std::int64_t>(faces_.size());
     const std::int64_t shift = are_cells ? last_cell_ : 0;
@@ -394,7 +394,7 @@ class CgnsReader {
     return n;
   }
 
-  /// Faces all of whose nodes are listed.
+  /// Names the faces whose nodes are all listed.
   std::size_t name_by_nodes(const Condition& condition) {
     const NumberArray& points = condition.points;
     std::vector<bool> is_listed(static_cast<std::size_t>(n_nodes_), false);
@@ -450,7 +450,7 @@ class CgnsReader {
     });
   }
 
-  /// Quads between the nodes first .. last, one of whose three ranges is a single index.
+  /// Adds quads between the nodes first .. last, where one of the three ranges is a single index.
   void add_quads(const std::array<std::int64_t, 3>& first, const std::array<std::int64_t, 3>& last, PatchId patch) {
     std::vector<std::size_t> along;
     for (std::size_t k = 0; k < 3; ++k)
@@ -471,7 +471,7 @@ class CgnsReader {
         mesh_.boundary_quads.push_back({{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)}, patch});
   }
 
-  /// Sections' names that conditions have replaced.
+  /// Removes patches named after sections whose faces were all assigned to conditions.
   void drop_empty_patches() {
     std::vector<bool> is_used(mesh_.patches.size(), false);
     for (const auto& face : mesh_.boundary_triangles) is_used[face.patch.index()] = true;
@@ -491,14 +491,14 @@ class CgnsReader {
   HybridMesh mesh_;
   std::map<std::string, PatchId> patches_;
   std::map<std::string, Family> families_;
-  // of the zone
+  // zone state
   const CgnsNode* zone_ = nullptr;
   std::size_t first_node_ = 0;
   std::int64_t n_nodes_ = 0;
   std::array<std::int64_t, 3> shape_{};
   std::int64_t last_cell_ = 0;  ///< highest element number of a volume cell
   std::vector<Face> faces_;
-  // of the section
+  // section state
   const CgnsNode* section_ = nullptr;
   std::optional<PatchId> section_patch_;
 

@@ -15,16 +15,16 @@ namespace sterna::io {
 namespace {
 
 constexpr std::string_view k_quad_suffix = "_quad";
-constexpr float k_hdf5_version = 3.4f;  ///< its fixed-type sections are those of every version since
+constexpr float k_hdf5_version = 3.4f;  ///< the fixed-type sections are valid in every version since
 constexpr float k_adf_version = 2.54f;
-/// What meshio calls the zone, and the section of a mesh of tetrahedra alone, which is all that it reads of CGNS; others take any name.
+/// Zone name of meshio, and its section name for a mesh of tetrahedra only, which is all that meshio reads of CGNS; other programs accept any name.
 constexpr const char *k_zone_name = "Zone1", *k_only_section = "GridElements";
-/// Names of nodes beside sections, conditions and families.
+/// Names of nodes other than sections, conditions and families.
 constexpr std::array<const char*, 14> k_taken_names = {
     "ZoneGridConnectivity", "Zone",    k_zone_name, k_only_section, "ZoneType", "ZoneBC", "GridCoordinates", "DataClass",
     "DimensionalUnits",     "PENTA_6", "PYRA_5",    "HEXA_8",       "TETRA_4",  "."};
 
-/// At most n bytes of UTF-8 text, cut before a character.
+/// Cuts a UTF-8 string to at most n bytes, at a character boundary.
 std::string cut_text(std::string text, std::size_t n) {
   if (text.size() <= n) return text;
   while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0u) == 0x80u) --n;
@@ -32,7 +32,7 @@ std::string cut_text(std::string text, std::size_t n) {
   return text;
 }
 
-/// ADF's nodes have names of ASCII: one underscore for each other character.
+/// Returns an ASCII name for ADF nodes: one underscore for each other character.
 std::string ascii_name(std::string_view utf8) {
   std::string name;
   for (const char c : utf8) {
@@ -44,7 +44,7 @@ std::string ascii_name(std::string_view utf8) {
   return name;
 }
 
-/// Names of nodes for the patches; those with triangles and quads leave room for the suffix.
+/// Returns node names for the patches; patches with triangles and quads leave room for the suffix.
 std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& faces, bool is_adf, const RunContext& context) {
   std::set<std::string, std::less<>> taken(k_taken_names.begin(), k_taken_names.end());
   std::vector<std::string> names;
@@ -174,7 +174,7 @@ class CgnsWriter {
     return grid;
   }
 
-  /// A section of n elements behind the n_elements before it; `format` gives the corners.
+  /// Returns a section of n elements after the n_elements before it; `format` gives the corners.
   CgnsOutputNode section(std::string name, std::int64_t type, std::uint64_t n, std::uint64_t size, std::uint64_t& n_elements,
                          decltype(OutputSection::format) format) const {
     CgnsOutputNode node = cgns_node(std::move(name), "Elements_t", output_numbers<std::int32_t>(NumberKind::i4, {2}, {static_cast<std::int32_t>(type), 0}));
@@ -226,7 +226,7 @@ class CgnsWriter {
 
   CgnsOutputNode condition(PatchId patch, std::uint64_t first, std::uint64_t last) const {
     CgnsOutputNode node = text_node(names_[patch.index()], "BC_t", "FamilySpecified");
-    // In a base of two dimensions the faces are the cells. Before version 3 a condition lists elements as such.
+    // In a base of two dimensions the faces are the cells. Before version 3 a condition refers to elements directly.
     if (is_adf_ && !is_surface()) {
       node.children.push_back(cgns_node("ElementRange", "IndexRange_t", sizes({1, 2}, {first, last})));
     } else {
@@ -237,7 +237,8 @@ class CgnsWriter {
     return node;
   }
 
-  /// Periodic sides, seen from each of the two: their nodes in the same order, and the way to the other. CGNS has 32 bits for that.
+  /// Returns the connectivity of periodic sides, seen from each side: their nodes in the same order, and the translation to the other side. CGNS uses 32 bits
+  /// here.
   CgnsOutputNode connectivity() const {
     CgnsOutputNode all = cgns_node("ZoneGridConnectivity", "ZoneGridConnectivity_t");
     for (const PeriodicSides& sides : mesh_.periodic) {

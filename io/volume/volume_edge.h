@@ -8,13 +8,13 @@
 
 namespace sterna::io {
 
-/// Reads both binary versions, little-endian ones too, and text; with or without the node "region". Names of patches come from the mesh, their kinds from the
-/// .aboc or .bboc file beside it (same name), else from the names.
+/// Reads both binary versions, little-endian ones too, and text; with or without the node "region". Patch names come from the mesh, kinds from the .aboc or
+/// .bboc file beside it (same name), else from the names.
 /// \throws Error file_malformed (byte offset or line), unsupported_format, file_not_found
 HybridMesh read_volume_edge(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes x.bmsh in version 1, x.v2.bmsh in version 2 (64-bit sizes), and the conditions as text beside it (x.aboc). Boundary faces point into the fluid, as
-/// the tool has them that Edge's users come from. In version 1 an element group has at most 2 GiB; larger ones are split.
+/// Writes x.bmsh in version 1, x.v2.bmsh in version 2 (64-bit sizes), and the conditions as text beside it (x.aboc). Boundary faces point into the fluid, as in
+/// the mesh generator from which Edge users migrate. In version 1 an element group has at most 2 GiB; larger groups are split.
 /// \throws Error overflow (version 1: coordinates of more than 89 million nodes; 2^31 nodes), mesh_invalid, write_failed, cancelled
 void write_volume_edge(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

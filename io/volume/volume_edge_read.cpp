@@ -28,7 +28,7 @@ std::string text_below(const FfaNode& node, std::string_view child) {
   return value.text();
 }
 
-/// Appends the elements of N nodes; take(nodes) for each.
+/// Appends elements of N nodes; calls take(nodes) for each.
 template <std::size_t N, class Take>
 void read_nodes(const FfaNode& table, std::size_t n_points, const Take& take) {
   if (!table.is_integer() || table.n_columns != N)
@@ -57,7 +57,7 @@ void read_group(const FfaNode& group, HybridMesh& mesh, std::int64_t& n_dropped)
   else table.fail("found elements of the type " + quoted_excerpt(type) + ", expected tetra4, penta5, penta6 or hexa8");
 }
 
-/// Faces point into the fluid in most files: turned round as a whole; what then is wrong is turned by orient_mesh().
+/// Reads the boundary. In most files faces point into the fluid, so all are reversed; orient_mesh() corrects the remaining faces.
 void read_boundary(const FfaNode& boundary, const std::map<std::string, PatchKind>& kinds, HybridMesh& mesh) {
   const std::string name = text_below(boundary, "boundary_name");
   const PatchId patch = find_or_add_patch(mesh.patches, name);

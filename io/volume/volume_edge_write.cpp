@@ -1,5 +1,5 @@
-// Writer of .bmsh. Tables are column-major: all first nodes of a group, then all second nodes. A node's header must tell its children before they come, so the
-// tree is laid out first.
+// Writer of .bmsh. Tables are column-major: all first nodes of a group, then all second nodes. A node's header states the number of children before they are
+// written, so the tree is laid out first.
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -15,7 +15,7 @@
 namespace sterna::io {
 namespace {
 
-/// Fortran's record markers are signed: longer records would be cut into parts, which most readers do not know.
+/// Fortran record markers are signed: longer records would be split into parts, which most readers do not support.
 constexpr std::uint64_t k_max_record = k_max_int32 - 8;
 constexpr std::size_t k_name_bytes = 16, k_type_bytes = 4, k_text_bytes = 72;
 constexpr std::array<CellKind, 4> k_edge_kinds = {CellKind::hexahedron, CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
@@ -67,7 +67,7 @@ class EdgeWriter {
     std::uint64_t begin, end;
   };
 
-  /// The elements [0, n) in as few groups as records allow.
+  /// Splits the elements [0, n) into as few groups as the record limit allows.
   std::vector<Group> groups(std::uint64_t n, std::uint64_t n_nodes) const {
     const std::uint64_t most = is_v2_ ? std::max<std::uint64_t>(n, 1) : k_max_record / (n_nodes * sizeof(std::int32_t));
     std::vector<Group> result;
@@ -106,7 +106,7 @@ class EdgeWriter {
     if (!is_v2_) number(k_text_bytes);
   }
 
-  /// A table that `format` fills, value by value in column-major order.
+  /// Adds a table filled by `format`, value by value in column-major order.
   void table(std::string_view name, char type, std::size_t value_bytes, std::uint64_t n_columns, std::uint64_t n_rows, OutputSection values) {
     node(name, type, n_columns, n_rows, 0);
     const std::uint64_t n = n_columns * n_rows;
@@ -117,7 +117,7 @@ class EdgeWriter {
     if (!is_v2_) number(n * value_bytes);
   }
 
-  /// Splits values [begin, end) of a table by column: f(column, first row, behind the last row).
+  /// Splits the values [begin, end) of a table by column: f(column, first row, end row).
   template <class F>
   static void by_column(std::uint64_t begin, std::uint64_t end, std::uint64_t n_rows, const F& f) {
     while (begin < end) {
@@ -166,7 +166,7 @@ class EdgeWriter {
     }
   }
 
-  /// Backwards: into the fluid.
+  /// Returns the nodes reversed: the normal points into the fluid.
   template <class Face>
   void face_groups(std::string_view type, const std::vector<Face>& faces, std::span<const std::uint32_t> which) {
     constexpr std::size_t n_columns = std::tuple_size_v<decltype(Face{}.nodes)>;

@@ -1,4 +1,4 @@
-// polyMesh reader: points, faces, their cells, patches; the cells are rebuilt from the faces.
+// polyMesh reader: points, faces, their cells, patches; the cells are reconstructed from the faces.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -18,8 +18,8 @@ namespace {
 struct FoamPatch {
   Patch patch;
   std::uint64_t first_face = 0, n_faces = 0;
-  std::string neighbour;  ///< of a cyclic one
-  bool is_guess = false;  ///< neither its type nor its groups nor its name say what it is
+  std::string neighbour;  ///< neighbour of a cyclic patch
+  bool is_guess = false;  ///< neither type nor groups nor name state the kind
 };
 
 PatchKind kind_of(std::string_view type, const std::vector<std::string>& groups, std::string_view name) {
@@ -32,7 +32,7 @@ PatchKind kind_of(std::string_view type, const std::vector<std::string>& groups,
   return kind == PatchKind::wall ? PatchKind::farfield : kind;
 }
 
-/// The value of an entry up to its ";", words in a flat list.
+/// Reads the value of an entry up to its ";" as a flat list of words.
 std::vector<std::string> read_value(FoamFile& file) {
   std::vector<std::string> words;
   for (std::string_view word = file.token(); word != ";"; word = file.token()) {
@@ -79,7 +79,7 @@ FoamPatch read_patch(FoamFile& file) {
   return patch;
 }
 
-/// Patches with the faces from n_internal to n_faces, without gap. Returns the neighbours of cyclic ones, by patch.
+/// Reads the patches, which cover the faces from n_internal to n_faces without gaps. Returns the neighbours of cyclic patches, by patch.
 std::vector<std::string> read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceBasedMesh& faces, HybridMesh& mesh,
                                        const RunContext& context) {
   FoamFile file(folder / "boundary", "polyBoundaryMesh", context);
@@ -106,7 +106,7 @@ std::vector<std::string> read_boundary(const std::filesystem::path& folder, std:
   return neighbours;
 }
 
-/// Pairs of cyclic patches that are one another's image, moved; others (turned, or of other faces) are told of.
+/// Finds pairs of cyclic patches that match by a translation; other pairs (rotated, or with different faces) are reported.
 void find_periodic(const std::vector<std::string>& neighbours, HybridMesh& mesh, const RunContext& context) {
   for (const PatchId patch : mesh.patches.ids()) {
     const auto other = std::ranges::find(mesh.patches, neighbours[patch.index()], &Patch::name);
@@ -123,14 +123,14 @@ void find_periodic(const std::vector<std::string>& neighbours, HybridMesh& mesh,
   }
 }
 
-/// The zone that `sterna` itself writes of its layers.
+/// Name of the layer zone written by sterna.
 constexpr const char* k_layer_zone = "layers";
 constexpr std::size_t k_named_zones = 4;  ///< in messages
 
-/// Names of the zones in the text of a file: the words before "{ type cellZone". Their lists may be binary.
+/// Returns the names of the zones in a file: the words before "{ type cellZone". Their lists may be binary.
 std::vector<std::string> zone_names(std::string_view text, const std::string& type) {
   std::vector<std::string> names;
-  const auto before = [&](std::size_t at) {  // the end of what precedes a place and its blanks
+  const auto before = [&](std::size_t at) {  // end of the text before a position, without blanks
     while (at > 0 && std::isspace(static_cast<unsigned char>(text[at - 1])) != 0) --at;
     return at;
   };
@@ -147,13 +147,13 @@ std::vector<std::string> zone_names(std::string_view text, const std::string& ty
   return names;
 }
 
-/// Zones are sets of cells, faces or points beside the patches; a mesh here has none.
+/// Warns about zones, sets of cells, faces or points in addition to the patches, which HybridMesh cannot store.
 void warn_of_zones(const std::filesystem::path& folder, const RunContext& context) {
   constexpr std::array<std::array<const char*, 3>, 3> k_files = {
       {{"cellZones", "cellZone", "cells"}, {"faceZones", "faceZone", "faces"}, {"pointZones", "pointZone", "points"}}};
   for (const auto& [name, type, items] : k_files) {
     const std::filesystem::path path = packed_or_plain(folder / name);
-    std::error_code status;  // what cannot be looked at is not read
+    std::error_code status;  // files that cannot be accessed are not read
     if (!std::filesystem::is_regular_file(path, status)) continue;
     std::vector<std::string> zones;
     try {
@@ -182,7 +182,7 @@ void warn_of_zones(const std::filesystem::path& folder, const RunContext& contex
 std::filesystem::path polymesh_folder(const std::filesystem::path& path) {
   if (!path.has_filename() && path.has_parent_path()) return polymesh_folder(path.parent_path());  // ends in a slash
   if (path.filename() == "polyMesh") return path;
-  std::error_code status;  // of a path that cannot be looked at; who opens it says what is wrong with it
+  std::error_code status;  // if the path cannot be accessed; opening it reports the error
   if (std::filesystem::is_directory(path, status)) return path / "constant" / "polyMesh";
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -198,7 +198,7 @@ std::vector<std::filesystem::path> polymesh_files(const std::filesystem::path& p
 
 HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext& context) {
   std::error_code status;
-  if (!std::filesystem::exists(path, status))  // the polyMesh beside it may be another mesh's
+  if (!std::filesystem::exists(path, status))  // the polyMesh beside it may belong to another mesh
     throw Error(
         {.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = status ? status.message() : "there is no such file or folder"});
   const std::filesystem::path folder = polymesh_folder(path);

@@ -1,5 +1,5 @@
-// polyMesh writer: five files, and cellZones where there are zones. Inner faces first, by their lower cell and then by the other; then the boundary, patch by
-// patch. Around it the least of a case without which no tool of OpenFOAM starts.
+// polyMesh writer: five files, and cellZones if there are zones. Internal faces first, ordered by their lower cell and then by the other cell; then the
+// boundary, patch by patch. Adds the minimum of case files without which no OpenFOAM tool starts.
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -24,13 +24,14 @@ constexpr std::size_t k_max_label_text = 11;                             // with
 constexpr std::size_t k_max_face_text = 2 + 4 * k_max_label_text + 2;    // "4(1 2 3 4)\n"
 constexpr std::size_t k_max_point_text = 3 * (k_max_real_text + 1) + 3;  // "(1 2 3)\n"
 
-/// The second of two periodic sides in OpenFOAM's order: its faces as those of the first, each from the node on that is the partner of the first one's first.
+/// The second of two periodic sides in OpenFOAM's order: faces in the order of the first side, each beginning with the partner of the first face's first node.
 struct CyclicSide {
   std::vector<std::uint32_t> triangles, quads;
-  std::vector<std::uint8_t> triangle_begins, quad_begins;  ///< number of that node
+  std::vector<std::uint8_t> triangle_begins, quad_begins;  ///< index of that node
 };
 
-/// \pre `match` of these sides
+/// Orders the second side.
+/// \pre `match` belongs to these sides
 CyclicSide order_cyclic(const HybridMesh& mesh, const FacesByPatch& faces, PatchId first, const PeriodicMatch& match) {
   const auto n_triangles = static_cast<std::uint32_t>(mesh.boundary_triangles.size());
   const auto nodes_of = [&](std::uint32_t face) {
@@ -101,7 +102,7 @@ class FoamWriter {
     return text + "    location \"constant/polyMesh\";\n    object " + std::string(object) + ";\n}\n\n";
   }
 
-  /// A list's frame; OpenFOAM's binary lists have no brackets when they are empty.
+  /// Adds the brackets of a list; OpenFOAM's binary lists have none when empty.
   void add_list(std::vector<OutputSection>& file, std::vector<OutputSection> items, std::uint64_t n) const {
     if (is_binary_ && n == 0) {
       file.push_back(fixed_section("0\n"));
@@ -159,7 +160,7 @@ class FoamWriter {
             }};
   }
 
-  /// put(at, cell, face) for the internal faces of cells [begin, end).
+  /// Returns sections written by put(at, cell, face) for the internal faces of cells [begin, end).
   template <class Put>
   OutputSection internal(std::size_t max_bytes, const Put& put) const {
     return {.n_items = faces_.n_cells(), .format = [this, max_bytes, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
@@ -169,7 +170,7 @@ class FoamWriter {
             }};
   }
 
-  /// put(at, nodes, cell) for the faces of a patch: triangles, then quads.
+  /// Returns sections written by put(at, nodes, cell) for the faces of a patch: triangles, then quads.
   template <class Put>
   void add_boundary(std::vector<OutputSection>& sections, std::size_t max_bytes, const Put& put) const {
     for (const PatchId patch : mesh_.patches.ids()) {
@@ -231,7 +232,7 @@ class FoamWriter {
     return sections;
   }
 
-  /// Where each face's nodes begin, and the end of the last.
+  /// Returns the offsets of the faces' nodes, and the end of the last.
   std::vector<OutputSection> face_places() const {
     std::vector<OutputSection> sections{{.n_items = faces_.n_cells(), .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                            char* at = out.reserve((end - begin) * k_most_foam_faces * sizeof(std::int32_t));
@@ -269,7 +270,7 @@ class FoamWriter {
     return internal(k_max_label_text, [this](char* at, std::uint64_t, const CellFace& face) { return put_label(at, face.neighbour); });
   }
 
-  /// The type, and for kinds that types do not tell, a group.
+  /// Returns the type, with a group for kinds that types cannot express.
   std::string type_of(PatchId patch) const {
     const std::string type = foam_patch_type(mesh_, patch);
     return type == "patch" ? type + ";\n        inGroups 1(" + std::string(to_string(mesh_.patches[patch].kind)) + ")" : type;
@@ -295,7 +296,7 @@ class FoamWriter {
     file.commit();
   }
 
-  /// The cells of the layer: none where the mesh has no columns.
+  /// Returns the cells of the layer; empty if the mesh has no columns.
   std::vector<std::uint32_t> layer_cells() const {
     std::vector<std::uint32_t> cells(faces_.n_column_cells());
     for (std::uint32_t i = 0; i < cells.size(); ++i) cells[i] = faces_.number_of(i);
@@ -340,26 +341,26 @@ class FoamWriter {
   RunContext context_;
   MeshFaces faces_;
   FacesByPatch by_patch_;
-  std::map<PatchId, PatchId> neighbour_;  ///< of periodic sides
-  std::map<PatchId, CyclicSide> cyclic_;  ///< of the second ones
+  std::map<PatchId, PatchId> neighbour_;  ///< neighbours of periodic sides
+  std::map<PatchId, CyclicSide> cyclic_;  ///< face order of the second sides
   std::uint64_t n_internal_ = 0, n_faces_ = 0, n_face_nodes_ = 0;
 };
 
-/// The empty file by which ParaView opens a case; none where `path` names a folder.
+/// Returns the empty file by which ParaView opens a case; an empty path if `path` is a folder.
 std::filesystem::path marker_of(const std::filesystem::path& path) {
   std::error_code status;
   if (!path.has_filename() || polymesh_folder(path) == path || std::filesystem::is_directory(path, status)) return {};
   return polymesh_folder(path) == path / "constant" / "polyMesh" ? std::filesystem::path() : path;
 }
 
-/// "text.foam" and "case.text.foam" are text, all else binary.
+/// Returns true for "text.foam" and "case.text.foam"; all other names mean binary.
 bool is_text_name(const std::filesystem::path& path) {
   std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return name.ends_with("text.foam");
 }
 
-/// The least without which no tool of OpenFOAM starts, checkMesh neither; what is there already stays. mesh:foam_case writes a case that can be run.
+/// Writes the minimum without which no OpenFOAM tool starts, including checkMesh; existing files are kept. mesh:foam_case writes a case that can be run.
 void write_missing_settings(const std::filesystem::path& folder) {
   constexpr std::array<std::array<std::string_view, 2>, 3> k_settings = {{
       {"controlDict",
@@ -372,7 +373,7 @@ void write_missing_settings(const std::filesystem::path& folder) {
        "Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }\n"},
       {"fvSolution", "solvers {}\n"},
   }};
-  std::error_code status;  // of what cannot be looked at: writing says what is wrong with it
+  std::error_code status;  // if a path cannot be accessed; writing reports the error
   for (const auto& [name, text] : k_settings) {
     if (std::filesystem::exists(folder / name, status)) continue;
     std::filesystem::create_directories(folder, status);
@@ -384,7 +385,7 @@ void write_missing_settings(const std::filesystem::path& folder) {
 
 void require_foam_output(const std::filesystem::path& path) {
   const std::filesystem::path marker = marker_of(path);
-  std::error_code status;  // of what cannot be looked at: the writer says what is wrong with it
+  std::error_code status;  // if the path cannot be accessed; the writer reports the error
   if (marker.empty() || std::filesystem::exists(marker, status) || !std::filesystem::exists(polymesh_folder(path), status)) return;
   const std::filesystem::path folder = marker.has_parent_path() ? marker.parent_path() : ".";
   std::vector<std::string> others;
@@ -401,13 +402,13 @@ void require_foam_place(const std::filesystem::path& path) {
   require_foam_output(path);
   const std::filesystem::path folder = polymesh_folder(path).parent_path().parent_path();
   const std::filesystem::path above = path.extension() == ".foam" ? folder : folder.parent_path();
-  std::error_code status;  // what cannot be looked at is not there
+  std::error_code status;  // a path that cannot be accessed is treated as missing
   if (!above.empty() && !std::filesystem::is_directory(above, status))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + above.string()});
 }
 
 std::vector<std::string> foam_patch_names(const Column<PatchId, Patch>& patches, const RunContext& context) {
-  // Words of OpenFOAM: no blanks, quotes, slashes, semicolons, braces; brackets and '$', '#', ':' mean something to its dictionaries.
+  // OpenFOAM words: no blanks, quotes, slashes, semicolons, braces; brackets and '$', '#', ':' have a meaning in dictionaries.
   return names_by_rules(patches, {.format = "OpenFOAM", .forbidden = "\"'\\/;{}()[]<>$#:,|*?!", .may_begin_with_digit = false, .may_have_blanks = false},
                         context);
 }

@@ -1,5 +1,5 @@
-// SU2 reader, docs/method/formats.md, "SU2 variants". Steps: index_zones finds the blocks; read_points; count_cells per chunk, so that each chunk knows its
-// place in the arrays; read_cells; orient_mesh repairs windings. The text is never copied; parsing is parallel over chunks of lines.
+// SU2 reader, docs/method/formats.md, "SU2 variants". Steps: index_zones finds the blocks; read_points; count_cells per chunk, which gives each chunk its
+// position in the arrays; read_cells; orient_mesh repairs windings. The text is never copied; chunks of lines are parsed in parallel.
 #include <array>
 #include <optional>
 #include <utility>
@@ -20,7 +20,7 @@ struct Zone : Su2Zone {
   bool is_empty() const { return !points && !elements && markers.empty() && !has_dimension; }
 };
 
-/// First pass over the file: keywords are understood, blocks are passed over.
+/// First pass over the file: interprets keywords, skips blocks.
 class ZoneIndexer {
  public:
   explicit ZoneIndexer(const FileBuffer& buffer) : source_(buffer.source), cursor_(buffer.text(), source_) {}
@@ -124,13 +124,13 @@ class ZoneIndexer {
   bool is_in_unknown_section_ = false;
 };
 
-/// Chunk of element or marker lines; elements have no patch.
+/// A chunk of element or marker lines; elements have no patch.
 struct CellChunk {
   LineChunk lines;
   PatchId patch;
 };
 
-/// Numbers of cells by CellKind, then triangles and quads.
+/// Slots: cells by CellKind, then triangles and quads.
 enum : std::size_t { k_triangle_slot = 4, k_quad_slot = 5 };
 using SlotCounts = std::array<std::uint64_t, 6>;
 
@@ -181,7 +181,7 @@ void read_nodes(LineCursor& cursor, std::array<NodeId, N>& nodes, const std::arr
   for (std::size_t k = 0; k < N; ++k) nodes[order[k]] = NodeId(static_cast<std::uint32_t>(first_node) + cursor.index(n_nodes, "a node of element ", item));
 }
 
-/// \param place where the chunk's first item of each slot goes
+/// \param place position of the chunk's first item in each slot
 void read_chunk(const CellChunk& chunk, std::string_view source, std::size_t first_node, std::uint64_t n_nodes, SlotCounts place, HybridMesh& mesh) {
   constexpr std::array<std::uint8_t, 8> k_same = {0, 1, 2, 3, 4, 5, 6, 7};
   LineCursor cursor(chunk.lines, source);

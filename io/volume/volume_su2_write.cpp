@@ -56,7 +56,7 @@ OutputSection cell_section(const CellSections& cells, CellKind kind) {
           }};
 }
 
-/// Faces `which` of `faces`, all of one patch.
+/// Returns the section of the faces `which` of `faces`, all of one patch.
 template <class Face>
 OutputSection face_section(const std::vector<Face>& faces, std::span<const std::uint32_t> which, int type) {
   return {.n_items = which.size(), .format = [&faces, which, type](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {

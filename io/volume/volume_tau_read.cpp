@@ -1,4 +1,4 @@
-// TAU reader: points, cells by kind, surface elements with their markers, names of markers.
+// TAU reader: points, cells by kind, surface elements with their markers, marker names.
 #include <cmath>
 #include <map>
 
@@ -63,7 +63,7 @@ class TauReader {
     });
   }
 
-  /// Corners of elements of N nodes; none where the file has no such elements.
+  /// Reads the corners of elements of N nodes; empty if the file has no such elements.
   template <std::size_t N>
   std::vector<std::array<NodeId, N>> corners_of(const TauElement& element) {
     context_.check_stop();
@@ -109,7 +109,7 @@ class TauReader {
     for (std::size_t i = 0; i < quads.size(); ++i) mesh_.boundary_quads.push_back({quads[i], patches_.at(markers.integer(triangles.size() + i))});
   }
 
-  /// The markers that have faces: those that the file lists, in its order, then others by number.
+  /// Adds the markers that have faces: markers listed in the file, in its order, then others by number.
   void add_patches(const NumberArray& markers, std::uint64_t n) {
     std::map<std::int64_t, bool> is_added;
     for (std::uint64_t i = 0; i < n; ++i) is_added.emplace(markers.integer(i), false);

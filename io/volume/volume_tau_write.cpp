@@ -44,7 +44,7 @@ class TauWriter {
 
   const NetcdfOutput& contents() const { return contents_; }
 
-  /// The mapping cannot spell comments and line ends in names.
+  /// Returns the mapping file. Comment characters and line ends in names cannot be stored.
   std::string mapping() const {
     std::vector<TauMarker> markers = markers_;
     for (TauMarker& marker : markers) {
@@ -79,11 +79,11 @@ class TauWriter {
   }
 
   static char* put_nodes(char* at, std::span<const NodeId> nodes) {
-    for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int32_t>(node.value()), std::endian::little);  // counts were checked
+    for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int32_t>(node.value()), std::endian::little);  // the range was checked
     return at;
   }
 
-  /// Absent kinds have neither dimension nor variable: a length of 0 means "unlimited".
+  /// Adds elements. Kinds without elements have neither dimension nor variable: a length of 0 means "unlimited".
   void add_elements(const TauElement& element, std::uint64_t n, std::uint64_t size, decltype(OutputSection::format) format) {
     if (n == 0) return;
     const std::size_t count = dimension("no_of_" + std::string(element.plural), n), width = dimension("points_per_" + std::string(element.singular), size);

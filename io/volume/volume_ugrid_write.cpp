@@ -1,4 +1,4 @@
-// UGRID writer: seven counts, nodes, faces (inwards, as NASA's tools have them), their patch numbers, cells. Text and binary differ in how a number is put.
+// UGRID writer: seven counts, nodes, faces (inwards, as in NASA's tools), their patch numbers, cells. Text and binary differ in the number format.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -18,9 +18,9 @@ namespace sterna::io {
 namespace {
 
 constexpr std::array<CellKind, 4> k_ugrid_kinds = {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron};
-constexpr std::size_t k_max_line = 8 * (k_max_integer_text + 1);  // of a hexahedron; a node's three coordinates and a binary item take less
+constexpr std::size_t k_max_line = 8 * (k_max_integer_text + 1);  // line of a hexahedron; a node's three coordinates and a binary item are shorter
 
-/// Puts the numbers of one item, as text (a line each) or as bytes.
+/// Writes the numbers of one item, as text (one line) or as bytes.
 class ItemWriter {
  public:
   ItemWriter(const UgridVariant& variant, char* at) : variant_(variant), at_(at) {}
@@ -31,7 +31,7 @@ class ItemWriter {
     } else if (variant_.is_wide) {
       at_ = put_bytes(at_, value, variant_.order);
     } else {
-      at_ = put_bytes(at_, static_cast<std::int32_t>(value), variant_.order);  // counts were checked
+      at_ = put_bytes(at_, static_cast<std::int32_t>(value), variant_.order);  // the range was checked
     }
   }
   void node(NodeId id) { integer(static_cast<std::int64_t>(id.value()) + 1); }
@@ -55,7 +55,7 @@ class ItemWriter {
   char* at_;
 };
 
-/// Items of which `put(i, writer)` writes number i.
+/// Returns a section of items; `put(i, writer)` writes the numbers of item i.
 template <class Put>
 OutputSection items(const UgridVariant& variant, std::uint64_t n, const Put& put) {
   return {.n_items = n, .format = [&variant, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
@@ -105,7 +105,7 @@ std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSection
   return sections;
 }
 
-/// FUN3D has one symmetry condition per axis: 6661, 6662, 6663 for the normal x, y, z. \returns the axis in which the patch is thinnest
+/// Returns the axis in which the patch is thinnest. FUN3D has one symmetry condition per axis: 6661, 6662, 6663 for the normal x, y, z.
 int symmetry_axis(const HybridMesh& mesh, const FacesByPatch& faces, PatchId patch) {
   Box box;
   for (const std::uint32_t f : faces.triangles(patch))
@@ -113,7 +113,7 @@ int symmetry_axis(const HybridMesh& mesh, const FacesByPatch& faces, PatchId pat
   for (const std::uint32_t f : faces.quads(patch))
     for (const NodeId node : mesh.boundary_quads[f].nodes) box.add(mesh.points[node]);
   const Vec3 size = box.max - box.min;
-  int thinnest = 1;  // y of aircraft, where sizes are equal
+  int thinnest = 1;  // y, as for aircraft, if extents are equal
   for (const int axis : {0, 2})
     if (size[static_cast<std::size_t>(axis)] < size[static_cast<std::size_t>(thinnest)]) thinnest = axis;
   return thinnest;
@@ -145,7 +145,7 @@ std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const 
   return std::to_string(n) + "\n" + lines;
 }
 
-/// The coordinates as a reader of single precision has them.
+/// Returns the coordinates as read from a single-precision file.
 std::vector<Point> in_single_precision(const HybridMesh& mesh, const RunContext& context) {
   const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };
   std::vector<Point> places(mesh.points.size());
@@ -156,8 +156,8 @@ std::vector<Point> in_single_precision(const HybridMesh& mesh, const RunContext&
   return places;
 }
 
-/// Warns of how far single precision moves the nodes.
-/// \throws Error mesh_invalid where cells are flat or folded at the coordinates of the file.
+/// Warns about the node displacement caused by single precision.
+/// \throws Error mesh_invalid if cells are flat or folded at the coordinates of the file.
 void require_single_precision_cells(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   const std::vector<Point> places = in_single_precision(mesh, context);
   const double moved = parallel_reduce(

@@ -1,4 +1,4 @@
-// VTKHDF of volume meshes, docs/method/formats.md, "VTKHDF".
+// VTKHDF files of volume meshes, docs/method/formats.md, "VTKHDF".
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@ namespace sterna::io {
 
 /// Writes an UnstructuredGrid of version 1.0, which VTK 9.1 and ParaView 5.10 read, with 64-bit ids, in one partition. Cells: prisms, pyramids, hexahedra,
 /// tetrahedra (VTK winding), then boundary triangles and quads. Cell data: "marker" = number of the patch from 1, 0 for volume cells; "layer" = 1 for a cell at
-/// the wall and so on outwards, 0 for cells and faces of no layer. Field data: one number per patch, named "patch:<kind>:<name>", the marker; '/' in a name
-/// becomes '_' there, with a warning, and an attribute keeps the whole name. Streams: below 100 MB of memory beside the mesh.
+/// the wall, increasing outwards, 0 for cells and faces outside the layers. Field data: the marker of each patch, named "patch:<kind>:<name>". '/' in such a
+/// name becomes '_', with a warning, and an attribute stores the full name. Streams: below 100 MB of memory in addition to the mesh.
 /// \throws Error mesh_invalid, write_failed, cancelled.
 void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 /// Reads an UnstructuredGrid of any version and number of partitions. Patches of faces: the first integer cell array of marker, boundary, CellEntityIds,
-/// gmsh:physical, ids (none: one patch); names and kinds from the field data that write_volume_vtkhdf writes, else "patch_<number>". Cells in a wrong winding
-/// are flipped, faces turned outwards, points and lines left out; all is counted in the log.
+/// gmsh:physical, ids (none: one patch); names and kinds from the field data that write_volume_vtkhdf writes, else "patch_<number>". Cells with the wrong
+/// winding are flipped, faces turned outwards, points and lines left out; all are counted in the log.
 /// \throws Error file_malformed, unsupported_format (other types, other cells), file_not_found.
 HybridMesh read_volume_vtkhdf(const std::filesystem::path& path, const RunContext& context);
-/// The same for the boundary faces: coordinates may be nan or infinite.
+/// Reads the boundary faces; coordinates may be nan or infinite.
 HybridMesh read_boundary_vtkhdf(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

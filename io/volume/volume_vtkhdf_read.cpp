@@ -1,4 +1,4 @@
-// VTKHDF reader: the datasets of the group, then partition by partition the points and cells.
+// VTKHDF reader: the datasets of the group, then the points and cells of each partition.
 #include <array>
 #include <map>
 #include <optional>
@@ -15,7 +15,7 @@
 namespace sterna::io {
 namespace {
 
-/// Cell arrays that number boundaries, in order of preference.
+/// Cell arrays that identify boundaries, in order of preference.
 constexpr std::array<std::string_view, 5> k_marker_names = {"marker", "boundary", "CellEntityIds", "gmsh:physical", "ids"};
 constexpr std::string_view k_patch_prefix = "patch:";
 
@@ -58,7 +58,7 @@ class VtkHdfReader {
     return values;
   }
 
-  /// One number for each partition.
+  /// Reads one number per partition.
   std::vector<std::uint64_t> counts(std::string_view name) {
     const NumberArray values = array(name);
     values.require_integers(values.count(), "a number for each partition");
@@ -89,7 +89,7 @@ class VtkHdfReader {
     });
   }
 
-  /// Patches that the field data names, in its order.
+  /// Reads the patches named in the field data, in its order.
   void read_names() {
     if (!group_.find("FieldData")) return;
     for (const ContainerNode& field : file_.child(group_, "FieldData").children) {
@@ -187,7 +187,7 @@ class VtkHdfReader {
   std::optional<NumberArray> markers_;
   std::map<std::int64_t, PatchId> patches_;
   std::vector<NodeId> nodes_;
-  std::uint64_t first_point_ = 0, first_cell_ = 0, first_id_ = 0, first_offset_ = 0;  ///< of the partition
+  std::uint64_t first_point_ = 0, first_cell_ = 0, first_id_ = 0, first_offset_ = 0;  ///< offsets of the current partition
   std::int64_t n_left_out_ = 0;
   HybridMesh mesh_;
 };

@@ -10,10 +10,10 @@
 namespace sterna::io {
 namespace {
 
-/// Cells of one kind, or the boundary faces of one size, as they follow each other in the file.
+/// Cells of one kind, or the boundary faces of one size, in file order.
 struct HdfRun {
   int type = 0;
-  std::uint64_t n_nodes = 0;  ///< of a cell
+  std::uint64_t n_nodes = 0;  ///< nodes per cell
   std::uint64_t n_cells = 0;
   /// Calls f(nodes in VTK order, layer, marker) for cells [begin, end).
   std::function<void(std::uint64_t begin, std::uint64_t end, const std::function<void(std::span<const NodeId>, int, std::int32_t)>& f)> for_each;
@@ -64,7 +64,7 @@ OutputArray hdf_points_array(const HybridMesh& mesh) {
                                                                   }}}};
 }
 
-/// One value of type T for each cell, value(nodes, layer, marker); or all nodes where `has_nodes`.
+/// Adds an array with one value of type T per cell, value(nodes, layer, marker); or all nodes if `has_nodes`.
 template <class T, class Put>
 OutputArray per_cell(NumberKind kind, std::uint64_t n_values, const std::vector<HdfRun>& runs, bool has_nodes, const Put& put) {
   OutputArray array{.kind = kind, .extents = {n_values}, .content = {}};
@@ -127,7 +127,7 @@ Hdf5OutputNode patch_numbers(const HybridMesh& mesh, const RunContext& context) 
 }  // namespace
 
 void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  const FacesByPatch checked(mesh);  // refuses faces without patch
+  const FacesByPatch checked(mesh);  // rejects faces without patch
   const CellSections cells(mesh);
   const std::vector<HdfRun> runs = runs_of(mesh, cells);
   std::uint64_t n_cells = 0, n_values = 0;

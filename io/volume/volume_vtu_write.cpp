@@ -1,4 +1,4 @@
-// VTU writer: describes the arrays of a mesh as functions of a range, so that the columns' cells are never stored.
+// VTU writer: the arrays of a mesh are functions of a range, so that the columns' cells are never stored.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -27,7 +27,7 @@ struct Run {
 
 enum : std::size_t { k_triangle_run = 4, k_quad_run = 5, k_n_runs = 6 };
 
-/// The mesh as VTU sees it: volume cells by kind, then boundary faces.
+/// The cells of a VTU file: volume cells by kind, then boundary faces.
 class FileCells {
  public:
   explicit FileCells(const HybridMesh& mesh) : mesh_(mesh), cells_(mesh) {
@@ -40,7 +40,7 @@ class FileCells {
   std::uint64_t n_cells() const { return n_cells_; }
   std::uint64_t n_values() const { return n_values_; }
 
-  /// Calls f(run number, begin, end) with the part of each run that the file's cells [begin, end) cover; begin, end count within the run.
+  /// Calls f(run number, begin, end) for the part of each run covered by the file's cells [begin, end); begin, end count within the run.
   template <class F>
   void for_each_run(std::uint64_t begin, std::uint64_t end, const F& f) const {
     for (std::size_t r = 0; r < k_n_runs; ++r) {
@@ -91,7 +91,7 @@ char* put(char* out, T value) {
   return out + sizeof(T);
 }
 
-/// An array of one value per cell of the file; value(run number, nodes, layer, marker).
+/// Returns an array of one value per cell of the file; value(run number, nodes, layer, marker).
 template <class T, class Value>
 VtuArray per_cell(std::string name, VtuType type, const FileCells& cells, const Value& value) {
   return {.name = std::move(name), .type = type, .n_values = cells.n_cells(), .fill = [&cells, value](std::uint64_t begin, std::uint64_t end, char* out) {
@@ -119,7 +119,7 @@ VtuArray offsets_array(VtuType type, const FileCells& cells) {
           }};
 }
 
-/// Blocks cut through cells: the cells that the values [begin, end) touch are made, and clipped.
+/// Generates the values [begin, end). Block boundaries may lie within cells: all cells touched are generated, and clipped.
 template <class T>
 VtuArray connectivity_array(VtuType type, const FileCells& cells) {
   return {.name = "connectivity", .type = type, .n_values = cells.n_values(), .fill = [&cells](std::uint64_t begin, std::uint64_t end, char* out) {
@@ -153,7 +153,7 @@ VtuArray points_array(const HybridMesh& mesh) {
           }};
 }
 
-/// Of each cell of the file.
+/// Returns the qualities of all cells in the file.
 std::vector<CellQuality> qualities_of(const HybridMesh& mesh, const RunContext& context) {
   constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
   constexpr std::size_t k_chunk = 4096;
@@ -191,7 +191,7 @@ void add_quality_arrays(const std::vector<CellQuality>& qualities, VtuDocument& 
 }
 
 void write_with(const HybridMesh& mesh, const std::vector<CellQuality>* qualities, const std::filesystem::path& path, const RunContext& context) {
-  const FacesByPatch checked(mesh);  // refuses faces without patch
+  const FacesByPatch checked(mesh);  // rejects faces without patch
   constexpr std::uint64_t k_int32 = std::numeric_limits<std::int32_t>::max();
   const FileCells cells(mesh);
   VtuDocument document;

@@ -16,7 +16,7 @@
 namespace sterna::scripting {
 namespace {
 
-// Shares of the progress.
+// Fractions of the progress.
 constexpr double k_read_end = 0.3, k_check_end = 0.7;
 constexpr double k_megabyte = 1e6;
 

@@ -1,7 +1,7 @@
-// A file as part of the program.
+// Embeds a file in the program.
 #pragma once
 
-/// Defines the bytes of a file as begin[] .. end[] of the names given; at file scope, outside of namespaces. The assembler takes them in as they are: no
+/// Defines the bytes of a file as begin[] .. end[] of the names given; at file scope, outside of namespaces. The assembler includes the file unchanged: no
 /// generated source, no limit on the length of literals.
 #define STERNA_EMBED_TEXT(begin, end, file) \
   asm(".pushsection .rodata\n" #begin       \

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t k_alignment = 4;
 constexpr std::string_view k_json_place = "<!--STERNA_JSON-->", k_blob_place = "<!--STERNA_BLOB-->";
 
-/// JSON inside <script>: no "<" may end it.
+/// Escapes JSON inside <script>: a "<" could close the tag.
 std::string escaped(const std::string& json) {
   std::string text;
   text.reserve(json.size());
@@ -38,7 +38,7 @@ ArrayPlace PageArrays::add(std::span<const std::uint16_t> values) { return add_v
 ArrayPlace PageArrays::add(std::span<const std::uint8_t> values) { return add_values("u8", values); }
 
 float shortened(double value) {
-  constexpr std::uint32_t k_dropped = 13;  // of the 23 bits of a float's mantissa
+  constexpr std::uint32_t k_dropped = 13;  // number of bits dropped from the 23 mantissa bits of a float
   const auto narrow = static_cast<float>(value);
   if (!std::isfinite(narrow)) return std::isnan(narrow) ? std::nanf("") : narrow;
   const auto bits = std::bit_cast<std::uint32_t>(narrow);

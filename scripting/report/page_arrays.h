@@ -1,4 +1,4 @@
-// The arrays of a report page: one blob of little-endian values that the page unpacks, and their places in its JSON (docs/report.md).
+// The arrays of a report page: one blob of little-endian values that the page unpacks, and their offsets in its JSON (docs/report.md).
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace sterna::scripting {
 
-/// Where an array is: {"type", "at", "n"} in the JSON.
+/// Location of an array in the blob: {"type", "at", "n"} in the JSON.
 struct ArrayPlace {
   std::string_view type;
-  std::size_t at = 0;  ///< byte in the blob
-  std::size_t n = 0;   ///< values
+  std::size_t at = 0;  ///< byte offset in the blob
+  std::size_t n = 0;   ///< number of values
 };
 
 class PageArrays {
  public:
-  /// The place of the values just added.
+  /// Appends the values and returns their location.
   ArrayPlace add(std::span<const float> values);
   ArrayPlace add(std::span<const std::uint32_t> values);
   ArrayPlace add(std::span<const std::uint16_t> values);
@@ -30,10 +30,10 @@ class PageArrays {
   std::string bytes_;
 };
 
-/// Ten bits of the mantissa, three digits: enough to colour, and half the bytes once packed.
+/// Rounds to ten bits of the mantissa, three digits: sufficient for colours, and half the bytes after compression.
 float shortened(double value);
 
-/// The whole page: the template with JSON and arrays filled in.
+/// Returns the whole page: the template with JSON and arrays filled in.
 /// \throws Error(unsupported_format) in a build without the page
 std::string page_text(const std::string& json, const PageArrays& arrays);
 

@@ -20,10 +20,10 @@ Json page_number(double value) { return std::isfinite(value) ? Json(value) : Jso
 Json page_point(const Point& p) { return Json::array({p.x, p.y, p.z}); }
 Json place_json(const ArrayPlace& place) { return {{"type", place.type}, {"at", place.at}, {"n", place.n}}; }
 
-/// Kinds of boundaries that carry no part of the body: the farthest of them says nothing about its size.
+/// Returns true for walls. Other boundaries are not part of the body; the size of the farthest does not indicate the body's size.
 bool is_body(PatchKind kind) { return kind == PatchKind::wall; }
 
-/// Patches are numbered by 16 bits in a page.
+/// Patch numbers have 16 bits in a page.
 constexpr std::size_t k_most_patches = std::size_t{1} << 16;
 
 constexpr std::uint8_t k_all_edges = 7, k_first_two = 3, k_last_two = 6;
@@ -165,7 +165,7 @@ std::string PageMaker::surface_json(std::size_t most, PageArrays& arrays) const 
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// The polygons next to the focus.
+/// Returns the polygons nearest to the focus.
 std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageArrays& arrays) {
   std::vector<std::uint32_t> chosen(cut.size());
   std::iota(chosen.begin(), chosen.end(), 0u);

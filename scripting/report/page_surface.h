@@ -1,4 +1,4 @@
-// The surface part of a page, of reports and of the workbench: triangles with patches, edges and figures as arrays and their JSON (docs/report.md).
+// The surface part of a report or workbench page: triangles with patches, edges and figures as arrays and their JSON (docs/report.md).
 #pragma once
 
 #include <array>
@@ -18,22 +18,22 @@
 
 namespace sterna::scripting {
 
-/// Boundary faces as triangles, with the face and the edges that each has of it.
+/// Boundary faces as triangles, with the face of each triangle and its edges on that face.
 struct PageTriangles {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> face;  ///< triangles, then quads
   std::vector<std::uint8_t> edges;  ///< bit k: corner k to k + 1
   std::vector<std::uint16_t> patch;
-  std::vector<std::uint8_t> is_of_body = {};  ///< by patch: what pages show by themselves (geom/mesh/body_patches.h); empty: all of it
+  std::vector<std::uint8_t> is_of_body = {};  ///< by patch: shown by default (geom/mesh/body_patches.h); empty: all patches
 };
 PageTriangles page_triangles(const HybridMesh& mesh);
 PageTriangles page_triangles(const TriMesh& mesh);
 
-/// Values and what they are as the text of a JSON object.
+/// Returns a JSON object of the values and their description.
 std::string page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
                             const std::vector<float>& values, PageArrays& arrays);
 
-/// What pages are made of, whatever they are about. The arguments must outlive it; all texts are of JSON.
+/// Creates the common parts of all pages. The arguments must outlive this object; all returned strings are JSON.
 class PageMaker {
  public:
   /// \throws Error(overflow) for more than 65 536 patches
@@ -42,7 +42,7 @@ class PageMaker {
   double length() const { return length_; }
   std::string frame_json() const;    ///< object with length and origin
   std::string patches_json() const;  ///< list with name, kind, area, number of triangles of each
-  /// Object with the arrays, positions relative to the origin, thinned to at most `most` triangles.
+  /// Returns an object with the arrays, positions relative to the origin, decimated to at most `most` triangles.
   std::string surface_json(std::size_t most, PageArrays& arrays) const;
 
  private:
@@ -54,7 +54,7 @@ class PageMaker {
   double length_ = 1.0;
 };
 
-/// Object with the polygons next to the place's focus, at most `most` of them, relative to it.
+/// Returns an object with the polygons nearest to the focus of the cut, at most `most`, relative to the focus.
 std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageArrays& arrays);
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// `sterna report`, and what it shares with the verb report{}.
+// `sterna report`, and the parts shared with the verb report{}.
 #pragma once
 
 #include <filesystem>
@@ -24,17 +24,18 @@ struct ReportCommand {
   OptionOverrides options;
 };
 
-/// `sterna report MESH -o FILE.html`.
+/// Adds the command `sterna report MESH -o FILE.html`.
 CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report);
 int execute(const ReportCommand& command, const CommandContext& context);
 
+/// Tests the output path.
 /// \throws Error(unsupported_format) unless the name ends in .html
 void require_page_output(const std::filesystem::path& path);
-/// The page of a volume mesh or surface file, and whether the mesh is INVALID.
-/// \throws Error(bad_argument) for a model, and for cuts of a surface; what reading throws; as report_html
+/// Returns the page of a volume mesh or surface file, and true if the mesh is INVALID.
+/// \throws Error(bad_argument) for a model, and for cuts of a surface; errors of reading; as report_html
 std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable* limits,
                                           const RunContext& context);
-/// The page appears whole or not at all.
+/// Writes the page completely or not at all.
 /// \throws Error(write_failed)
 void write_page(const std::string& html, const std::filesystem::path& path, const RunContext& context);
 

@@ -27,7 +27,7 @@ namespace {
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// The page is made anew with so much of the budget where it came out too large.
+/// Factor of the budget for the next attempt if the page is too large.
 constexpr double k_less = 0.6;
 Json json_of(const Point& p) { return Json::array({p.x, p.y, p.z}); }
 
@@ -37,7 +37,7 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   return list;
 }
 
-/// Names of options that differ from their defaults, by stage.
+/// Returns the names of options that differ from their defaults, by stage.
 Json options_set_json(const MeshOrigin& origin) {
   surfmesh::StitchOptions surface = origin.surface_options;
   volmesh::MeshCase volume = origin.options;
@@ -84,10 +84,10 @@ Json facts_json(const MeshValue& value) {
 
 std::string title_of(const ReportOptions& options, std::string_view name) { return options.title == "automatic" ? std::string(name) : options.title; }
 
-/// The user's cuts, then the automatic ones that they do not name. A plane of the user's is looked at where it comes next to the middle of the bodies.
+/// Returns the user's cuts, then the automatic cuts that the user does not name. A user's plane is viewed at its point nearest to the centre of the bodies.
 std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker,
                                 const RunContext& context) {
-  constexpr double k_radius_share = 0.6;  // of the bodies' length: all of them is seen
+  constexpr double k_radius_share = 0.6;  // relative to the bodies' length: all bodies are visible
   std::vector<CutPlace> automatic = automatic_cuts(mesh, context), places;
   for (const std::string& text : wanted) {
     if (const std::optional<CutPlane> plane = draw::plane_of(text)) {
@@ -103,7 +103,9 @@ std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::s
   return places;
 }
 
-/// \pre the places begin with those that were asked for. \throws Error(bad_argument) for one of them whose plane is clear of the mesh.
+/// Tests that the user's planes cut the mesh.
+/// \pre `places` begins with the requested ones.
+/// \throws Error(bad_argument) for a requested plane that does not intersect the mesh.
 void require_cells(const HybridMesh& mesh, std::span<const std::string> wanted, const std::vector<CutPlace>& places, const std::vector<MeshCut>& cuts) {
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (cuts[i].size() == 0)
@@ -115,7 +117,7 @@ void require_cells(const HybridMesh& mesh, std::span<const std::string> wanted, 
 
 std::string too_large(std::size_t bytes) { return "the page would have " + std::to_string(bytes) + " bytes, more than " + std::to_string(k_most_page_bytes); }
 
-/// Makes the page with less and less until it is small enough.
+/// Makes the page with decreasing budgets until it is small enough.
 template <class Make>
 std::string small_page(const ReportOptions& options, const RunContext& context, const Make& make) {
   double share = 1.0;
@@ -186,7 +188,7 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
   const PageMaker maker(mesh.points.raw(), triangles, mesh.patches, fields);
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "surface"}};
-  head["facts"] = Json::array();  // pairs of texts in braces would be an object
+  head["facts"] = Json::array();  // pairs of strings in braces would be an object
   const auto add_fact = [&](const char* fact, const std::string& text) { head["facts"].push_back(Json::array({fact, text})); };
   add_fact("triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles())));
   add_fact("vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices())));

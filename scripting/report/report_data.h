@@ -1,4 +1,4 @@
-// What a report page shows of one mesh or surface (schema "sterna-report-1", docs/report.md).
+// Contents of a report page of a mesh or surface (schema "sterna-report-1", docs/report.md).
 #pragma once
 
 #include <string>
@@ -10,19 +10,20 @@
 
 namespace sterna::scripting {
 
-/// A page that would be larger is thinned further.
+/// Size limit of a page; larger pages are decimated further.
 inline constexpr std::size_t k_most_page_bytes = 25'000'000;
 
-/// The page of a volume mesh. The mesh's last check counts; one that was never checked is checked here. \p cuts places by name or planes ("x=1.2", "point=0,0,0
-/// normal=0,1,0"), shown before the automatic ones. \p name stands for an automatic title
-/// \throws Error(unsupported_format) of a build without the page; (bad_argument) for a cut that is not there; (mesh_invalid) where indices or points are
+/// Returns the page of a volume mesh. Uses the mesh's last check, or checks the mesh if there is none. \p cuts locations by name or planes ("x=1.2",
+/// "point=0,0,0 normal=0,1,0"), shown before the automatic cuts. \p name replaces an automatic title
+/// \throws Error(unsupported_format) in a build without the page; (bad_argument) for a cut that does not exist; (mesh_invalid) if indices or points are
 /// unusable; (cancelled)
 std::string report_html(const MeshValue& mesh, const ReportOptions& options, const std::vector<std::string>& cuts, std::string_view name,
                         const RunContext& context);
-/// The page of a surface: its shape only.
+/// Returns the page of a surface, which shows only its shape.
 std::string report_html(const SurfaceValue& surface, const ReportOptions& options, std::string_view name, const RunContext& context);
 
-/// \throws Error(bad_argument) for a text that is neither a plane nor could be a name, (unsupported_format) of a build without the page; before the work
+/// Tests the cuts before the computation.
+/// \throws Error(bad_argument) for a string that is neither a plane nor a possible name, (unsupported_format) in a build without the page
 void require_report_cuts(const std::vector<std::string>& cuts);
 
 }  // namespace sterna::scripting

@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The limit that a value of a gate misses first, hard before usual before target.
+/// Returns the first limit that a value of a gate violates, in the order hard, usual, target.
 Json missed_limit(const Json& measure, double value) {
   const bool is_low_bad = measure["bound"] == "lower";
   for (const char* name : {"hard", "usual", "target"}) {
@@ -34,7 +34,7 @@ void add_places(const Json& measure, Json& places) {
   }
 }
 
-/// What the given boundary forces: listed apart, after all that is ours to mend.
+/// Adds locations forced by the input surface; these are listed separately, after the mesher's own defects.
 void add_forced(const Json& measure, Json& places) {
   int rank = 0;
   for (const Json& place : measure["forced_places"])

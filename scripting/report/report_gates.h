@@ -1,4 +1,4 @@
-// Gates, worst places, histograms and coverage of a report page, off the report of `check`.
+// Gates, worst locations, histograms and coverage of a report page, from the report of `check`.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace sterna::scripting {
 
-/// JSON object with verdict, quality_verdict, gates (those of the verdict first), places (findings first, then each gate's, worst gates first), histograms and
-/// coverage.
+/// Returns a JSON object with verdict, quality_verdict, gates (gates of the verdict first), places (findings first, then those of each gate, worst gates
+/// first), histograms and coverage.
 std::string page_check_json(const CheckReport& report);
-/// The same of what has no gates.
+/// Returns the object for meshes without gates.
 std::string page_no_check_json();
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// What a report page is asked to show.
+// Options of a report page.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ template <>
 struct Schema<scripting::ReportOptions> {
   using O = scripting::ReportOptions;
   static constexpr std::string_view stage = "report";
-  static constexpr double k_most = 5e6;  ///< triangles and polygons: a browser's patience
+  static constexpr double k_most = 5e6;  ///< limit on triangles and polygons, set by the speed of browsers
   static constexpr std::array fields = {
       Field<O>{.name = "title", .member = &O::title, .help = "of the page; automatic: the file's name"},
       Field<O>{.name = "automatic_cuts",

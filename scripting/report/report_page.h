@@ -4,8 +4,8 @@
 
 namespace sterna::scripting {
 
-/// The report page (HTML, scripting/report/page) with its two markers still in it; the text lives as long as the program.
-/// Empty when this build had no npm, or npm could not get the page's libraries: then no report can be written.
+/// Returns the report page (HTML, scripting/report/page) with its two markers not yet replaced; the string lives as long as the program.
+/// Empty if npm was not available in this build, or could not download the page's libraries: then no report can be written.
 std::string_view report_page();
 
 }  // namespace sterna::scripting

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view k_report_usage = "report{ mesh, \"mesh.html\", cuts = { \"nose\", { x = 1.2 } } }  or  report{ wall, \"wall.html\" }";
 
-/// cuts = "tip", or a list of names, planes as texts, { x = 1.2 } and { point = ..., normal = ... }.
+/// Reads cuts = "tip", or a list of names, planes as strings, { x = 1.2 } and { point = ..., normal = ... }.
 std::vector<std::string> read_cuts(TableReader& reader) {
   std::vector<std::string> cuts;
   const ScriptValue* value = reader.field("cuts");

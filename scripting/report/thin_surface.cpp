@@ -9,9 +9,9 @@
 namespace sterna::scripting {
 namespace {
 
-/// Cubes are counted from the corner of the box; 21 bits an axis.
+/// Maximum number of cubes per axis, counted from the corner of the box; 21 bits per axis.
 constexpr double k_most_cubes = 2e6;
-/// The grid grows by this until few enough triangles are left.
+/// Growth factor of the cube width until the number of triangles is small enough.
 constexpr double k_growth = 1.25;
 
 std::uint64_t cube_of(const Point& p, const Point& low, double width) {
@@ -19,7 +19,7 @@ std::uint64_t cube_of(const Point& p, const Point& low, double width) {
   return along(p.x - low.x) << 42 | along(p.y - low.y) << 21 | along(p.z - low.z);
 }
 
-/// For each point the one that stands for it.
+/// Returns the representative of each point.
 std::vector<std::uint32_t> representatives(std::span<const Point> points, std::span<const std::uint32_t> used, const Point& low, double width) {
   struct Cube {
     Vec3 sum{};
@@ -88,7 +88,7 @@ ThinSurface thin_surface(std::span<const Point> points, std::span<const std::arr
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // Half the vertices of the goal per cube face would be one each: start where the mean edge is, which is surely too fine.
+  // Starts with the mean edge length as cube width, where a cube holds about one vertex: certainly too fine.
   double edges = 0.0;
   for (const auto& t : triangles) edges += distance(points[t[0]], points[t[1]]);
   double width = std::max(edges / static_cast<double>(triangles.size()), std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / k_most_cubes);

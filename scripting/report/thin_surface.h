@@ -1,4 +1,4 @@
-// Fewer triangles of a large surface for a page: vertices of one cube of a grid become one of them.
+// Decimation of a large surface for a page: the vertices in each cube of a grid are merged into one of them.
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 namespace sterna::scripting {
 
 struct ThinSurface {
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of points' numbers as given
-  std::vector<std::uint32_t> source;                    ///< the triangle that each was
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of the given points
+  std::vector<std::uint32_t> source;                    ///< index of the original triangle
 };
 
-/// At most `most` triangles: of each cube of the smallest grid that does it, the vertex next to the mean of its vertices stands for all; triangles of which two
-/// corners fell together go, and of those with the same corners the first stays. All of them where there are not more. Deterministic.
+/// Returns at most `most` triangles, or all if there are not more. Uses the finest grid that satisfies the limit. In each cube, the vertex next to the mean of
+/// the cube's vertices replaces all of them. Triangles with two merged corners are removed; of triangles with the same corners the first is kept.
+/// Deterministic.
 /// \pre most >= 1
 ThinSurface thin_surface(std::span<const Point> points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t most);
 

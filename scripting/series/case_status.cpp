@@ -76,7 +76,7 @@ CaseStatus status_of(const Json& json) {
 bool is_bookkeeping(const std::string& name) { return name == k_status_file || name == k_measure_file || name == k_log_file; }
 bool is_leftover(const fs::path& path) { return path.filename().string().starts_with(".sterna-") && path.extension() == ".part"; }
 
-/// Regular files and links below the folder, by their names in it, in ascending order.
+/// Returns the regular files and links below the folder, by their relative names, in ascending order.
 std::vector<std::string> files_in(const fs::path& folder) {
   std::vector<std::string> files;
   std::error_code failure;

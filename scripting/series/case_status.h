@@ -1,5 +1,5 @@
-// status.json in the folder of a case: how far it is and, once it is over, all that a later run must know to take it as it is. Nothing in a final status
-// depends on time, place or the number of threads.
+// status.json in the folder of a case: its state and, after its end, all data that a later run needs to reuse it. A final status does not depend on time,
+// location or number of threads.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 namespace sterna::scripting {
 
 enum class CaseState {
-  none,     ///< never begun, or nothing that can be relied on is known
-  running,  ///< in a process, or in one that died without a word
+  none,     ///< never begun, or no reliable information
+  running,  ///< running in a process, or the process died without a final status
   done,
-  failed,  ///< its function raised an error
-  killed,  ///< its process was ended from outside
+  failed,  ///< the function raised an error
+  killed,  ///< the process was ended from outside
 };
 std::string_view to_string(CaseState state);
 
-/// Of the mesh that a case made.
+/// Figures of the mesh of a case.
 struct MeshFigures {
   std::string verdict;  ///< VALID, INVALID; empty: no mesh
   std::int64_t cells = 0;
@@ -33,16 +33,16 @@ struct MeshFigures {
 struct CaseStatus {
   CaseState state = CaseState::none;
   std::string key;                             ///< case_key()
-  std::map<std::string, std::string> inputs;   ///< file as it was looked for -> hash_of_input
+  std::map<std::string, std::string> inputs;   ///< file as searched for -> hash_of_input
   std::map<std::string, std::string> outputs;  ///< file in the folder -> hash
-  std::vector<std::string> found;              ///< files that were in the folder before the case and are not its own
+  std::vector<std::string> found;              ///< files in the folder before the case that are not its own
 
   MeshFigures mesh;                ///< done
-  std::string result;              ///< done: what the function returned, as JSON; "null" for what is not plain
+  std::string result;              ///< done: the function's return value as JSON; "null" for values that are not plain
   std::string code;                ///< failed: the ErrorCode
-  std::string message;             ///< failed: the whole text; killed: by what
+  std::string message;             ///< failed: the full text; killed: the cause
   std::vector<ErrorPlace> places;  ///< failed
-  bool is_of_machine = false;      ///< failed for want of memory, disk or a process: another run may succeed
+  bool is_of_machine = false;      ///< failed for lack of memory, disk space or processes: another run may succeed
 
   std::int64_t process = 0;  ///< running
   std::string host;          ///< running
@@ -54,28 +54,28 @@ inline constexpr const char* k_status_file = "status.json";
 inline constexpr const char* k_measure_file = "measure.json";
 inline constexpr const char* k_log_file = "log.txt";
 
-/// State none where there is no status, or one that is damaged, which is told in the log.
+/// Reads the status. State none if there is no status, or if it is damaged, which is reported in the log.
 CaseStatus read_status(const std::filesystem::path& folder, const RunContext& context);
-/// Whole or not at all.
+/// Writes the status completely or not at all.
 /// \throws Error(write_failed)
 void write_status(const CaseStatus& status, const std::filesystem::path& folder);
 
-/// Whether the case is over, with this key, and inputs and outputs are still as it recorded them.
+/// Returns true if the case has finished with this key, and its inputs and outputs still match the recorded hashes.
 bool is_current(const CaseStatus& status, const std::filesystem::path& folder, const std::string& key);
 
-/// Hashes of all files in the folder that are not in `found`, but for status, measure and log; links are not followed.
+/// Returns the hashes of all files in the folder that are not in `found`, except status, measure and log; links are not followed.
 std::map<std::string, std::string> outputs_in(const std::filesystem::path& folder, const std::vector<std::string>& found);
 
-/// Removes what an earlier run of the case has left: its outputs, and of one that was killed on its way all that it did not find there. Returns the files that
-/// are not the case's.
-/// \throws Error(write_failed) where something cannot be removed
+/// Removes the outputs of an earlier run of the case; if that run was killed, all files that it did not find there. Returns the files that do not belong to the
+/// case.
+/// \throws Error(write_failed) if a file cannot be removed
 std::vector<std::string> clear_case_folder(const std::filesystem::path& folder, const CaseStatus& before);
 
-/// Removes half-written files that a killed process has left in the folder itself.
-/// \pre nobody writes there
+/// Removes half-written files that a killed process has left directly in the folder.
+/// \pre no process writes there
 void remove_parts(const std::filesystem::path& folder);
 
-/// "signal 9 (Killed)"
+/// Returns "signal 9 (Killed)".
 std::string signal_text(int signal);
 
 }  // namespace sterna::scripting

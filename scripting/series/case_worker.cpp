@@ -32,10 +32,10 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// What is known of a mesh that a case made.
+/// Data of a mesh that a case made.
 struct MeshNote {
   MeshFigures figures;
-  std::string check_json;  ///< empty where it was never checked
+  std::string check_json;  ///< empty if the mesh was never checked
 };
 
 MeshNote note_of(const MeshValue& mesh) {
@@ -52,14 +52,14 @@ MeshNote note_of(const MeshValue& mesh) {
   return note;
 }
 
-/// The script as this run read it, with its modules.
+/// Copies the script as read in this run, with its modules.
 void copy_script(const ScriptSession& session, const fs::path& folder) {
   fs::create_directories(folder / "script");
   io::write_whole(folder / "script" / session.script.filename(), session.series.script_text);
   for (const auto& [name, source] : session.series.modules) io::write_whole(folder / "script" / (name + ".lua"), source);
 }
 
-/// Everything that differs between two runs of the same case.
+/// Writes all data that differ between two runs of the same case.
 void write_measure(const ScriptSession& session, double seconds, const fs::path& folder) {
   nlohmann::ordered_json json = {{"schema", "sterna-case-measure-1"},
                                  {"seconds", seconds},
@@ -72,7 +72,7 @@ void write_measure(const ScriptSession& session, double seconds, const fs::path&
   io::write_whole(folder / k_measure_file, json.dump(2) + "\n");
 }
 
-/// Without what every case does: call its function.
+/// Returns the error message without the step common to all cases: the call of their function.
 std::string message_of_function(const Error& error) {
   ErrorInfo info = error.info();
   if (info.attempted != k_calling_function) return error.what();
@@ -80,14 +80,14 @@ std::string message_of_function(const Error& error) {
   return Error(std::move(info)).what();
 }
 
-/// Whether a full disk, little memory or a process that was ended is the cause, and not the case.
+/// Returns true if the cause is a full disk, lack of memory or a terminated process, not the case itself.
 bool is_of_machine(const Error& error) {
   if (error.code() == ErrorCode::write_failed) return true;
   const bool can_be = error.code() == ErrorCode::overflow || error.code() == ErrorCode::tetra_engine_failed;
   return can_be && std::string_view(error.what()).find("memory") != std::string_view::npos;
 }
 
-/// Fills the status with what became of the function's error, and draws it.
+/// Stores the function's error in the status, and writes its geometry.
 void note_failure(const Error& error, CaseStatus& status, const fs::path& folder) {
   status.state = error.code() == ErrorCode::cancelled ? CaseState::killed : CaseState::failed;
   status.message = status.state == CaseState::killed ? "stopped on request" : message_of_function(error);
@@ -118,7 +118,7 @@ ScriptValue argument_of(const SeriesCase& c) {
 
 void become_worker() {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  // Another descriptor of that number, in a worker that was not started by a pool, loses nothing by it.
+  // In a worker that was not started by a pool, setting this flag on an unrelated descriptor of that number is harmless.
   fcntl(k_series_lock_descriptor, F_SETFD, FD_CLOEXEC);
 }
 

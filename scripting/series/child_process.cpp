@@ -10,7 +10,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr int k_poll_ms = 20;  ///< how soon a stop is noticed
+constexpr int k_poll_ms = 20;  ///< maximum delay until a stop is noticed
 
 Pipe pipe_of_command() { return Pipe(ErrorCode::internal, "starting a command"); }
 
@@ -37,7 +37,7 @@ CommandResult run_command(const std::vector<std::string>& words, const RunContex
       if (events[0].revents != 0) is_output_open = read_some(output.read_end.value, result.output);
       if (events[1].revents != 0) is_errors_open = read_some(errors.read_end.value, result.errors);
     }
-    context.check_stop();  // the object kills it
+    context.check_stop();  // the destructor kills the process
   }
   const int status = process.wait();
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -1,4 +1,4 @@
-// Processes that a series starts: workers whose output goes to a file, and commands whose output is read.
+// Processes started by a series: workers whose output goes to a file, and commands whose output is read.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace sterna::scripting {
 
-/// Starts a worker with stdout and stderr in `output` (emptied first); it inherits `lock`, where that is not -1, as descriptor k_series_lock_descriptor.
-/// `folder`: its current folder, if not empty.
-/// \throws Error(file_not_found, internal) when it cannot be started
+/// Starts a worker with stdout and stderr in `output` (emptied first); it inherits `lock`, unless that is -1, as descriptor k_series_lock_descriptor.
+/// `folder`: its working directory, if not empty.
+/// \throws Error(file_not_found, internal) if it cannot be started
 ChildProcess start_worker(const std::vector<std::string>& words, const std::filesystem::path& output, int lock, const std::filesystem::path& folder = {});
 
 struct CommandResult {
@@ -21,8 +21,8 @@ struct CommandResult {
   std::string errors;  ///< stderr
 };
 
-/// Runs a command of the PATH to its end.
-/// \throws Error(file_not_found) where there is none of that name; cancelled (it is killed first)
+/// Runs a command of the PATH and waits for its end.
+/// \throws Error(file_not_found) if the command does not exist; cancelled (after killing it)
 CommandResult run_command(const std::vector<std::string>& words, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -18,17 +18,17 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr mode_t k_lock_file_mode = 0666;  ///< the umask takes its part
+constexpr mode_t k_lock_file_mode = 0666;  ///< reduced by the umask
 /// Workers end within a second of their parent's death.
 constexpr std::chrono::milliseconds k_patience{5000}, k_lock_pause{20};
-constexpr int k_least_descriptor = 10;  ///< above those that a worker is given
+constexpr int k_least_descriptor = 10;  ///< above the descriptors passed to a worker
 
 std::string locking_host() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// "process 123 on host" of the holder, and whether it is known to be dead.
+/// Holder of the lock: "process 123 on host", and true if the process is known to be dead.
 struct Holder {
   long pid = 0;
   std::string host;

@@ -1,4 +1,4 @@
-// One run at a time in the folder of a series.
+// Lock that permits one run at a time in the folder of a series.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace sterna::scripting {
 
-/// Holds the lock of a folder until the object and all processes that inherited its descriptor are gone, however they end: the system lets go of it, so nothing
-/// is left to be cleaned up after kill -9. Across machines it holds where the file system has locks.
+/// Holds the lock of a folder until the object and all processes that inherited its descriptor have ended, in whatever way. The system releases the lock, so no
+/// cleanup is needed after kill -9. Works across machines if the file system has locks.
 class FolderLock {
  public:
-  /// Waits a moment for workers of a killed run to end.
-  /// \throws Error(write_failed) when another run holds it, saying which, or when the folder cannot be written
+  /// Acquires the lock; waits a short time for workers of a killed run to end.
+  /// \throws Error(write_failed) if another run holds the lock, naming it, or if the folder cannot be written
   FolderLock(const std::filesystem::path& folder, const RunContext& context);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

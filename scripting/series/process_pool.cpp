@@ -19,20 +19,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds k_pause{5};         ///< between two looks at the workers
-constexpr std::chrono::milliseconds k_stop_grace{800};  ///< a worker that was asked to stop gets so long; Ctrl-C shall be over in a second
+constexpr std::chrono::milliseconds k_pause{5};         ///< between two checks of the workers
+constexpr std::chrono::milliseconds k_stop_grace{800};  ///< grace period of a worker after a stop request; Ctrl-C must take effect within a second
 constexpr std::size_t k_quoted = 2000;                  ///< bytes of a log for a message
 
-/// Ends the key of a status that nobody is to take for this run's.
+/// Suffix for the key of a status that must not be mistaken for this run's.
 constexpr const char* k_of_earlier_run = " of an earlier run";
 
 struct Running {
   const CaseTask* task;
   ChildProcess process;
-  long kills_before;  ///< of the system for want of memory
+  long kills_before;  ///< earlier kills by the system due to lack of memory
 };
 
-/// Processes that the system has killed for want of memory since it started; -1 where it does not say.
+/// Returns the number of processes killed by the system for lack of memory since boot; -1 if unknown.
 long memory_kills() {
   std::ifstream counters("/proc/vmstat");
   std::string name;
@@ -51,7 +51,7 @@ std::string end_of_log(const std::filesystem::path& folder) {
   return text;
 }
 
-/// The status of a case whose worker has left none.
+/// Returns the status of a case whose worker has not written one.
 CaseStatus death_of(const Running& running, int wait_status) {
   CaseStatus status{.state = CaseState::killed, .key = running.task->key};
   if (WIFSIGNALED(wait_status)) {
@@ -62,7 +62,7 @@ CaseStatus death_of(const Running& running, int wait_status) {
   }
   status.state = CaseState::failed;
   status.code = to_string(ErrorCode::script_failed);
-  status.is_of_machine = true;  // the worker could not even write what became of the case
+  status.is_of_machine = true;  // the worker could not even write the status of the case
   const std::string log = end_of_log(running.task->folder);
   status.message = log.empty() ? "the worker ended without a word, status " + std::to_string(WEXITSTATUS(wait_status)) : log;
   return status;
@@ -104,7 +104,7 @@ CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunCo
   const CaseStatus status = read_status(task.folder, context);
   if (status.key == task.key && (status.is_final() || status.state == CaseState::killed)) return status;
   CaseStatus settled = otherwise;
-  // Build and script are part of the key, so this worker was of others.
+  // Build and script are part of the key, so this worker belonged to another build or script.
   if (status.is_final() && !status.key.empty() && !status.key.ends_with(k_of_earlier_run)) {
     settled.state = CaseState::killed;
     settled.message = "another build of sterna, or the script as it was changed meanwhile, worked on it: run the series again";

@@ -13,12 +13,12 @@ namespace {
 
 bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// Ranges {begin, end} of the entries `run` and `retry` of the table, each with the separator behind it.
+/// Finds the ranges {begin, end} of the entries `run` and `retry` of the table, each with its trailing separator.
 void find_entries(const std::string& s, const TableCall& table, std::vector<std::pair<std::size_t, std::size_t>>& found) {
   constexpr std::array<std::string_view, 2> k_names = {"run", "retry"};
   int depth = 0;
-  std::size_t begin = std::string::npos;  // of the entry that is being left out
-  bool is_first = true;                   // nothing but blanks since the last separator
+  std::size_t begin = std::string::npos;  // start of the entry to be left out
+  bool is_first = true;                   // only blanks since the last separator
   look_through(s, table.begin, [&](std::size_t at) {
     const char c = s[at];
     if (at >= table.end || (depth == 0 && (c == ',' || c == ';'))) {
@@ -67,7 +67,7 @@ std::string script_essence(const std::string& script) {
       ++at;
       add_blank();
     } else {
-      // A separator in front of the end of a table means nothing.
+      // A separator before the end of a table has no effect.
       if (script[at] == '}') {
         while (!essence.empty() && essence.back() == ' ') essence.pop_back();
         if (!essence.empty() && (essence.back() == ',' || essence.back() == ';')) essence.pop_back();

@@ -15,12 +15,12 @@
 namespace sterna::scripting {
 namespace {
 
-/// What cases are made of: one choice of each axis, merged.
+/// Axis of the product of cases: a case merges one choice of each axis.
 using Axis = std::vector<ScriptTable>;
 
-/// Bytes of a folder's name: file systems take 255, and a path holds several.
+/// Maximum bytes of a folder name: file systems accept 255, and a path holds several names.
 constexpr std::size_t k_max_name = 100;
-/// Of a step: what rounding may take from the last value of a range.
+/// Fraction of a step by which rounding may miss the last value of a range.
 constexpr double k_range_slack = 1e-6;
 
 [[noreturn]] void refuse(std::string problem, std::string hint = {}) {
@@ -91,11 +91,11 @@ std::vector<Axis> axes_of(const ScriptTable& over) {
 
 std::string number_text(double value) {
   std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value).ptr;  // no minus zero
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value).ptr;  // avoids negative zero
   return {text.data(), end};
 }
 
-/// The value in a name; `is_doubtful` when another value could be spelt the same.
+/// Returns the value for a name; sets `is_doubtful` if another value could have the same spelling.
 std::string text_of(const ScriptValue& value, bool& is_doubtful) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);

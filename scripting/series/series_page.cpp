@@ -25,14 +25,14 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// First output of the case with this ending, by name; empty: none.
+/// Returns the first output of the case with this extension, by name; empty: none.
 std::string output_named(const CaseStatus& status, std::string_view ending) {
   for (const auto& [name, hash] : status.outputs)
     if (name.ends_with(ending)) return name;
   return {};
 }
 
-/// Parameters that every case has as a plain value, by name; "index" is the case's number and no parameter.
+/// Returns the parameters that have a plain value in every case, by name; "index" is the case number, not a parameter.
 std::vector<std::string> parameter_names(const SeriesPlan& plan) {
   std::set<std::string> names;
   for (const SeriesCase& c : plan.cases)
@@ -41,7 +41,7 @@ std::vector<std::string> parameter_names(const SeriesPlan& plan) {
   return {names.begin(), names.end()};
 }
 
-/// Worst values and shares that a case's quality.json has, and the state of its gates.
+/// Adds the worst values, fractions and gate states from a case's quality.json.
 void add_quality(const fs::path& folder, Json& entry) {
   const Json check = Json::parse(bytes_of(folder / "quality.json"), nullptr, false);
   if (!check.is_object() || !check.contains("measures")) return;
@@ -68,7 +68,7 @@ Json figures_json() {
   return figures;
 }
 
-/// The report is linked relative to series.html.
+/// Returns the data of a case. The report is linked relative to series.html.
 Json case_json(const SeriesPlan& plan, const CaseResult& result, const std::vector<std::string>& parameters) {
   const CaseStatus& status = result.status;
   const fs::path folder = plan.folder_of(*result.of);
@@ -83,7 +83,7 @@ Json case_json(const SeriesPlan& plan, const CaseResult& result, const std::vect
   entry["parameters"] = Json::object();
   const Json given = Json::parse(to_json(std::make_shared<const ScriptTable>(result.of->parameters)));
   for (const std::string& name : parameters) entry["parameters"][name] = given.contains(name) ? given[name] : Json(nullptr);
-  // What a case without a mesh does not have is a gap, not a nought.
+  // A missing mesh gives a gap, not zero.
   entry["figures"] = {{"cells", status.mesh.verdict.empty() ? Json(nullptr) : Json(status.mesh.cells)},
                       {"seconds", result.seconds > 0.0 ? Json(result.seconds) : Json(nullptr)}};
   entry["gates"] = Json::object();
@@ -96,9 +96,9 @@ Json case_json(const SeriesPlan& plan, const CaseResult& result, const std::vect
   return entry;
 }
 
-/// The pictures of all cases, as long as they fit together.
+/// Adds the pictures of all cases within the size limit.
 void add_pictures(const SeriesPlan& plan, std::span<const CaseResult> results, Json& cases) {
-  constexpr std::size_t k_share = 2;  // of the page; base64 adds a third
+  constexpr std::size_t k_share = 2;  // inverse share of the page size; base64 adds a third
   std::map<std::size_t, std::string> pictures;
   std::size_t total = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {

@@ -1,4 +1,4 @@
-// What a call of series{} asks for, in full.
+// The complete plan of a series{} call.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace sterna::scripting {
 
-/// jobs{ 2, threads = 1 }: processes on this machine.
+/// Options of jobs{ 2, threads = 1 }: processes on this machine.
 struct JobsOptions {
-  int tasks = 0;    ///< cases at a time; 0: one for k_cores_per_task cores
-  int threads = 0;  ///< of each; 0: what the run has, shared by the tasks
+  int tasks = 0;    ///< simultaneous cases; 0: one per k_cores_per_task cores
+  int threads = 0;  ///< per case; 0: the threads of the run, shared by the tasks
 };
 
-/// slurm{ partition = "cfd", tasks = 64 }
+/// Options of slurm{ partition = "cfd", tasks = 64 }.
 struct SlurmOptions {
   std::string partition;
-  int tasks = 0;     ///< cases at a time; 0: as the cluster likes
-  int threads = 1;   ///< of each
-  std::string time;  ///< limit of a case as sbatch takes it
+  int tasks = 0;     ///< simultaneous cases; 0: no limit, the cluster decides
+  int threads = 1;   ///< per case
+  std::string time;  ///< time limit of a case in sbatch's format
 };
 
 struct SeriesOptions {
-  bool retry = false;  ///< run failed cases again; those that failed because of the machine run again in any case
+  bool retry = false;  ///< run failed cases again; cases that failed because of the machine always run again
 };
 
 struct SeriesPlan {
@@ -40,18 +40,18 @@ struct SeriesPlan {
   SlurmOptions slurm;
   std::vector<std::string> sbatch_words;  ///< "--mem=8G": more options of sbatch
   SeriesOptions options;
-  std::string program_hash;     ///< of the workers' executable: another build may give other bytes
+  std::string program_hash;     ///< hash of the workers' executable: another build may give different bytes
   std::filesystem::path cache;  ///< folder; empty: none
   FunctionHandle function;
 
   std::filesystem::path folder_of(const SeriesCase& c) const { return folder / c.name; }
 };
 
-/// Of all that decides what a case does, but for the files that it reads: script (script_essence.h), parameters, name and index, the words of the command line,
-/// seed, version and build, the tables of earlier series. 16 hex digits.
+/// Returns a hash (16 hex digits) of everything that determines a case except the files that it reads: script (script_essence.h), parameters, name and index,
+/// command line, seed, version and build, the tables of earlier series.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
-/// case.json: the same for people, and for other programs.
+/// Returns the text of case.json: the data behind case_key(), for human readers and other programs.
 std::string case_json(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
 }  // namespace sterna::scripting

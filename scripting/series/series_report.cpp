@@ -37,8 +37,9 @@ std::string quality_of(const CaseStatus& status) {
 std::string reused_of(const CaseResult& result) {
   std::string text = result.is_kept ? "the case" : "";
   const auto add = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
-  // Many stages of one kind from the cache are counted: "3 surface_mesh". What a reference had to do with stands as it was told, without reasons and places:
-  // "envelope of wing: made from scratch".
+  // Cached stages of one kind are counted: "3 surface_mesh". Stages that involve a reference are listed as reported, without reasons and locations: "envelope
+  // of wing:
+  // made from scratch".
   std::map<std::string, int> kinds;
   for (const std::string& stage : result.reused)
     if (stage.find(": ") == std::string::npos) ++kinds[stage.substr(0, stage.find(' '))];
@@ -90,7 +91,7 @@ std::string csv_text(const std::string& text) {
   return quoted + "\"";
 }
 
-/// The whole text in one line, without what every error of the series begins with.
+/// Returns the whole text on one line, without the prefix common to all errors of the series.
 std::string error_text(const CaseStatus& status) {
   if (status.state == CaseState::done) return {};
   std::string text = status.message;
@@ -113,7 +114,7 @@ std::string plain_text(const ScriptTable& parameters, const std::string& name) {
 void read_measure(const std::filesystem::path& folder, CaseResult& result) {
   std::ifstream file(folder / k_measure_file, std::ios::binary);
   const Json json = Json::parse(file, nullptr, false);
-  if (!json.is_object()) return;  // killed before it was measured
+  if (!json.is_object()) return;  // killed before the measurement
   result.seconds = json.value("seconds", 0.0);
   result.reused = json.value("reused", std::vector<std::string>{});
 }
@@ -133,7 +134,7 @@ std::map<std::string, std::string> gate_states(const std::filesystem::path& fold
   return gates;
 }
 
-/// G3 before G10.
+/// Sorts G3 before G10.
 struct GateOrder {
   bool operator()(const std::string& a, const std::string& b) const {
     const auto number = [](const std::string& gate) {
@@ -143,7 +144,7 @@ struct GateOrder {
   }
 };
 
-/// Warnings of the case's log.
+/// Returns the number of warnings in the case's log.
 std::int64_t n_warnings(const std::filesystem::path& folder) {
   std::ifstream file(folder / k_log_file);
   std::int64_t n = 0;

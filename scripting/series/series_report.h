@@ -1,4 +1,4 @@
-// The end of a series: one table for people, spreadsheets and programs.
+// Summary table of a series for people, spreadsheets and programs.
 #pragma once
 
 #include <map>
@@ -14,29 +14,29 @@ namespace sterna::scripting {
 struct CaseResult {
   const SeriesCase* of = nullptr;
   CaseStatus status;
-  bool is_kept = false;             ///< taken from an earlier run
-  double seconds = 0.0;             ///< of its own run, whenever that was
+  bool is_kept = false;             ///< reused from an earlier run
+  double seconds = 0.0;             ///< duration of the run that made the result, possibly an earlier run
   std::vector<std::string> reused;  ///< stages from the cache, in that run
 };
 
-/// What measure.json in its folder says; nothing where there is none.
+/// Reads measure.json from the folder of a case; does nothing if there is none.
 void read_measure(const std::filesystem::path& folder, CaseResult& result);
 
-/// The state of each gate that the case's quality.json has: "pass", "warn", "fail", the worst of its measures; nothing where there is no such file.
+/// Returns the state of each gate in the case's quality.json: "pass", "warn", "fail", the worst of its measures; empty if there is no such file.
 std::map<std::string, std::string> gate_states(const std::filesystem::path& folder);
 
-/// "VALID, 383 760 cells, quality pass" or why there is none.
+/// Returns "VALID, 383 760 cells, quality pass", or the reason why there is no mesh.
 std::string outcome_text(const CaseStatus& status);
 
-/// Columns case, verdict, cells, worst quality, time, reused.
+/// Returns a table with the columns case, verdict, cells, worst quality, time, reused.
 std::string table_text(const SeriesPlan& plan, std::span<const CaseResult> results);
-/// The same with a column for each parameter.
+/// Returns the table as CSV with a column per parameter.
 std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> results);
-/// Schema sterna-series-1; all that depends on time, place and cache is in the entry "measure".
+/// Returns the table as JSON, schema sterna-series-1; all data that depend on time, location and cache are in the entry "measure".
 std::string table_json(const SeriesPlan& plan, std::span<const CaseResult> results);
-/// Without "measure": what series{} returns.
+/// Returns table_json() without "measure": the return value of series{}.
 std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> results);
-/// The same of a series.json.
+/// Returns result_json() from a series.json.
 /// \throws Error(file_malformed)
 std::string result_json_of(const std::string& series_json, const std::filesystem::path& file);
 

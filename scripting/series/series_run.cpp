@@ -22,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a case that runs beside others, unless the script says otherwise: below, a process of its own for more cases gains more than threads do.
+/// Cores per case for simultaneous cases, unless the script specifies another number. With fewer cores per case, more processes gain more than more threads do.
 constexpr int k_cores_per_task = 4;
 
-/// Makes the table known to later series and turns it into a value.
+/// Makes the table available to later series and returns it as a value.
 ScriptValue remember(SeriesSession& series, const SeriesPlan& plan, const std::string& result) {
   series.names.insert(plan.name);
   series.earlier.push_back(hash_bytes(result));
@@ -55,8 +55,8 @@ ScriptValue result_of_earlier(const ScriptCall& call, const SeriesPlan& plan) {
 
 // ---- In the main process -------------------------------------------------------------------------------------------------------------------
 
-/// While it lives, a stop of the program is left to the series: workers and jobs are ended and what became of them is noted, which may take longer than other
-/// work may.
+/// During its lifetime, the series handles a stop of the program: it ends workers and jobs and records their results, which may take longer than other work is
+/// allowed to take.
 class StopNotice {
  public:
   explicit StopNotice(const std::function<void(bool)>& tell) : tell_(tell) {
@@ -72,7 +72,7 @@ class StopNotice {
   const std::function<void(bool)>& tell_;
 };
 
-/// One series on its way.
+/// One series while it runs.
 class SeriesRun {
  public:
   SeriesRun(const ScriptCall& call, const SeriesPlan& plan)
@@ -80,7 +80,7 @@ class SeriesRun {
     for (const SeriesCase& c : plan.cases) results_.push_back({.of = &c});
   }
 
-  /// \throws Error as run(); where it is a stop, its text says what is kept and how to go on
+  /// \throws Error as run(); for a stop, the message states which results are kept and how to continue
   const std::vector<CaseResult>& run_or_tell_what_is_kept() {
     try {
       return run();
@@ -158,7 +158,7 @@ class SeriesRun {
     context_.progress(static_cast<double>(n_over_) / static_cast<double>(plan_.cases.size()));
   }
 
-  /// What starts from the reference cannot be had without it.
+  /// Marks cases as failed that start from the reference, after the reference has failed.
   void give_up(const std::vector<std::size_t>& indices) {
     for (const std::size_t i : indices) {
       const SeriesCase& c = plan_.cases[i];
@@ -196,9 +196,9 @@ ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
   return remember(series, plan, result_json(plan, results));
 }
 
-// ---- Where a script is only checked ----------------------------------------------------------------------------------------------------------
+// ---- Check mode of scripts -------------------------------------------------------------------------------------------------------------------
 
-/// Calls the function once, with the first case, and gives a table as if all were done: no process, no folder.
+/// Calls the function once, with the first case, and returns a table as if all cases were done: no process, no folder.
 ScriptValue check_first(const ScriptCall& call, const SeriesPlan& plan) {
   SeriesSession& series = call.session.series;
   CaseStatus as_if{.state = CaseState::done};

@@ -62,10 +62,10 @@ constexpr std::string_view k_slurm_usage =
 constexpr std::string_view k_range_usage = "range(-4, 12, 2)";
 constexpr std::string_view k_zip_usage = "zip{ alpha = {0, 4, 8}, bend = {0, 0.01, 0.03} }";
 
-/// Names in the folder of a series that no case can have.
+/// Reserved names in the folder of a series, not allowed as case names.
 constexpr std::array<std::string_view, 4> k_reserved = {"slurm", "series.json", "series.csv", "series.html"};
 
-/// What jobs{} and slurm{} hand to series{}.
+/// Returns the table that jobs{} and slurm{} pass to series{}.
 ScriptValue runner_table(const char* kind, const OptionTable& options, TableHandle extra) {
   auto table = std::make_shared<ScriptTable>();
   table->fields["runner"] = std::string(kind);
@@ -88,7 +88,7 @@ ScriptValue jobs_verb(const ScriptCall& call) {
   return runner_table("jobs", schema, nullptr);
 }
 
-/// "--mem=8G" of mem = "8G"; notes problems.
+/// Converts mem = "8G" to "--mem=8G"; records problems.
 std::vector<std::string> sbatch_words(const ScriptTable& options, TableReader& reader) {
   std::vector<std::string> words;
   if (!options.items.empty() || !options.other_keys.empty()) reader.add_problem("options: every option of sbatch needs a name");
@@ -195,7 +195,7 @@ void read_run(TableReader& reader, SeriesPlan& plan) {
   entries.finish();
 }
 
-/// Whether the case has all these parameters with these values.
+/// Returns true if the case has all these parameters with these values.
 bool has_all(const SeriesCase& c, const ScriptTable& wanted) {
   return std::all_of(wanted.fields.begin(), wanted.fields.end(), [&](const auto& entry) {
     const auto it = c.parameters.fields.find(entry.first);
@@ -240,7 +240,7 @@ ScriptValue series_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_series_usage);
   SeriesPlan plan;
   Attempt attempted = call.attempted();
-  attempted.ends_with_checks = false;  // what the function of the cases does is checked, too
+  attempted.ends_with_checks = false;  // also checks the function of the cases
   TableReader reader(table, attempted);
   read_name(reader.items(), plan, reader);
   read_over(reader, plan);

@@ -1,4 +1,4 @@
-// Verbs of series: series, jobs, slurm, range, zip.
+// Verbs for series: series, jobs, slurm, range, zip.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ struct SeriesOptions;
 
 std::span<const ScriptVerb> series_verbs();
 
-/// Options of the stage "series", for --set. `options` must outlive the table.
+/// Returns the options of the stage "series", for --set. `options` must outlive the table.
 OptionTable options_of_series(SeriesOptions& options);
 
 }  // namespace sterna::scripting

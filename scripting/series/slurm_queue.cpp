@@ -1,5 +1,5 @@
-// Cases as arrays of jobs of Slurm. A job is the same program on the same script; what it has to say is in the folder of its case, so that the queue is asked
-// only for jobs that are gone without a word.
+// Cases as Slurm job arrays. A job runs the same program on the same script and reports through the folder of its case. The queue is queried only for jobs that
+// have ended without a report.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -20,18 +20,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds k_look_pause{100};    ///< between two looks at the folders of cases
-constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two questions to the queue, which a whole cluster uses
-/// Looks at the queue that must miss a job before it counts as lost: its last files may be on their way through the network's file system.
+constexpr std::chrono::milliseconds k_look_pause{100};    ///< between two checks of the case folders
+constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two queries of the queue, which the whole cluster shares
+/// Number of queries that must miss a job before it counts as lost: its last files may still be in transfer through the network file system.
 constexpr int k_misses = 2;
-/// Questions that may stay without an answer, one after the other: controllers restart, networks are away for a while. Half an hour and more, because squeue
-/// tries for some time itself. Cases that end meanwhile are seen by their folders.
+/// Maximum number of successive queries without an answer: controllers restart, networks fail for a while. More than half an hour in total, because squeue
+/// itself retries for some time. Cases that end meanwhile are detected by their folders.
 constexpr int k_deaf_questions = 900;
-constexpr std::size_t k_array_size = 1000;             ///< jobs of an array: clusters allow 1001 unless they say otherwise
-constexpr std::chrono::seconds k_cancel_patience{60};  ///< Slurm kills 30 s after it has asked
-constexpr const char* k_jobs_file = "jobs";            ///< in the folder slurm/: numbers of the arrays that may be in the queue
+constexpr std::size_t k_array_size = 1000;             ///< jobs of an array: clusters allow 1001 by default
+constexpr std::chrono::seconds k_cancel_patience{60};  ///< Slurm kills 30 s after the stop request
+constexpr const char* k_jobs_file = "jobs";            ///< in the folder slurm/: ids of the arrays that may be in the queue
 
-/// For a POSIX shell: in single quotes.
+/// Quotes a word for a POSIX shell, in single quotes.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -48,8 +48,8 @@ CommandResult run_or_throw(const std::vector<std::string>& words, const RunConte
   return result;
 }
 
-/// Holds the list of its cases: Slurm keeps a copy of the script, and a controller that comes back may start a job of an earlier run once more. (A list in a
-/// file would be the next run's by then, and the job would work on another case.)
+/// Returns the job script, which contains the list of its cases. Slurm keeps a copy of the script, and a restarted controller may start a job of an earlier run
+/// again. (With a list in a file, this job would read the list of the next run and work on another case.)
 std::string job_script(std::span<const CaseTask> tasks, const RunnerContext& runner) {
   const std::size_t n_tasks = tasks.size();
   std::string text = "#!/bin/sh\n#SBATCH --job-name=" + runner.plan.name + "\n#SBATCH --array=1-" + std::to_string(n_tasks);
@@ -66,7 +66,7 @@ std::string job_script(std::span<const CaseTask> tasks, const RunnerContext& run
   return text;
 }
 
-/// What the user says goes on the command line, where nothing needs quotes.
+/// Returns the sbatch command. The user's options are passed on the command line, where they need no quoting.
 std::vector<std::string> sbatch_command(const fs::path& script, const SeriesPlan& plan) {
   std::vector<std::string> words = {"sbatch", "--parsable"};
   if (!plan.slurm.partition.empty()) words.push_back("--partition=" + plan.slurm.partition);
@@ -76,12 +76,12 @@ std::vector<std::string> sbatch_command(const fs::path& script, const SeriesPlan
   return words;
 }
 
-/// The jobs of an array that are not over, by their numbers in it.
+/// Returns the unfinished jobs of an array, by their numbers in it.
 std::set<std::size_t> jobs_in_queue(const std::string& array, const RunContext& context) {
   const CommandResult result = run_command({"squeue", "--noheader", "--array", "--jobs=" + array, "--format=%i %T"}, context);
   std::set<std::size_t> jobs;
   if (result.status != 0) {
-    if (result.errors.find("Invalid job id") != std::string::npos) return jobs;  // it is over and forgotten
+    if (result.errors.find("Invalid job id") != std::string::npos) return jobs;  // the job has ended and Slurm has forgotten it
     throw Error({.code = ErrorCode::internal,
                  .attempted = "asking the queue for job " + array,
                  .problem = "squeue ends with status " + std::to_string(result.status) + ": " + result.errors,
@@ -101,7 +101,7 @@ class SlurmArray {
     const fs::path folder = runner.plan.folder / "slurm", script = folder / ("array-" + std::to_string(number) + ".sh");
     for (const CaseTask& task : tasks) {
       prepare(task, runner.run);
-      fs::remove(task.folder / k_log_file);  // jobs write on behind what is there
+      fs::remove(task.folder / k_log_file);  // jobs append to an existing log
     }
     io::write_whole(script, job_script(tasks, runner));
     id_ = run_or_throw(sbatch_command(script, runner.plan), runner.run).output;
@@ -125,7 +125,7 @@ class SlurmArray {
 
  private:
   [[noreturn]] void cancel() {
-    run_command({"scancel", id_}, RunContext({.threads = 1}));  // with a run of its own: this one is stopped
+    run_command({"scancel", id_}, RunContext({.threads = 1}));  // with a separate run context: this run is stopped
     runner_.run.check_stop();
     throw Error({.code = ErrorCode::cancelled, .attempted = runner_.plan.name, .problem = "stopped on request"});
   }
@@ -144,7 +144,7 @@ class SlurmArray {
     }
   }
 
-  /// What the queue says; nothing where it does not answer.
+  /// Returns the jobs in the queue; nothing if the queue does not answer.
   std::optional<std::set<std::size_t>> ask_queue() {
     try {
       std::set<std::size_t> jobs = jobs_in_queue(id_, runner_.run);
@@ -177,7 +177,7 @@ class SlurmArray {
   std::span<const CaseTask> tasks_;
   const RunnerContext& runner_;
   std::vector<int> misses_;
-  int n_deaf_ = 0;  ///< questions in a row that the queue has not answered
+  int n_deaf_ = 0;  ///< successive queries without an answer
   std::vector<bool> is_over_;
   std::size_t n_over_ = 0;
   std::string id_;

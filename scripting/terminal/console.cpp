@@ -34,7 +34,7 @@ std::string_view prefix_of(spdlog::level::level_enum level) {
   return "";
 }
 
-/// The one line at the bottom of a terminal; guarded by the console's mutex.
+/// The progress line at the bottom of a terminal; guarded by the console's mutex.
 class ProgressLine {
  public:
   void show(const ProgressState& state) {

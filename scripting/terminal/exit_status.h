@@ -1,4 +1,4 @@
-// What the shell sees of a run. Printed by `sterna --help` too.
+// Exit statuses of a run. Also printed by `sterna --help`.
 #pragma once
 
 #include "geom/base/error.h"

@@ -13,8 +13,8 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr long k_poll_ns = 50'000'000;  // how often the waiter looks whether the program is over, or work is late
-/// Ctrl-C is to work within a second.
+constexpr long k_poll_ns = 50'000'000;  // interval of the waiter's checks for the end of the program and for late work
+/// Ctrl-C must take effect within a second.
 constexpr std::chrono::milliseconds k_late{750};
 
 sigset_t stop_signals() {
@@ -25,9 +25,9 @@ sigset_t stop_signals() {
   return set;
 }
 
-void say(std::string_view text) { static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size())); }  // nobody is left to tell of a failure
+void say(std::string_view text) { static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size())); }  // a failure cannot be reported
 
-/// Helpers would go on without us.
+/// Kills helper processes, which would otherwise continue without the program.
 void kill_children() {
   std::error_code failure;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", failure)) {
@@ -36,7 +36,7 @@ void kill_children() {
   }
 }
 
-/// What AtomicFile and its like have open under a temporary name: ".sterna-<process>-<number>.part".
+/// Removes open temporary files of AtomicFile and similar classes: ".sterna-<process>-<number>.part".
 void remove_temporaries() {
   const std::string ours = ".sterna-" + std::to_string(::getpid()) + "-";
   std::error_code failure;
@@ -76,7 +76,7 @@ void InterruptGuard::renew() {
 void InterruptGuard::leave_to_work(bool is_left) {
   const std::lock_guard lock(mutex_);
   is_left_to_work_ = is_left;
-  if (requested_) requested_ = std::chrono::steady_clock::now();  // what comes behind that work has its own time
+  if (requested_) requested_ = std::chrono::steady_clock::now();  // work after this has its own time limit
 }
 
 void InterruptGuard::wait_for_signals(const std::stop_token& is_over) {
@@ -96,7 +96,7 @@ void InterruptGuard::take_signal() {
     requested_ = std::chrono::steady_clock::now();
     source = source_;
   }
-  source.request_stop();  // runs callbacks, which may ask for a token
+  source.request_stop();  // runs callbacks, which may request a token
 }
 
 void InterruptGuard::look_at_late_work() {

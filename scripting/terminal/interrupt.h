@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM as a stop request.
+// Conversion of Ctrl-C and SIGTERM to a stop request.
 #pragma once
 
 #include <chrono>
@@ -9,9 +9,9 @@
 
 namespace sterna::scripting {
 
-/// While it lives, SIGINT and SIGTERM are taken by a thread of its own and become a stop request; the second one ends the program at once (status 130). Where
-/// work does not take the request in time (a library that does not ask, a Lua pattern without end), the program ends, too: helpers are killed and temporary
-/// files removed, so that nothing is left half-written.
+/// During its lifetime, a separate thread converts SIGINT and SIGTERM to a stop request; the second signal ends the program at once (status 130). If the work
+/// does not stop in time (a library that does not check for stops, an endless Lua pattern), the program ends, too: helpers are killed and temporary files
+/// removed, so that no half-written files are left.
 /// \pre constructed before any other thread is started, so that all of them inherit the blocked signals.
 class InterruptGuard {
  public:
@@ -21,11 +21,11 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   std::stop_token token() const;
-  /// For a prompt, which goes on: a new token where the old one was stopped.
+  /// Replaces a stopped token by a new one, for a prompt that continues.
   void renew();
-  /// A prompt waits for work that does not stop, and says so.
+  /// Lets the program wait for work that does not stop, for a prompt, which reports this.
   void wait_for_late_work() { ends_late_work_ = false; }
-  /// Work that ends by itself however long that takes (a series waits for its jobs to be gone): only a second Ctrl-C ends the program then.
+  /// Marks work that ends by itself after an arbitrary time (a series waits for its jobs to end): then only a second Ctrl-C ends the program.
   void leave_to_work(bool is_left);
 
  private:
@@ -36,7 +36,7 @@ class InterruptGuard {
   mutable std::mutex mutex_;
   std::stop_source source_;
   std::optional<std::chrono::steady_clock::time_point> requested_;
-  bool ends_late_work_ = true;  ///< set before anything can be late
+  bool ends_late_work_ = true;  ///< set before any work can be late
   bool is_left_to_work_ = false;
   std::jthread waiter_;
 };

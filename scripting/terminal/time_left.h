@@ -1,4 +1,4 @@
-// How long the rest of some work takes, by the shares that it reports.
+// Estimate of the remaining time of some work from its reported progress fractions.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace sterna::scripting {
 
-/// Follows the progress of one piece of work after the other. Times are the caller's: any clock, in seconds.
+/// Tracks the progress of successive pieces of work. Times are from any clock of the caller, in seconds.
 class TimeLeft {
  public:
-  /// Notes the state at a time. A share of nought after one near the end, or one that falls where another first stage begins, begins a new piece of work; a
-  /// share that falls within a stage (a part that is done again) counts as the largest so far.
+  /// Records the state at a time. A new piece of work begins with a fraction of zero after one close to 1, or with a decreasing fraction in another first
+  /// stage. A fraction that decreases within a stage (a part is repeated) counts as the largest so far.
   void note(const ProgressState& state, double seconds);
-  /// Seconds from the latest note on; nothing before k_least_share of the work and k_least_seconds: too little is known.
+  /// Returns the remaining seconds from the latest note; empty before k_least_share of the work and k_least_seconds, when there is too little information.
   std::optional<double> estimate() const;
   double share() const { return share_; }
 
@@ -26,7 +26,7 @@ class TimeLeft {
   std::string work_;  ///< first name of the stage
   double start_ = 0.0;
   double share_ = 0.0;
-  double at_share_ = 0.0;  ///< seconds from the start to where the share got there
+  double at_share_ = 0.0;  ///< seconds from the start to the time when this fraction was reached
   double now_ = 0.0;       ///< seconds from the start
 };
 

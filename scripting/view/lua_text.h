@@ -1,11 +1,11 @@
-// Texts in the scripts that the workbench makes for files.
+// Strings in the scripts that the workbench generates for files.
 #pragma once
 
 #include <string>
 
 namespace sterna::scripting {
 
-/// The text as Lua writes it: "a \"b\"".
+/// Returns the string as a Lua literal: "a \"b\"".
 inline std::string quoted_for_lua(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {

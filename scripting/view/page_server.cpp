@@ -19,12 +19,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Requests at a time: a page keeps one waiting, and loads pictures beside it; a few pages.
+/// Maximum number of simultaneous requests: a page keeps one waiting and loads pictures at the same time; enough for a few pages.
 constexpr std::size_t k_threads = 16;
 constexpr std::size_t k_secret_bytes = 16;
-/// A request has to be there within this time, whatever the pace at which it comes.
+/// A request must be complete within this time, regardless of its transfer rate.
 constexpr std::chrono::seconds k_most_seconds{10};
-/// An answer of megabytes may go through a slow tunnel: so long without any progress ends it.
+/// Timeout without progress for an answer: megabytes may pass through a slow tunnel.
 constexpr int k_stall_ms = 30'000;
 
 std::string new_secret() {
@@ -39,7 +39,7 @@ std::string new_secret() {
   return text;
 }
 
-/// Takes as long for a guess that begins right as for any other.
+/// Compares in constant time: a guess with a correct beginning takes no longer than any other.
 bool is_same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -47,7 +47,7 @@ bool is_same_secret(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-/// Whether a Host header means this machine; the port is that of whatever tunnel leads here.
+/// Returns true if a Host header refers to this machine; any port is accepted, as it may be that of a tunnel.
 bool is_local_host(std::string_view host) {
   const std::size_t colon = host.rfind(':');
   const std::string_view name = host.substr(0, colon), port = colon == std::string_view::npos ? std::string_view("80") : host.substr(colon + 1);
@@ -60,7 +60,7 @@ bool is_plain_name(std::string_view name) {
   return name.size() <= k_longest && std::all_of(name.begin(), name.end(), [](unsigned char c) { return c == '_' || std::isalnum(c); });
 }
 
-/// One connection: ends when more comes than a request may have, or later than it may. The library itself has no such limits.
+/// A connection that ends if a request exceeds the size or time limit. The library itself has no such limits.
 class Connection final : public httplib::Stream {
  public:
   explicit Connection(socket_t socket) : socket_(socket), end_(Clock::now() + k_most_seconds) {}
@@ -95,7 +95,7 @@ class Connection final : public httplib::Stream {
   std::size_t n_read_ = 0;
 };
 
-/// The head of a request is looked at before the library reads it line by line, without a limit on their number.
+/// Tests the size of a request's head before the library reads it line by line, without a limit on the number of lines.
 bool has_short_head(socket_t socket) {
   std::string head(k_most_head_bytes, '\0');
   const Clock::time_point end = Clock::now() + k_most_seconds;
@@ -106,10 +106,10 @@ bool has_short_head(socket_t socket) {
     const std::size_t n_now = n > 0 ? static_cast<std::size_t>(n) : 0;
     if (std::string_view(head.data(), n_now).find("\r\n\r\n") != std::string_view::npos) return true;
     if (n_now == head.size() || Clock::now() > end) return false;
-    // poll() returns at once while bytes are there that were seen already.
+    // poll() returns immediately while bytes that were already seen are available.
     pollfd entry{socket, POLLIN | POLLRDHUP, 0};
     poll(&entry, 1, n_now > n_before || n_now == 0 ? 100 : 0);
-    if ((entry.revents & POLLRDHUP) != 0 && n_now == n_before) return false;  // nothing more will come
+    if ((entry.revents & POLLRDHUP) != 0 && n_now == n_before) return false;  // no more bytes will arrive
     if (n_now > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     n_before = n_now;
   }
@@ -117,9 +117,9 @@ bool has_short_head(socket_t socket) {
 
 class Server final : public httplib::Server {
  private:
-  /// One request for a connection: what browsers lose by that on one machine is nothing.
+  /// Handles one request per connection: the loss for browsers on the same machine is negligible.
   bool process_and_close_socket(socket_t socket) override {
-    fcntl(socket, F_SETFD, FD_CLOEXEC);  // no worker inherits it
+    fcntl(socket, F_SETFD, FD_CLOEXEC);  // prevents inheritance by workers
     if (has_short_head(socket)) {
       Connection connection(socket);
       bool is_closed = false;
@@ -134,7 +134,7 @@ class Server final : public httplib::Server {
 void give(httplib::Response& response, const PageAnswer& answer) {
   response.status = answer.status;
   if (!answer.body || answer.body->empty()) return response.set_content("", std::string(answer.type));
-  // The bytes are shared, not copied: pictures have some ten megabytes.
+  // The bytes are shared, not copied: pictures have tens of megabytes.
   response.set_content_provider(answer.body->size(), std::string(answer.type),
                                 [body = answer.body](size_t from, size_t n, httplib::DataSink& sink) { return sink.write(body->data() + from, n); });
 }
@@ -152,11 +152,11 @@ struct PageServer::Parts {
   Server server;
   std::thread thread;
 
-  /// 0 where the request may be answered, else the status of its refusal; the name of what it asks for.
+  /// Returns 0 if the request may be answered, else the status of the refusal; sets the requested name.
   int examine(const httplib::Request& request, std::string& name) const {
     const std::string prefix = "/" + secret + "/";
     if (request.get_header_value_count("Host") != 1 || !is_local_host(request.get_header_value("Host"))) return 403;
-    const std::string path = request.target.substr(0, request.target.find('?'));  // as it was sent: nothing in it is decoded
+    const std::string path = request.target.substr(0, request.target.find('?'));  // as sent, not decoded
     if (path.size() < prefix.size() || !is_same_secret(std::string_view(path).substr(0, prefix.size()), prefix)) return 404;
     if (request.has_header("Origin") && request.get_header_value("Origin") != "http://" + request.get_header_value("Host")) return 403;
     if (const std::string site = request.get_header_value("Sec-Fetch-Site"); !site.empty() && site != "same-origin" && site != "none") return 403;
@@ -178,7 +178,7 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
   parts.answer = std::move(answer);
   parts.secret = new_secret();
   parts.server.new_task_queue = [] { return new httplib::ThreadPool(k_threads); };
-  // Without SO_REUSEPORT, by which another process could share the port.
+  // Leaves out SO_REUSEPORT, by which another process could share the port.
   parts.server.set_socket_options([](socket_t socket) {
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -195,7 +195,7 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
   parts.server.set_pre_routing_handler([&parts](const httplib::Request& request, httplib::Response& response) {
     std::string name;
     if (const int status = parts.examine(request, name); status != 0) refuse(response, status);
-    else if (request.method == "POST") return Handled::Unhandled;  // its body is read first
+    else if (request.method == "POST") return Handled::Unhandled;  // the body is read first
     else parts.respond(request, response, name);
     return Handled::Handled;
   });

@@ -1,4 +1,4 @@
-// Serves one page to one user: on 127.0.0.1 only, below a secret in the address. The one place with cpp-httplib.
+// Serves one page to one user: on 127.0.0.1 only, below a secret in the address. The only component that uses cpp-httplib.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,9 @@ namespace sterna::scripting {
 
 struct PageRequest {
   bool is_post = false;
-  std::string name;                          ///< what stands behind the secret: "" for the page itself, "state"
-  std::map<std::string, std::string> query;  ///< behind "?"
-  std::string body;                          ///< of a POST
+  std::string name;                          ///< part of the path after the secret: "" for the page itself, "state"
+  std::map<std::string, std::string> query;  ///< after "?"
+  std::string body;                          ///< body of a POST request
   std::string value(const std::string& key) const {
     const auto found = query.find(key);
     return found == query.end() ? std::string() : found->second;
@@ -22,32 +22,32 @@ struct PageRequest {
 
 struct PageAnswer {
   int status = 200;
-  std::string_view type = "application/json";  ///< of the body
+  std::string_view type = "application/json";  ///< media type of the body
   std::shared_ptr<const std::string> body;
 };
 
-/// What a request may be at most. Larger ones are refused before they are read.
+/// Maximum size of a request; larger requests are refused before they are read.
 inline constexpr std::size_t k_most_body_bytes = 256 * 1024;
 inline constexpr std::size_t k_most_head_bytes = 16 * 1024;
 
-/// Answers requests from threads of its own while it lives. Refused (403, 404, 405, 413, or the connection ends) is whatever
-///   - does not begin with the secret, or names another host than 127.0.0.1 or localhost (a name that some page has turned to this machine),
-///   - comes from a page of another origin, or posts without the header `X-Sterna: 1`, which pages of other origins cannot send,
-///   - is neither GET nor POST, or has a name that is not of letters, digits and underscores: no path ever reaches the disk,
-///   - is too large or comes too slowly (k_most_head_bytes, k_most_body_bytes, k_most_seconds of page_server.cpp).
+/// Answers requests from its own threads during its lifetime. It refuses (403, 404, 405, 413, or a closed connection) requests that
+/// - do not begin with the secret, or name another host than 127.0.0.1 or localhost (a name that some page has redirected to this machine),
+/// - come from a page of another origin, or post without the header `X-Sterna: 1`, which pages of other origins cannot send,
+/// - are neither GET nor POST, or have a name that contains other characters than letters, digits and underscores: no path ever reaches the disk,
+/// - are too large or arrive too slowly (k_most_head_bytes, k_most_body_bytes, k_most_seconds of page_server.cpp).
 class PageServer {
  public:
   using Answer = std::function<PageAnswer(const PageRequest&)>;
 
-  /// \param port 0: any that is free. \param answer called from several threads; it may wait, up to half a minute
-  /// \throws Error(bad_argument) where the port is taken
+  /// \param port 0: any free port. \param answer called from several threads; it may wait for up to half a minute
+  /// \throws Error(bad_argument) if the port is taken
   PageServer(int port, Answer answer);
-  /// Ends once all answers have been given: whoever waits in `answer` must be woken first.
+  /// Waits until all answers have been given: threads that wait in `answer` must be woken first.
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
-  /// "http://127.0.0.1:8123/5f0c.../", with the secret.
+  /// Returns "http://127.0.0.1:8123/5f0c.../", with the secret.
   const std::string& address() const;
 
  private:

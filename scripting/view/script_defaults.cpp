@@ -13,7 +13,7 @@ namespace {
   throw Error({.code = ErrorCode::bad_argument, .attempted = "writing values into the script", .problem = problem, .hint = "change it by hand"});
 }
 
-/// Where the value of `name` begins in the table of this args{}.
+/// Returns the start of the value of `name` in the table of this args{}.
 std::optional<std::size_t> find_value(const std::string& s, std::size_t begin, std::size_t end, const std::string& name) {
   const auto skip_blanks = [&](std::size_t at) {
     while (at < end && std::isspace(static_cast<unsigned char>(s[at])) != 0) ++at;
@@ -34,7 +34,7 @@ std::optional<std::size_t> find_value(const std::string& s, std::size_t begin, s
   return value == std::string::npos ? std::nullopt : std::optional(value);
 }
 
-/// Where the default of `name` stands: {from, to}. Script and modules may have several args{}.
+/// Returns the range {from, to} of the default of `name`. Script and modules may have several args{}.
 std::pair<std::size_t, std::size_t> find_default(const std::string& s, const std::string& name) {
   const std::vector<TableCall> tables = table_calls(s, "args");
   if (tables.empty()) refuse_default("it has no args{ ... }");
@@ -64,7 +64,7 @@ std::pair<std::size_t, std::size_t> find_default(const std::string& s, const std
   return {value, to};
 }
 
-/// Whether a default is something that can be replaced: a number, maybe with a unit behind; true, false; a string.
+/// Returns true if a default can be replaced: a number, optionally followed by a unit; true, false; a string.
 bool is_plain_default(std::string_view text) {
   if (text == "true" || text == "false") return true;
   if (text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front())
@@ -78,14 +78,14 @@ bool is_plain_default(std::string_view text) {
   return at == text.size();
 }
 
-/// A value as Lua writes it in the place of that default.
+/// Returns a value as Lua code that replaces this default.
 std::string lua_value(const std::string& value, std::string_view before, const std::string& name) {
   if (before.front() == '"' || before.front() == '\'') {
     if (value.find_first_of("\"\\\n\r") != std::string::npos) refuse_default("the text for " + name + " has quotes or line ends");
     return '"' + value + '"';
   }
   if (!is_plain_default(value) || value.front() == '"' || value.front() == '\'') refuse_default("\"" + value + "\" is no value for " + name);
-  // 12deg of the command line is 12*deg in Lua.
+  // 12deg on the command line is 12*deg in Lua.
   const std::size_t unit = value.find_last_of("0123456789.") + 1;
   return unit == 0 || unit == value.size() || value[unit] == '*' ? value : value.substr(0, unit) + "*" + value.substr(unit);
 }

@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_results_file = "series.json";
 
-/// Whether a name of the table is that of a file in the case's folder.
+/// Returns true if a name in the table refers to a file in the case's folder.
 bool is_inside(const fs::path& name) {
   return name.is_relative() && std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-/// The first of a case's files that holds a volume mesh, else a surface; empty: none does.
+/// Returns the first file of a case with a volume mesh, else with a surface; empty: none.
 std::string shown_output(const CasesJson& outputs) {
   std::string surface;
   for (const CasesJson& output : outputs) {

@@ -1,4 +1,4 @@
-// A series that has run, as the workbench shows it: its cases with what is known of each, and a script whose argument `case` goes through their meshes.
+// A finished series as shown in the workbench: the data of its cases, and a script whose argument `case` selects a mesh.
 #pragma once
 
 #include <filesystem>
@@ -7,19 +7,20 @@
 
 namespace sterna::scripting {
 
-/// Whether the folder holds the table of a series that has run.
+/// Returns true if the folder contains the table of a finished series.
 bool is_series_folder(const std::filesystem::path& folder);
 
 struct SeriesCases {
-  std::string script;  ///< its cases are numbered from 1, those without a mesh or a surface left out
+  std::string script;  ///< cases are numbered from 1; cases without a mesh or a surface are left out
   /// JSON list: name, parameters, status, verdict, quality, cells, gates (state by name), result, message; `case`: number in the script or null; `picture`:
   /// index into `pictures` or null.
   std::string json;
   std::vector<std::filesystem::path> pictures;  ///< PNG files that the cases have written
 };
 
+/// Reads the cases of a series folder.
 /// \pre is_series_folder(folder)
-/// \throws Error(file_malformed) for a table that cannot be read; (file_not_found) where no case has a mesh or a surface
+/// \throws Error(file_malformed) for a table that cannot be read; (file_not_found) if no case has a mesh or a surface
 SeriesCases read_series_cases(const std::filesystem::path& folder);
 
 }  // namespace sterna::scripting

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int k_last_port = 65535;
 
-/// A script that reads the file: what is shown of a script's results is shown of the file.
+/// Returns a script that reads the file, so that files are shown in the same way as results of scripts.
 std::string reading_script(const std::filesystem::path& input) {
   const std::string name = quoted_for_lua(std::filesystem::absolute(input).string());
   if (is_model_file(input)) {
@@ -47,7 +47,7 @@ void require_input(const std::filesystem::path& input) {
     throw Error({.code = ErrorCode::file_not_found, .attempted = "showing " + input.string(), .problem = "there is no such file"});
 }
 
-/// Where there is a screen; elsewhere the address is all that is needed.
+/// Opens a browser if there is a display; otherwise the printed address suffices.
 std::optional<ChildProcess> open_browser(const std::string& address, const CommandContext& context) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return std::nullopt;
   try {
@@ -78,7 +78,7 @@ CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
   command->add_option("--cache-limit", view.cache_limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")
       ->check(CLI::PositiveNumber)
       ->type_name("BYTES");
-  command->add_flag("--worker", view.is_worker, "")->group("");  // hidden: see view_worker.h
+  command->add_flag("--worker", view.is_worker, "")->group("");  // not listed in the help: see view_worker.h
   command->footer("sterna view case.lua span=11 --port 8123. Ctrl-C ends it. From another machine: ssh -L 8123:127.0.0.1:8123 HOST. See docs/view.md.");
   return command;
 }

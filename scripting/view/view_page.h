@@ -4,7 +4,7 @@
 
 namespace sterna::scripting {
 
-/// The page of the workbench (HTML, scripting/report/page/src/workbench); the text lives as long as the program. Empty where report_page() is.
+/// Returns the page of the workbench (HTML, scripting/report/page/src/workbench); the string lives as long as the program. Empty if report_page() is empty.
 std::string_view view_page();
 
 }  // namespace sterna::scripting

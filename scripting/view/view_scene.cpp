@@ -46,7 +46,7 @@ std::string metres(double value) { return number_text(value, 5) + " m"; }
 
 SceneJson scene_of(std::string_view kind) { return {{"schema", "sterna-scene-1"}, {"kind", kind}, {"facts", SceneJson::array()}}; }
 
-/// Frame, patches and surface of what is made of triangles.
+/// Adds frame, patches and surface of an object that consists of triangles.
 void add_surface(SceneJson& scene, std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches,
                  const std::vector<SurfaceField>& fields, const SceneOptions& options, PageArrays& arrays) {
   const PageMaker maker(points, triangles, patches, fields);
@@ -64,7 +64,7 @@ SurfaceField curvature_field(std::vector<double> values) {
 
 SceneJson place_of(const Point& p) { return SceneJson::array({p.x, p.y, p.z}); }
 
-/// Section of a wing: its leading edge, chord, angles, airfoil; one that is given as a loop has the chord of that.
+/// Returns the data of a wing section: leading edge, chord, angles, airfoil; a section given as a loop has the chord of the loop.
 SceneJson section_json(const WingSection& section, const Transform& map, std::size_t number) {
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   SceneJson entry = {{"name", section.name.empty() ? "section " + std::to_string(number) : section.name}};
@@ -81,7 +81,7 @@ SceneJson section_json(const WingSection& section, const Transform& map, std::si
   return entry;
 }
 
-/// Sections of wings from the root outwards, frames of bodies, and control surfaces, by the name of the component.
+/// Returns wing sections from the root outwards, body frames, and control surfaces, by component name.
 SceneJson parts_json(const Aircraft& aircraft) {
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   SceneJson parts = SceneJson::object();
@@ -128,7 +128,7 @@ void add_model_facts(SceneJson& scene, const ModelValue& value, const RunContext
   scene["components"] = std::move(components);
 }
 
-/// Of the model's longest side; a sketch is four times as rough, with half the triangles.
+/// Facet tolerance of a sketch as a fraction of the model's longest side: four times as coarse, with half the triangles.
 constexpr double k_sketch_tolerance = 8e-4;
 
 surfmesh::FacetOptions facet_options(const SceneOptions& options) {
@@ -139,7 +139,7 @@ surfmesh::FacetOptions facet_options(const SceneOptions& options) {
 std::string model_scene(const ModelValue& value, const SceneOptions& options, const RunContext& context) {
   const Model& model = value.model;
   surfmesh::ModelFacets facets = surfmesh::facets_of(model, facet_options(options), context);
-  // One patch for each name within a component, as meshes have them; in the order of names, so that a sketch has the colours of the united model.
+  // One patch per name within a component, as in meshes; sorted by name, so that a sketch has the same colours as the united model.
   const auto key_of = [&](const ModelFace& face) {
     return std::pair(face.component.is_valid() ? model.components[face.component].name : std::string(), face.name);
   };
@@ -259,7 +259,7 @@ std::string mesh_scene(const MeshValue& value, const SceneOptions& options, cons
 }  // namespace
 
 bool is_drawable(const ScriptValue& value) {
-  if (const auto* mesh = std::get_if<MeshHandle>(&value)) return count_cells((*mesh)->mesh).total() > 0;  // the file of a surface, read as a mesh
+  if (const auto* mesh = std::get_if<MeshHandle>(&value)) return count_cells((*mesh)->mesh).total() > 0;  // a surface file, read as a mesh
   return std::holds_alternative<ModelHandle>(value) || std::holds_alternative<ComponentHandle>(value) || std::holds_alternative<SurfaceHandle>(value) ||
          std::holds_alternative<EnvelopeHandle>(value) || std::holds_alternative<TetrahedraHandle>(value);
 }

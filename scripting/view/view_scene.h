@@ -1,4 +1,4 @@
-// What the workbench shows of an object that a script made: triangles, patches, figures, measures as one block of bytes.
+// Scene data of an object for the workbench: triangles, patches, figures, measures in one block of bytes.
 #pragma once
 
 #include <string>
@@ -8,27 +8,28 @@
 
 namespace sterna::scripting {
 
-/// Whether there is something to draw: models, components, surfaces, envelopes, tetrahedra's layer, volume meshes.
+/// Returns true if the value can be drawn: models, components, surfaces, envelopes, tetrahedra (drawn as their wall), volume meshes.
 bool is_drawable(const ScriptValue& value);
-/// One line: what it is.
+/// Returns a one-line description of the object.
 std::string object_text(const ScriptValue& value);
 
 struct SceneOptions {
-  std::size_t max_triangles = 1'500'000;  ///< above that the surface is thinned, and says so
-  bool is_quick = false;                  ///< nothing but the shape: no measures, no curvature
+  std::size_t max_triangles = 1'500'000;  ///< above this number the surface is decimated, which the scene states
+  bool is_quick = false;                  ///< shape only: no measures, no curvature
 };
 
-/// Four bytes of length (little-endian), four of nought, a JSON object of that length padded with blanks to a multiple of 4, then the arrays that it points
-/// into (docs/report.md: schema sterna-scene-1 has its frame, patches and surface; also facts, and of volume meshes verdict, gates, places).
-/// \pre is_drawable(value) \throws Error of making a component's model, of check
+/// Returns four bytes of length (little-endian), four zero bytes, a JSON object of that length padded with blanks to a multiple of 4, then the arrays to which
+/// the JSON refers (docs/report.md: schema sterna-scene-1 has its frame, patches and surface; also facts, and for volume meshes verdict, gates, places).
+/// \pre is_drawable(value)
+/// \throws errors of making a component's model, and of check
 std::string scene_bytes(const ScriptValue& value, const SceneOptions& options, const RunContext& context);
 
-/// JSON of what inspect{} says of a surface without layers (schema sterna-inspect-1: findings with places and advice).
-/// \throws Error(bad_argument) for another object than a surface
+/// Returns the result of inspect{} for a surface without layers as JSON (schema sterna-inspect-1: findings with places and advice).
+/// \throws Error(bad_argument) for an object other than a surface
 std::string inspection_json(const ScriptValue& value, const RunContext& context);
 
-/// JSON of a cut through a volume mesh and its arrays, in the same form. `plane` as `--cut` takes it: "x=1.2", "point=0,0,0 normal=0,1,0"
-/// \throws Error(bad_argument) for another text, or another object than a volume mesh
+/// Returns a cut through a volume mesh: its JSON and arrays, in the same form. `plane` is as in `--cut`: "x=1.2", "point=0,0,0 normal=0,1,0"
+/// \throws Error(bad_argument) for another string, or for an object other than a volume mesh
 std::string cut_bytes(const ScriptValue& value, const std::string& plane, std::size_t max_polygons, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -24,7 +24,7 @@ namespace {
 using WorkerJson = nlohmann::ordered_json;
 using WorkerClock = std::chrono::steady_clock;
 
-/// Writes answers whole, from any thread.
+/// Writes complete answers, from any thread.
 class Answers {
  public:
   void send(WorkerJson json, const std::string& bytes = {}) {
@@ -35,7 +35,7 @@ class Answers {
   }
 
  private:
-  /// \throws Error(write_failed) where nobody listens any more
+  /// \throws Error(write_failed) if the workbench no longer reads
   static void write_all(std::string_view text) {
     while (!text.empty()) {
       const ssize_t n = write(k_view_answers, text.data(), text.size());
@@ -47,16 +47,16 @@ class Answers {
   std::mutex mutex_;
 };
 
-/// What a script made, in its order.
+/// An object made by the script, in order of creation.
 struct MadeObject {
   ScriptValue value;
   std::string verb, where;  ///< "wing", "case.lua:12"
-  std::string name;         ///< of a variable; empty: none
+  std::string name;         ///< name of the variable; empty: none
   bool is_of_script = false;
-  bool is_sent = false;  ///< the page has it, as it is
+  bool is_sent = false;  ///< the page has the current version
 };
 
-/// "case.lua:12: " -> {"case.lua", 12}
+/// Splits "case.lua:12: " into {"case.lua", 12}.
 std::pair<std::string, int> file_and_line(std::string_view text) {
   for (std::size_t at = text.find(':'); at != std::string_view::npos; at = text.find(':', at + 1)) {
     std::size_t end = at + 1;
@@ -69,7 +69,7 @@ std::pair<std::string, int> file_and_line(std::string_view text) {
 
 WorkerJson problem_json(const Error& error) {
   const ErrorInfo& info = error.info();
-  // Lua's own messages have the place in the problem, those of verbs in front of what was attempted.
+  // Lua's own messages have the location in the problem; messages of verbs have it before the attempted action.
   auto place = file_and_line(info.attempted);
   if (place.second == 0) place = file_and_line(info.problem);
   WorkerJson places = WorkerJson::array();
@@ -135,13 +135,13 @@ class Worker {
     }
     const bool has_left_out = pass(Mode::sketch);
     if (mode == "sketch") return end("sketch", true);
-    if (!has_left_out) return end("geometry", true);  // it was no sketch after all: measures and problems count
+    if (!has_left_out) return end("geometry", true);  // not a sketch after all: measures and problems count
     end("sketch", false);
     pass(Mode::geometry);
     end("geometry", true);
   }
 
-  /// Runs the script once; whether a sketch left something out.
+  /// Runs the script once; returns true if a sketch left something out.
   bool pass(Mode mode) {
     objects_.clear();
     problems_ = WorkerJson::array();
@@ -201,7 +201,7 @@ class Worker {
     return watch.has_left_out;
   }
 
-  /// What a series' own workers need: as of `sterna run`.
+  /// Returns the arguments for a series' own workers, as in `sterna run`.
   std::vector<std::string> words() const {
     std::vector<std::string> list;
     for (const auto& [name, value] : settings_.overrides) list.push_back("--set=" + name + "=" + value);
@@ -212,13 +212,13 @@ class Worker {
 
   void note_made(const ScriptCall& call, const ScriptValue& value) {
     if (!is_drawable(value) || is_stand_in(call, value)) return;
-    // After a mistake the script goes on with things that stand for others: what is made of them would be no good picture.
+    // After an error the script continues with placeholders; objects made from them must not be shown.
     if (call.session.check && !call.session.check->problems.empty()) return;
     if (std::ranges::any_of(objects_, [&](const MadeObject& known) { return is_same_object(known.value, value); })) return;
     std::string where = call.where;
     while (where.ends_with(' ') || where.ends_with(':')) where.pop_back();
     objects_.push_back({.value = value, .verb = std::string(call.verb), .where = std::move(where), .name = {}});
-    // Meshes take long: they are shown as they come, before their variables are known.
+    // Meshes take long: they are shown immediately, before their variables are known.
     if (mode_ == Mode::mesh && !std::holds_alternative<ComponentHandle>(value) && !std::holds_alternative<ModelHandle>(value)) {
       send_objects("mesh", false);
       send_scene(objects_.size() - 1, false);
@@ -233,9 +233,9 @@ class Worker {
       }
   }
 
-  // ---- Telling
+  // ---- Reports to the page
 
-  /// By which the page knows it again in the next run: the variable, or the verb and which of its calls it was.
+  /// Returns the keys by which the page identifies objects in the next run: the variable, or the verb and the number of its call.
   std::vector<std::string> keys() const {
     std::vector<std::string> list;
     for (const MadeObject& object : objects_) {
@@ -247,8 +247,8 @@ class Worker {
     return list;
   }
 
-  /// What is shown unless the user says otherwise: the last thing made, of the script's own variables where there are some; components only where nothing is
-  /// made of them. Of a script that breaks half way, what was shown before: its last thing so far is a part that nobody chose.
+  /// Returns the objects shown by default: the last object made, preferably of the script's own variables; components only if nothing is made of them. If the
+  /// script failed half way, the objects shown before: its last object is then an arbitrary part.
   std::vector<bool> shown() const {
     const auto is_component = [](const MadeObject& object) { return std::holds_alternative<ComponentHandle>(object.value); };
     std::vector<bool> list(objects_.size(), false);
@@ -262,7 +262,7 @@ class Worker {
       for (std::size_t i = 0; i < objects_.size(); ++i)
         if (!is_component(objects_[i]) && (!must_be_named || objects_[i].is_of_script)) last = i;
     if (last < list.size()) list[last] = true;
-    else if (problems_.empty())  // a script that failed half way has made parts only
+    else if (problems_.empty())  // a script that failed half way has made only parts
       for (std::size_t i = 0; i < list.size(); ++i) list[i] = is_component(objects_[i]);
     return list;
   }
@@ -313,7 +313,7 @@ class Worker {
                    {"problems", is_quick ? WorkerJson::array() : problems_}});
   }
 
-  /// An object's scene, a cut through it, what an inspection finds: of the run that is held.
+  /// Sends an object's scene, a cut through it, or inspection results, for the current run.
   void send_asked(const WorkerJson& job, const std::string& what) {
     const auto id = job.value("id", std::size_t{0});
     const auto ask = job.value("ask", 0);
@@ -340,8 +340,8 @@ class Worker {
   WorkerClock::time_point start_;
   TimeLeft left_;
   OptionOverrides arguments_;
-  std::vector<std::string> wanted_, unwanted_;  ///< keys that the user shows, hides
-  std::vector<std::string> kept_;               ///< keys that were shown before without his word
+  std::vector<std::string> wanted_, unwanted_;  ///< keys of objects that the user shows, hides
+  std::vector<std::string> kept_;               ///< keys shown before without the user's choice
   std::optional<RunContext> run_;
   std::vector<MadeObject> objects_;
   WorkerJson problems_ = WorkerJson::array();

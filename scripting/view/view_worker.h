@@ -1,13 +1,13 @@
-// The process of the workbench in which scripts run: a crash or a stop there leaves the page as it is.
+// The process of the workbench in which scripts run: a crash or a stop of this process does not affect the page.
 //
-// Jobs come as lines of JSON on stdin, answers go as lines of JSON to a descriptor; "bytes": n says that n bytes follow the line.
+// Jobs are lines of JSON on stdin, answers are lines of JSON on a descriptor; "bytes": n announces n bytes after the line.
 //   {"do": "run", "run": 3, "mode": "sketch" | "geometry" | "mesh", "arguments": {"span": "11"}, "wanted": ["model"], "unwanted": [], "kept": []}
 //     -> parameters, log, print, progress, objects, scene ..., ended
 //   {"do": "scene", "run": 3, "id": 2}                  an object of that run   -> scene, or failed
 //   {"do": "cut", "run": 3, "id": 2, "plane": "x=1.2", "ask": 7}                -> asked, or failed
 //   {"do": "inspect", "run": 3, "id": 2, "ask": 8}                              -> asked, or failed
-// A sketch leaves solids side by side that the script unites, and shows shapes only; "geometry" makes models and reads surfaces, without meshing or writing
-// anything; "mesh" runs the script as `sterna run` does.
+// A sketch does not unite solids and shows shapes only; "geometry" makes models and reads surfaces, without meshing or writing
+// anything; "mesh" runs the script as in `sterna run`.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@
 
 namespace sterna::scripting {
 
-/// Descriptor that answers are written to.
+/// Descriptor to which answers are written.
 inline constexpr int k_view_answers = 4;
 
 struct ViewWorker {
@@ -27,7 +27,7 @@ struct ViewWorker {
   const StageCache* cache = nullptr;
 };
 
-/// Answers jobs until stdin ends; a job that is stopped (SIGTERM) ends the process with it. Exit status.
+/// Answers jobs until stdin ends; stopping a job (SIGTERM) ends the process. Returns the exit status.
 int run_view_worker(const ViewWorker& worker, const CommandContext& context);
 
 }  // namespace sterna::scripting

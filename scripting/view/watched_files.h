@@ -1,4 +1,4 @@
-// The files that a script depends on, looked at now and then.
+// Detects changes of the files on which a script depends, by polling.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace sterna::scripting {
 
-/// A script, and the files that it names in quotes: as they are, beside it, or as a module NAME.lua beside it. A file that the script writes itself under a
-/// name that it does not read is no reason to run again: only files that were there when the script was last seen to change count.
+/// A script, and the files that it names in quotes: by path, beside the script, or as a module NAME.lua beside it. Only files that existed at the script's last
+/// change count: a file that the script writes under a name that it does not read gives no reason to run again.
 class WatchedFiles {
  public:
-  /// \p other a file that counts, too
+  /// \p other an additional file to watch
   WatchedFiles(std::filesystem::path script, std::filesystem::path other);
-  /// Whether the script's text or a file has changed since the last time, and has not for one look: a file that is being written is waited for. The same
-  /// content saved again is no change of the script.
+  /// Returns true if the script's text or a file has changed since the last call, and has been stable for one call, so that a file that is being written is
+  /// complete. Saving unchanged content is not a change of the script.
   bool have_changed();
-  /// What other files are now is no change: the run that has just ended wrote them.
+  /// Accepts the current state of other files as unchanged: the run that has just ended wrote them.
   void accept_others();
 
  private:
   struct File {
     std::filesystem::path path;
-    std::int64_t stamp = 0;  ///< of its last change; size counts, too
+    std::int64_t stamp = 0;  ///< time of the last change; the size is compared, too
     std::uintmax_t size = 0;
     friend bool operator==(const File&, const File&) = default;
   };

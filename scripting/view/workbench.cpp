@@ -1,5 +1,5 @@
-// Threads: follow() starts, feeds and ends the workers; a reader for each worker takes its answers; those of the server answer the page. All share State under
-// one mutex; whoever changes something raises its version and wakes those who wait.
+// Threads: follow() starts, feeds and ends the workers; one reader per worker takes its answers; the server's threads answer the page. All share State under
+// one mutex; every change raises its version and wakes the waiting threads.
 #include "scripting/view/workbench.h"
 
 #include <algorithm>
@@ -31,17 +31,17 @@ using BenchJson = nlohmann::ordered_json;
 using BenchClock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto k_look_interval = 60ms;      ///< between looks at the files
-constexpr auto k_page_patience = 20s;       ///< an answer that has nothing new to tell is given after this time
-constexpr auto k_ask_patience = 60s;        ///< a page that asked for a cut or an inspection waits so long for it
-constexpr auto k_sketch_patience = 1500ms;  ///< a sketch is left to its end so long before a newer one takes its place
-constexpr auto k_quick_sketch = 300ms;      ///< what takes longer shows its progress
-constexpr auto k_end_patience = 3s;         ///< a worker that was told to stop is killed after this time
-constexpr std::size_t k_most_lines = 400;   ///< of the log
+constexpr auto k_look_interval = 60ms;      ///< between checks of the files
+constexpr auto k_page_patience = 20s;       ///< an answer without news is given after this time
+constexpr auto k_ask_patience = 60s;        ///< waiting time of the page for a cut or an inspection
+constexpr auto k_sketch_patience = 1500ms;  ///< a sketch may finish within this time before a newer one replaces it
+constexpr auto k_quick_sketch = 300ms;      ///< longer sketches show their progress
+constexpr auto k_end_patience = 3s;         ///< a worker is killed this long after a stop request
+constexpr std::size_t k_most_lines = 400;   ///< in the log
 
-/// One object of the picture. It stays, marked old, until a run that came to its end has made it anew or not at all.
+/// One object of the picture. It is kept, marked old, until a completed run has made it again or not at all.
 struct ShownObject {
-  BenchJson about;  ///< as the worker told: key, kind, verb, file, line, is_shown, text
+  BenchJson about;  ///< as reported by the worker: key, kind, verb, file, line, is_shown, text
   int run = 0;
   std::size_t id = 0;  ///< within that run
   std::uint64_t scene = 0;
@@ -50,7 +50,7 @@ struct ShownObject {
   std::shared_ptr<const std::string> bytes;
   std::string failure;
   std::string key() const { return about.value("key", ""); }
-  /// Whether geometry alone makes it; meshes stay until the next mesh.
+  /// Returns true if geometry mode makes the object; meshes are kept until the next mesh.
   bool is_geometry() const { return about.value("kind", "") == "model" || about.value("kind", "") == "component"; }
 };
 
@@ -64,16 +64,16 @@ struct State {
   double seconds = 0.0;
   BenchClock::time_point started{};
   std::vector<ShownObject> objects;
-  std::map<std::string, std::string> values;  ///< arguments that are not as the script has them
+  std::map<std::string, std::string> values;  ///< arguments that differ from the script
   std::vector<std::string> wanted, unwanted;  ///< keys
-  std::deque<BenchJson> lines;                ///< of the log
+  std::deque<BenchJson> lines;                ///< in the log
   std::uint64_t n_lines = 0;
-  std::map<int, std::shared_ptr<const std::string>> asked;  ///< answers by number of the question
+  std::map<int, std::shared_ptr<const std::string>> asked;  ///< answers by request number
   std::map<int, std::string> refused;
   int n_asked = 0;
 };
 
-/// A worker process with the thread that reads what it says.
+/// A worker process with the thread that reads its answers.
 struct WorkerProcess {
   int number = 0;
   ChildProcess child;
@@ -152,7 +152,7 @@ class Workbench::Parts {
   }
 
  private:
-  // ---- What the page asks for
+  // ---- Requests of the page
 
   PageAnswer state_answer(const PageRequest& request) {
     const std::uint64_t since = number_in(request.value("since")), lines_since = number_in(request.value("lines"));
@@ -224,7 +224,7 @@ class Workbench::Parts {
       const std::lock_guard lock(mutex_);
       const BenchJson values = body.value("values", BenchJson::object());
       for (const auto& [name, text] : values.items()) {
-        split_argument(name + "=");  // a name that no argument can have is refused here
+        split_argument(name + "=");  // rejects names that are not valid for an argument
         if (text.is_null()) state_.values.erase(name);
         else state_.values[name] = text.get<std::string>();
       }
@@ -269,7 +269,7 @@ class Workbench::Parts {
     return json_answer({{"ok", true}});
   }
 
-  /// A cut through an object, or what an inspection finds: the worker is asked, and waited for.
+  /// Requests a cut through an object, or an inspection, from the worker and waits for the result.
   PageAnswer asked_of_object(const char* what, const BenchJson& body, std::string_view type) {
     const std::string key = body.value("key", "");
     std::unique_lock lock(mutex_);
@@ -300,7 +300,7 @@ class Workbench::Parts {
     if (values.empty()) return refusal("all values are as the script has them");
     io::write_whole(settings_.script, with_defaults(read_script(settings_.script), values));
     const std::lock_guard lock(mutex_);
-    state_.values.clear();  // the script has them now; it is seen as changed
+    state_.values.clear();  // the script now has them; the file watcher detects the change
     return json_answer({{"ok", true}});
   }
 
@@ -308,7 +308,7 @@ class Workbench::Parts {
 
   void ask_for(const std::string& mode) {
     const std::lock_guard lock(mutex_);
-    // What was asked for before and not begun is covered, but for a mesh, which a sketch does not make.
+    // The new request replaces a pending one and covers it, except for a mesh, which a sketch does not make.
     asked_mode_ = mode;
     is_step_due_ = true;
     changed_.notify_all();
@@ -320,13 +320,13 @@ class Workbench::Parts {
     changed_.notify_all();
   }
 
-  /// Starts what is asked for, where that can be done now. \pre the lock is held
+  /// Starts the requested work if possible. \pre the lock is held
   void take_step() {
     look_at_retired();
     if (worker_ && worker_->is_gone) take_lost_worker();
     if (!asked_mode_.empty()) {
       const bool is_sketching = worker_ && worker_->is_busy && worker_->mode == "sketch" && BenchClock::now() - worker_->since < k_sketch_patience;
-      if (is_sketching) return;  // it will be there in a moment, and the next one follows
+      if (is_sketching) return;  // the sketch will finish soon, and the next one follows
       if (worker_ && worker_->is_busy) retire();
       if (!worker_) start_worker();
       if (worker_) begin_run();
@@ -390,7 +390,7 @@ class Workbench::Parts {
             .folder = {}};
   }
 
-  /// The worker is told to stop and replaced. \pre the lock is held
+  /// Stops the worker; a new one replaces it. \pre the lock is held
   void retire() {
     worker_->child.stop();
     worker_->since = BenchClock::now();
@@ -410,7 +410,7 @@ class Workbench::Parts {
     }
   }
 
-  /// A worker that ended by itself. \pre the lock is held
+  /// Handles a worker that ended by itself. \pre the lock is held
   void take_lost_worker() {
     const int status = worker_->child.wait();
     worker_->reader.join();
@@ -434,7 +434,7 @@ class Workbench::Parts {
     for (std::string_view rest = text; !rest.empty();) {
       const ssize_t n = write(worker_->jobs->write_end.value, rest.data(), rest.size());
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return;  // it is gone, as its reader will see
+      if (n <= 0) return;  // the worker is gone, which its reader will detect
       rest.remove_prefix(static_cast<std::size_t>(n));
     }
   }
@@ -454,7 +454,7 @@ class Workbench::Parts {
     }
   }
 
-  // ---- What workers say
+  // ---- Answers of workers
 
   void read_answers(WorkerProcess& worker) {
     std::string text;
@@ -495,7 +495,7 @@ class Workbench::Parts {
 
   void note(WorkerProcess& worker, const BenchJson& line, std::shared_ptr<const std::string> bytes) {
     const std::lock_guard lock(mutex_);
-    if (worker_.get() != &worker || line.value("run", -1) != state_.run) return;  // of a run that was overtaken
+    if (worker_.get() != &worker || line.value("run", -1) != state_.run) return;  // from a run that was superseded
     const std::string is = line.value("is", "");
     if (is == "log") note_line(line);
     else if (is == "progress") {
@@ -508,7 +508,7 @@ class Workbench::Parts {
     else if (is == "asked") state_.asked[line.value("ask", 0)] = std::move(bytes);
     else if (is == "failed") note_failure(line);
     else if (is == "ended") note_end(worker, line);
-    // A sketch is told of once, when it is there: while a slider moves the page has no time for its steps.
+    // A sketch is reported once, when complete: while a slider moves, the page has no time for intermediate steps.
     const bool is_step_of_sketch =
         is != "ended" && is != "asked" && worker.mode == "sketch" && worker.is_busy && BenchClock::now() - worker.since < k_quick_sketch;
     if (!is_step_of_sketch) tell_change();
@@ -520,7 +520,7 @@ class Workbench::Parts {
     if (state_.lines.size() > k_most_lines) state_.lines.pop_front();
   }
 
-  /// Values of arguments that the script no longer has are dropped, and the script runs without them.
+  /// Drops values of arguments that the script no longer has; the script then runs without them.
   void note_parameters(const BenchJson& list, bool is_complete) {
     state_.parameters = list;
     if (!is_complete) return;  // a module may declare more
@@ -596,11 +596,11 @@ class Workbench::Parts {
   std::mutex mutex_;
   std::condition_variable changed_;
   State state_;
-  std::string asked_mode_;                 ///< run that is wanted next; empty: none
+  std::string asked_mode_;                 ///< next requested run; empty: none
   std::vector<std::string> asked_scenes_;  ///< keys
   bool is_step_due_ = false, is_over_ = false;
   std::atomic<bool> is_mesh_written_ = false;
-  int held_run_ = 0;  ///< whose objects the worker holds
+  int held_run_ = 0;  ///< run whose objects the worker holds
   int n_workers_ = 0;
   std::unique_ptr<Pipe> new_jobs_, new_answers_;
   std::shared_ptr<WorkerProcess> worker_;

@@ -1,4 +1,4 @@
-// The workbench: follows a script, has it run by a worker process whenever it or its arguments change, and answers the page (docs/view.md).
+// The workbench: follows a script, runs it in a worker process whenever the script or its arguments change, and answers the page (docs/view.md).
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@
 namespace sterna::scripting {
 
 struct WorkbenchSettings {
-  std::filesystem::path input;     ///< what the user named: a script, or the file of a model, a surface, a mesh
-  std::filesystem::path script;    ///< what is run: the input, or a script made for it that reads it
-  bool is_made_script = false;     ///< the latter: it is run as it is, and has no arguments to write back
-  OptionOverrides arguments;       ///< NAME=VALUE that it starts with
-  std::vector<std::string> words;  ///< command line of a worker behind the program's name
+  std::filesystem::path input;     ///< the user's input: a script, or the file of a model, a surface, a mesh
+  std::filesystem::path script;    ///< script to be run: the input, or a script generated to read the input
+  bool is_made_script = false;     ///< generated script: run unchanged, without arguments to write back
+  OptionOverrides arguments;       ///< initial NAME=VALUE
+  std::vector<std::string> words;  ///< command line of a worker after the program's name
   std::string_view page;           ///< HTML
-  std::string cases;               ///< of a series that has run, its JSON list (series_cases.h); empty: it is none
+  std::string cases;               ///< JSON list of the cases of a finished series (series_cases.h); empty: not a series
   std::vector<std::filesystem::path> pictures;
 };
 
@@ -30,9 +30,9 @@ class Workbench {
   Workbench(const Workbench&) = delete;
   Workbench& operator=(const Workbench&) = delete;
 
-  /// Follows the script until a stop is asked for; afterwards nobody waits in answer() any more.
+  /// Follows the script until a stop is requested; afterwards no call waits in answer() any more.
   void follow(const std::stop_token& stop);
-  /// An answer to the page, from any thread; waits while the page has seen all there is.
+  /// Answers a request of the page, from any thread; waits while there is nothing new for the page.
   PageAnswer answer(const PageRequest& request);
 
  private:
