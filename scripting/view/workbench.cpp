@@ -308,8 +308,8 @@ class Workbench::Parts {
 
   void ask_for(const std::string& mode) {
     const std::lock_guard lock(mutex_);
-    // The new request replaces a pending one and covers it, except for a mesh, which a sketch does not make.
-    asked_mode_ = mode;
+    // The new request replaces a pending one and covers it, except for a mesh, which no other run makes.
+    if (asked_mode_ != "mesh") asked_mode_ = mode;
     is_step_due_ = true;
     changed_.notify_all();
   }
