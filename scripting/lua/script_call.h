@@ -35,11 +35,10 @@ struct ScriptSession {
   std::function<void(std::string_view)> print;    ///< results
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
   const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: everything is recomputed
-  std::vector<std::string> reused =
-      {};                          ///< a line for each stage that came from the cache: "surface_mesh of body"; and for stages that started from a reference
-  ErrorHandle cancelled;           ///< allocated in advance, because the hook that raises it must not allocate
-  OptionOverrides arguments = {};  ///< NAME=VALUE of the command line, for args
-  ScriptCheck* check = nullptr;    ///< not null: nothing is meshed or written, see script_check.h
+  std::vector<std::string> reused = {};           ///< a line for each stage taken from the cache: "surface_mesh of body"; or started from a reference
+  ErrorHandle cancelled;                          ///< allocated in advance, because the hook that raises it must not allocate
+  OptionOverrides arguments = {};                 ///< NAME=VALUE of the command line, for args
+  ScriptCheck* check = nullptr;                   ///< not null: nothing is meshed or written, see script_check.h
 
   std::filesystem::path input_folder = {};   ///< see ScriptSettings
   std::filesystem::path output_folder = {};  ///< relative output names go there; empty = current folder
