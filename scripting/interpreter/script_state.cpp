@@ -197,8 +197,7 @@ namespace {
 
 ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
   if (verb.is_heavy) refuse_unknown_arguments(call.session, false);
-  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call))
-    return verb.run(call);  // no union: neither cached nor the origin of a cached result
+  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call)) return verb.run(call);  // no union: not cached, nor an origin of cached results
   return with_provenance(cached_model(verb, call), call);
 }
 

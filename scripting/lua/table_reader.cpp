@@ -37,7 +37,7 @@ std::string_view kind_text(OptionKind kind) {
   return "a value";
 }
 
-/// Returns the single string that replaces a list of strings if one string is expected; else empty.
+/// Returns a hint with a single string in place of a list of strings, if the option expects one string; else empty.
 std::string as_one_text(const Option& option, const ScriptValue& value) {
   const auto* list = std::get_if<TableHandle>(&value);
   if (option.kind != OptionKind::text || !list || (*list)->items.empty()) return {};

@@ -365,7 +365,7 @@ WingSection section_of(const GivenSection& s) {
 
 /// Returns a surface of zero deflection that covers the wing from its tip, its first section, to another section: a named patch.
 Deflection winglet_patch(const Wing& wing, const std::string& name, std::size_t last_section) {
-  constexpr double k_any_chord = 0.5;  // no deflection uses it
+  constexpr double k_any_chord = 0.5;  // the hinge position is arbitrary: nothing turns
   const bool has_other_side = wing.is_symmetric || wing.has_mirror_image;
   return {.surface = {.name = name,
                       .wing = wing.name,
