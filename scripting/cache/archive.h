@@ -187,7 +187,7 @@ struct Archive<std::shared_ptr<const T>> {
   }
 };
 
-/// For keys only.
+/// Variants are supported for keys only.
 template <class... T>
 struct Archive<std::variant<T...>> {
   static void write(ByteSink& sink, const std::variant<T...>& value) {

@@ -9,7 +9,7 @@
 
 namespace sterna::scripting {
 
-/// 128 bits of XXH3.
+/// A key: 128 bits of XXH3.
 struct ContentKey {
   std::array<std::uint8_t, 16> bytes{};
   std::string hex() const;  ///< 32 digits

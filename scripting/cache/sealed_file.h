@@ -39,7 +39,7 @@ class SealedFile {
   std::string problem(const ContentKey& key, const RunContext& context);
   /// Returns true if the file begins as such a file, for any key; its content is not verified.
   bool has_head();
-  /// Hash of content and head.
+  /// Returns the hash of content and head.
   /// \pre problem() was empty
   const ContentKey& seal() const { return seal_; }
   /// Returns the content, from its start; must not outlive this.

@@ -25,7 +25,7 @@ struct CacheSettings {
   std::string identity;          ///< of the calling program; empty: build_identity()
 };
 
-/// One file of a cache.
+/// One file of a cache, as listed by entries().
 struct CacheEntry {
   std::filesystem::path file;
   std::string stage;  ///< stage of the result; empty if the head is damaged

@@ -19,7 +19,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_case_read_end = 0.6;  ///< share of the progress
+constexpr double k_case_read_end = 0.6;  ///< fraction of the progress
 
 /// All numeric and string settings of a case, with the structs that they are written to.
 struct CaseSettings {

@@ -21,11 +21,11 @@ struct CaseCommand {
   CaseSolver solver = CaseSolver::openfoam;
   std::string input;                                                ///< mesh file
   std::filesystem::path output;                                     ///< folder of the case, or the configuration file
-  OptionOverrides options;                                          ///< of the solver, of all cases, of the flow
+  OptionOverrides options;                                          ///< options of the solver, of all cases, of the flow
   std::string reference;                                            ///< model file that describes the wing; empty: none
   std::string moment_origin;                                        ///< "15,0,0"; empty: from the reference
-  std::vector<std::pair<std::string, OptionOverrides>> boundaries;  ///< by names of patches
-  OptionOverrides kinds;                                            ///< pattern of names, kind
+  std::vector<std::pair<std::string, OptionOverrides>> boundaries;  ///< conditions by names of patches
+  OptionOverrides kinds;                                            ///< pattern of names, kind of patches
 };
 
 struct CaseCommands {

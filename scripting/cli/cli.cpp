@@ -49,7 +49,7 @@ namespace {
 constexpr int k_max_threads = 1024;
 constexpr int k_max_tasks = 1000000;
 
-/// Options that every command has.
+/// Options common to all commands.
 struct CommonSettings {
   ConsoleSettings console;
   int threads = 0;
@@ -61,7 +61,7 @@ struct CommonSettings {
 /// The request of the command line: one command, and the file for the picture of a failure.
 struct Request {
   std::function<int(const CommandContext&)> execute;
-  std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
+  std::filesystem::path trouble;  ///< path of the picture: beside the output, or beside the input of commands that write nothing
   bool is_prompt = false;
   bool tells_itself = false;  ///< the printed findings on the input are its result: the log omits them, unless it is verbose
 };

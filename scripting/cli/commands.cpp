@@ -397,7 +397,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
     return make_mesh_of_models(command, inputs, reuse, context);
   AutoSurface asked;
   volmesh::MeshCase volume_options;
-  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // of the new triangles
+  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of the new triangles
   volume_options.patches = layer_rules_of(command.patches, command.is_remeshed ? &sizes : nullptr);
   asked.stitching.allow_open = command.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);

@@ -20,7 +20,7 @@
 
 namespace sterna::scripting {
 
-/// --cache and --cache-limit.
+/// The options --cache and --cache-limit.
 struct CacheChoice {
   std::filesystem::path folder;  ///< empty: no cache
   double limit = k_cache_limit;  ///< bytes
@@ -43,13 +43,13 @@ struct MeshCommand {
   OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
   std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
   std::filesystem::path stats;
-  std::filesystem::path stages;       ///< .sterna file that keeps the steps of the run; empty: none
+  std::filesystem::path stages;       ///< .sterna file for the steps of the run; empty: none
   std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
   std::vector<std::string> sources;   ///< source_of_text
   std::vector<std::string> sheets;    ///< wake_sheet_of_text
   std::vector<std::string> wakes;     ///< wake_of_text
-  bool is_half = false;               ///< the half of the surface
+  bool is_half = false;               ///< the surface is cut to its half
   bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
   bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped; remeshed if their triangles are slivers
@@ -119,7 +119,7 @@ struct WrapCommand {
 struct CheckCommand {
   std::string input;
   bool is_json = false;
-  std::vector<std::string> models;  ///< --model: the walls are compared with them (G17, G18)
+  std::vector<std::string> models;  ///< --model: files with which the walls are compared (G17, G18)
   CheckSettings options;
   std::vector<std::string> gates;  ///< set_gate_limits
   std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
@@ -168,7 +168,7 @@ int execute(const WrapCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);
 int execute(const ConvertCommand& command, const CommandContext& context);
-/// `sterna formats`
+/// Lists the formats for `sterna formats`.
 int list_formats(const CommandContext& context);
 
 /// Writes the geometry of a failure to `path`. Returns a sentence for the user with the file, or with the reason why it could not be written. Returns an empty

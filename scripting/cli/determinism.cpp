@@ -35,7 +35,7 @@ constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes compared at a
 
 std::string threads_text(int threads) { return std::to_string(threads) + (threads == 1 ? " thread" : " threads"); }
 
-/// "1, 2 and 7 threads"
+/// Returns "1, 2 and 7 threads".
 std::string threads_text(const std::vector<int>& threads) {
   std::string text;
   for (std::size_t i = 0; i < threads.size(); ++i) text += (i == 0 ? "" : i + 1 == threads.size() ? " and " : ", ") + std::to_string(threads[i]);

@@ -14,7 +14,7 @@ struct DeterminismCommand {
   std::filesystem::path script;
   OptionOverrides overrides;             ///< --set
   OptionOverrides arguments;             ///< NAME=VALUE
-  std::vector<int> threads = {1, 2, 7};  ///< of each run; a number given twice compares two equal runs
+  std::vector<int> threads = {1, 2, 7};  ///< number of threads of each run; a number given twice compares two equal runs
   bool is_json = false;
 };
 

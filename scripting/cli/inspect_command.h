@@ -29,7 +29,7 @@ struct InspectCommand {
   std::filesystem::path output;
   bool is_json = false;
   bool is_strict = false;  ///< warnings are failures, too
-  bool is_half = false;    ///< the half of the surface
+  bool is_half = false;    ///< the surface is cut to its half
 };
 
 /// Adds the arguments of the command, and calls `chosen` if the command is selected.

@@ -19,7 +19,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_model_read_end = 0.4;
-/// Open edges that `sterna info` lists; `sterna check` lists all.
+/// Number of open edges listed by `sterna info`; `sterna check` lists all.
 constexpr std::size_t k_listed_edges = 10;
 
 InputPath input_of(const std::string& name) { return {name, name}; }

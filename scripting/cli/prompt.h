@@ -11,7 +11,7 @@ namespace sterna::scripting {
 
 struct PromptSettings {
   ScriptSettings script;  ///< `script.script`: a name whose folder is the second search location of files
-  RunSettings run;        ///< of each statement; its stop is the guard's
+  RunSettings run;        ///< settings of each statement; its stop is that of the guard
   std::filesystem::path history_file;
 };
 

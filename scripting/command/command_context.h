@@ -30,7 +30,7 @@ struct OptionsShown {
 /// Options that the command has for other inputs, or with another flag; if one of them is given, the reason why it has no effect is reported.
 struct OptionsElsewhere {
   OptionTable table;
-  std::string why;  ///< "is for models (STEP ...), and wall.stl is a triangulation"
+  std::string why;  ///< reason: "is for models (STEP ...), and wall.stl is a triangulation"
 };
 
 /// Sets every option. All problems are reported together, including options given twice with different values.

@@ -20,7 +20,7 @@ std::vector<std::pair<std::string, const std::string*>> sources_of(const ScriptS
   return sources;
 }
 
-/// "case.lua:5: " -> "case.lua:5"
+/// Converts "case.lua:5: " to "case.lua:5".
 std::string place_of(const std::string& where) { return where.substr(0, where.rfind(": ")); }
 
 /// Returns the position in the source of the name as a key or as a string of the args{} that begins at this location; npos if there is none.

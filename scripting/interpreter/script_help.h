@@ -46,7 +46,7 @@ std::string help_if_known(const std::string& name);
 /// \throws Error(bad_argument) with the nearest name if there is none
 std::string help_on_name(const std::string& name, const std::string& attempted);
 
-/// The verb help.
+/// Runs the verb help.
 ScriptValue print_help(const ScriptCall& call);
 
 }  // namespace sterna::scripting

@@ -17,7 +17,7 @@ inline constexpr std::size_t k_script_memory_limit = std::size_t{1} << 30;
 struct ScriptSettings {
   std::filesystem::path script;
   OptionOverrides overrides;                      ///< "stage.option" -> string, checked before the script starts
-  std::function<void(std::string_view)> print;    ///< results: print(), verdicts, help
+  std::function<void(std::string_view)> print;    ///< receives results: print(), verdicts, help
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
   const StageCache* cache = nullptr;              ///< stage_cache.h; null: every stage is recomputed
   std::size_t memory_limit = k_script_memory_limit;
@@ -31,8 +31,8 @@ struct ScriptSettings {
 
 /// The outcome of a script that ran to its end, for the exit status.
 struct ScriptOutcome {
-  std::size_t n_failed_cases = 0;   ///< of its series
-  std::size_t n_invalid_cases = 0;  ///< whose mesh is INVALID
+  std::size_t n_failed_cases = 0;   ///< number of failed cases of its series
+  std::size_t n_invalid_cases = 0;  ///< number of cases whose mesh is INVALID
 };
 
 /// Runs a script. Scripts have Lua's base (without dofile, loadfile, load), table, string, math, utf8, and the verbs of sterna; math.random is seeded from the

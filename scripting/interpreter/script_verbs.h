@@ -14,7 +14,7 @@ std::span<const ScriptVerb> mesh_methods();
 
 /// tostring() of all objects of sterna.
 extern const ScriptVerb k_describe_object;
-/// object.name for names that are no method.
+/// Verbs that read object.name for names that are no method.
 extern const ScriptVerb k_surface_field;
 extern const ScriptVerb k_mesh_field;
 extern const ScriptVerb k_error_field;
@@ -23,7 +23,7 @@ struct ScriptUnit {
   const char* name;
   double value;  ///< SI
 };
-/// m, mm, um, cm, inch, ft, deg: global numbers.
+/// The global numbers m, mm, um, cm, inch, ft, deg.
 std::span<const ScriptUnit> script_units();
 
 /// Returns a suggestion for an unknown global name: the verb or unit with the nearest name, or the replacement for one of Lua's omitted libraries. Empty: no

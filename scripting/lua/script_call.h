@@ -31,7 +31,7 @@ struct ScriptWatch;  // script_watch.h
 struct ScriptSession {
   RunContext context;
   std::filesystem::path script;                   ///< its folder is the second search location of input files
-  OptionOverrides overrides;                      ///< of the command line; they win over the script
+  OptionOverrides overrides;                      ///< options of the command line; they win over the script
   std::function<void(std::string_view)> print;    ///< results
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
   const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: everything is recomputed
@@ -49,7 +49,7 @@ struct ScriptSession {
 
   ScriptValue value;  ///< result or error of a verb, for call_verb
 
-  DeclaredArguments declared = {};  ///< of all args{} that have run
+  DeclaredArguments declared = {};  ///< arguments of all args{} that have run
 
   Reuse reuse() { return {cache, &reused, series.reference ? series.reference->use.get() : nullptr}; }
 };
@@ -66,7 +66,7 @@ struct ScriptCall {
   ScriptSession& session;
   std::string where;                   ///< "case.lua:5: ", or empty
   std::string_view verb;               ///< "volume_mesh"
-  std::vector<ScriptValue> arguments;  ///< of a method: the object first
+  std::vector<ScriptValue> arguments;  ///< for a method: the object first
   bool is_heavy = false;               ///< ScriptVerb::is_heavy, except if the run only checks but makes this geometry (ScriptCheck::makes_geometry)
   bool is_geometry = false;            ///< the reverse: heavy, but executed
 

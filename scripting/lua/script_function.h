@@ -38,7 +38,7 @@ class ScriptFunction {
   [[noreturn]] void fail() const;
   lua_State* state_;
   int reference_;
-  mutable std::vector<double> answers_;  ///< with their arguments; empty unless results are cached
+  mutable std::vector<double> answers_;  ///< results with their arguments; empty unless results are cached
 };
 
 }  // namespace sterna::scripting

@@ -25,7 +25,7 @@ struct CaseAddress {
 
 /// Settings of the command line.
 struct SeriesSettings {
-  std::filesystem::path program;                ///< of the workers: this one; empty: series{} is refused
+  std::filesystem::path program;                ///< program of the workers: this one; empty: series{} is refused
   std::vector<std::string> words;               ///< of a worker's command line after the script: all arguments that can change the results of the script
   std::optional<CaseAddress> worker;            ///< this process runs only that case
   std::function<void(bool)> stops_itself = {};  ///< called with true while a series runs, which ends its workers or jobs itself on a stop request; may be empty
@@ -46,7 +46,7 @@ struct SeriesSession {
   SeriesSettings settings;
   std::string script_text;
   std::map<std::string, std::string> modules = {};  ///< name -> source, of all required modules
-  std::set<std::string> names = {};                 ///< of the series so far
+  std::set<std::string> names = {};                 ///< names of the series so far
   std::vector<std::uint64_t> earlier = {};          ///< hashes of the tables returned by the series so far
   std::optional<ReferenceCase> reference = {};      ///< while a case runs in a series that has one
 

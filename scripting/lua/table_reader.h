@@ -16,7 +16,7 @@ namespace sterna::scripting {
 /// Reads one table of one call. Every entry must be read by one of the members; finish() reports the others as problems.
 class TableReader {
  public:
-  /// \p attempted starts the message: "case.lua:5: volume_mesh".
+  /// \p attempted is the start of the message: "case.lua:5: volume_mesh".
   TableReader(const ScriptTable& table, std::string attempted);
   /// For a verb's own table: if the run only checks (script_check.h), the options are noted and finish() ends a heavy verb.
   TableReader(const ScriptTable& table, const Attempt& attempted);

@@ -16,7 +16,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Names of fan face and nozzle of a component or its mirror image.
+/// Sets the names of fan face and nozzle of a component or its mirror image.
 void finish_component(Model& model, const ComponentValue& component, const std::string& name, bool is_image) {
   for (const ComponentId c : model.components.ids()) {
     if (model.components[c].name != name) continue;

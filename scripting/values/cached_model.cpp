@@ -20,7 +20,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::size_t k_listed_names = 4;  ///< of inputs, in the log
+constexpr std::size_t k_listed_names = 4;  ///< number of input names in the log
 
 class MemorySink final : public ByteSink {
  public:
@@ -191,7 +191,7 @@ class MadeLater {
   ModelHandle made_;
 };
 
-/// "of a.step, b.step"
+/// Returns "of a.step, b.step".
 std::string inputs_text(const ModelValue& value) {
   std::string text;
   for (std::size_t i = 0; i < std::min(k_listed_names, value.inputs.size()); ++i) text += (i == 0 ? "of " : ", ") + value.inputs[i].name;

@@ -14,7 +14,7 @@
 
 namespace sterna::scripting {
 
-/// "of body, wing, tail": names of components.
+/// Returns "of body, wing, tail": names of components.
 std::string names_of(const std::vector<ModelHandle>& models);
 
 /// Returns a mesher that calls mesh_part() or returns its cached mesh of the same part: the same model, names, kinds, options and rules, at any location. Parts

@@ -1,4 +1,4 @@
-// The options of mesh:check{} and `sterna check` that users see.
+// The user options of mesh:check{} and `sterna check`.
 #pragma once
 
 #include "geom/base/schema.h"

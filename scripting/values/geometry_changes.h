@@ -18,7 +18,7 @@ void note_change(SurfaceValue& surface, const GeometryChange& change, const RunC
 /// Compares a surface stitched from soups with these soups if facets were dropped. Notes the missing parts and warns about them.
 void note_reading(SurfaceValue& surface, const std::vector<SurfaceSoup>& soups, const RunContext& context);
 
-/// Compares half of a surface with the part of the whole on that side of the plane.
+/// Compares half of a surface with the part of the whole surface on that side of the plane.
 void note_half(SurfaceValue& half, const TriMesh& whole, const HalfOptions& options, const RunContext& context);
 
 /// Returns the JSON array of manifests.

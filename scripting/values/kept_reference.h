@@ -26,7 +26,7 @@ inline constexpr const char* k_kept_file = "reference.kept";
 /// The surface of one part as meshed by the reference, in the part's own frame.
 struct KeptPart {
   std::uint64_t call = 0;  ///< number of the call of surface_mesh in the case, from 0
-  std::string name;        ///< of its first component
+  std::string name;        ///< name of its first component
   surfmesh::StructuredMesh mesh;
   ContentKey geometry;  ///< of the points of its vertices on the model (carried_points): equal if the geometry is equal
   surfmesh::SurfaceMeshOptions options;
@@ -59,7 +59,7 @@ class ReferenceUse {
  public:
   ReferenceUse(std::string name, std::filesystem::path file, bool is_this) : name_(std::move(name)), file_(std::move(file)), is_this_(is_this) {}
 
-  const std::string& name() const { return name_; }  ///< of the reference case
+  const std::string& name() const { return name_; }  ///< name of the reference case
   bool is_this() const { return is_this_; }          ///< the running case is the reference
 
   /// Returns the key of the reference data that the results of this case depend on, beside their own inputs: the content of the kept file. In the reference
@@ -108,8 +108,8 @@ class ReferenceUse {
   std::string name_;
   std::filesystem::path file_;
   bool is_this_;
-  std::optional<ContentKey> seal_;  ///< of the file that was read
-  std::vector<KeptPart> parts_;     ///< kept here, or read
+  std::optional<ContentKey> seal_;  ///< seal of the file that was read
+  std::vector<KeptPart> parts_;     ///< stored by this case, or read
   std::vector<KeptEnvelope> envelopes_;
   std::vector<CarriedPart> carried_;
   std::vector<std::string> lines_;

@@ -13,12 +13,12 @@
 
 namespace sterna::scripting {
 
-/// Everything that the mesh of a part depends on.
+/// All data that determine the mesh of a part.
 struct PartTask {
-  Model model;  ///< in its own frame, with its names
+  Model model;  ///< the part in its own frame, with its names
   surfmesh::SurfaceMeshOptions options;
   std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules that match the name of one of its faces
-  surfmesh::SpaceSizes sizes;                          ///< in its own frame
+  surfmesh::SpaceSizes sizes;                          ///< sizes in the part's own frame
   bool has_sizes_by_place = false;                     ///< sizes are set: they depend on the part's location
   Transform placement;                                 ///< of the part; affects its mesh only if has_sizes_by_place
   std::optional<ContentKey> model_key;                 ///< of the inputs of the model, except its names and kinds; nothing: unknown
@@ -32,7 +32,7 @@ surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context)
 using PartMesher = std::function<surfmesh::SurfaceMesh(const PartTask&, const RunContext&)>;
 
 struct PartsMesh {
-  surfmesh::SurfaceMesh mesh;              ///< of value.model
+  surfmesh::SurfaceMesh mesh;              ///< mesh of value.model
   std::vector<volmesh::PlacedPart> parts;  ///< empty if the model was meshed at once at its location
 };
 

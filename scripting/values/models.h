@@ -89,7 +89,7 @@ struct ModelReport {
   PartMeasures total;
   std::vector<PartMeasures> components;
   std::vector<PartMeasures> solids;
-  std::vector<WingReference> wings;  ///< of the description
+  std::vector<WingReference> wings;  ///< wings of the description
   std::string no_wings;              ///< reason why there are none although the model has wings; else empty
 };
 ModelReport measure_model(const ModelValue& value, const RunContext& context);

@@ -15,13 +15,13 @@
 namespace sterna::scripting {
 
 enum class Strength : std::uint8_t {
-  none,    ///< it is meshed as it is
+  none,    ///< the surface is meshed unchanged
   repair,  ///< open or crossing parts are repaired
   wrap,    ///< replaced by a closed surface around it
   remesh,  ///< new triangles: the surface is sound, but its triangles make cells fail
   beyond   ///< none of the three helps
 };
-/// "none", "repair", "wrap", "remesh", "beyond"
+/// Returns "none", "repair", "wrap", "remesh", "beyond".
 std::string_view to_string(Strength strength);
 
 struct Preparation {

@@ -27,7 +27,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr const char* k_repair_stage = "repair";
-constexpr double k_repair_read_end = 0.1;  ///< of repair_surfaces's progress
+constexpr double k_repair_read_end = 0.1;  ///< progress of repair_surfaces
 // Progress of read_as_it_is.
 constexpr double k_files_read_end = 0.3;
 constexpr double k_closed_end = 0.8;
@@ -36,7 +36,7 @@ constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
 constexpr double k_repair_end = 0.6;
 constexpr double k_remesh_begin = 0.7;
-constexpr std::size_t k_faces_told = 3;  ///< in the summary
+constexpr std::size_t k_faces_told = 3;  ///< number of faces in the summary
 
 /// Cached data of a repair.
 struct RepairedWall {

@@ -35,7 +35,7 @@ struct AutoSurface {
   surfmesh::WrapOptions wrap = {};                    ///< its unit, fluid and split_angle are those of `stitching`
   ReadCadOptions reading = {};                        ///< for models
   SurfaceRecipe recipe = {};                          ///< for models
-  std::vector<volmesh::PeriodicNames> periodic = {};  ///< of the volume; those that are faces of models are cut alike
+  std::vector<volmesh::PeriodicNames> periodic = {};  ///< pairs of sides of the volume; those that are faces of models are meshed identically
   surfmesh::RemeshOptions remesh = {};
 };
 

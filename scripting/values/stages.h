@@ -23,7 +23,7 @@ struct EnvelopeValue {
   std::size_t n_sources_in_file = 0;  ///< number of sources of the run that wrote the file which this was read from; `options` do not have them
 };
 
-/// Layer and tetrahedra, not yet one mesh.
+/// Layer and tetrahedra, not yet combined to one mesh.
 struct TetrahedraValue {
   SurfaceHandle wall;
   std::int64_t n_wall_triangles = 0;  ///< as given, before any splits

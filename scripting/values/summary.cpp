@@ -38,7 +38,7 @@ std::pair<const char*, double> missed_limit(const GateResult& gate, double value
   return is_target_missed ? std::pair{"target", gate.limits.target} : std::pair{"usual limit", gate.limits.usual};
 }
 
-/// "hard limit 5 deg", "target 12 deg", "usual limit 35 deg"
+/// Returns "hard limit 5 deg", "target 12 deg", "usual limit 35 deg".
 std::string missed_limit_text(const GateResult& gate, double value) {
   const MeasureInfo& info = info_of(gate.measure);
   const auto [name, limit] = missed_limit(gate, value);

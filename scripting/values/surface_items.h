@@ -15,7 +15,7 @@ namespace sterna::scripting {
 struct SurfaceItems {
   SurfaceValue wall;                       ///< all known data except a mesh; its options include those of the manifests beside the files
   std::vector<SurfaceSoup> soups;          ///< in units of wall.options.unit
-  std::map<std::string, PatchKind> kinds;  ///< of patches by name
+  std::map<std::string, PatchKind> kinds;  ///< kinds of patches by name
 };
 
 /// Reads the items: files with the unit of the options; surfaces are in metres.

@@ -25,7 +25,7 @@ void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::
 /// The content of the manifest beside a surface file.
 struct KnownSurface {
   std::optional<double> smooth_angle;      ///< rad: SurfaceMeshReport::max_smooth_angle
-  std::map<std::string, PatchKind> kinds;  ///< of its patches by name: surface formats do not hold them
+  std::map<std::string, PatchKind> kinds;  ///< kinds of its patches by name: surface formats do not hold them
   bool encloses_fluid = false;             ///< its outermost part has inward normals
   std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
   std::vector<std::string> changes;        ///< SurfaceValue::changes

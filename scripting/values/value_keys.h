@@ -21,13 +21,14 @@ struct SurfaceRecipe;
 struct SurfaceValue;
 struct TetrahedraValue;
 
-/// Points, triangles, patches.
+/// Returns the key of points, triangles and patches.
 ContentKey key_of(const TriMesh& mesh);
-/// All settings of surface_mesh except the function of the location.
+/// Returns the key of all settings of surface_mesh except the function of the location.
 ContentKey key_of(const SurfaceRecipe& recipe);
-/// Mesh, reports, options, inputs by hash, recipe, and the model behind the mesh if there is one. Returns nothing if the model's inputs are unknown.
+/// Returns the key of mesh, reports, options, inputs by hash, recipe, and the model behind the mesh if there is one. Returns nothing if the model's inputs are
+/// unknown.
 std::optional<ContentKey> key_of(const SurfaceValue& surface);
-/// The component in its current state.
+/// Returns the key of the component in its current state.
 ContentKey key_of(const ComponentValue& component);
 
 /// Returns the key of the inputs of an envelope beside its wall: options of envelope and farfield, rules of patches, discs, the farfield's surface, the smooth

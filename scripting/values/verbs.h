@@ -1,4 +1,4 @@
-// The work behind both the Lua verbs and the command line: values that can be printed, checked, written and fed to the next verb.
+// The functions behind both the Lua verbs and the command line: values that can be printed, checked, written and passed to the next verb.
 #pragma once
 
 #include <filesystem>

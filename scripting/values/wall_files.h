@@ -15,9 +15,10 @@ namespace sterna::scripting {
 struct WallFiles {
   SurfaceValue wall;  ///< all data except its mesh; its options include those of the manifests beside the files
   std::vector<SurfaceSoup> soups;
-  std::map<std::string, PatchKind> kinds;  ///< of patches, by the manifests
+  std::map<std::string, PatchKind> kinds;  ///< kinds of patches, from the manifests
 };
 
+/// Reads the files.
 /// \throws Error of io
 WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
 /// Joins the files by the wall's options.

@@ -8,7 +8,7 @@
 
 namespace sterna::scripting {
 
-/// fuselage, nacelle, boom, fairing, body_of_revolution, sting, pylon, wing, aircraft.
+/// The verbs fuselage, nacelle, boom, fairing, body_of_revolution, sting, pylon, wing, aircraft.
 std::span<const ScriptVerb> component_verbs();
 std::span<const ScriptVerb> component_methods();
 extern const ScriptVerb k_component_field;
@@ -55,7 +55,7 @@ inline constexpr std::string_view k_deflect_usage =
     "main_wing:deflect{ \"aileron\", from = {0.72, 0.75}, to = {0.95, 0.72}, angle = 10*deg, gap = \"sealed\" }";
 inline constexpr std::string_view k_control_usage = "main_wing:control{ \"aileron\", from = {0.72, 0.75}, to = {0.95, 0.72} }";
 
-/// wing:deflect and wing:control (control_verbs.cpp).
+/// The methods wing:deflect and wing:control (control_verbs.cpp).
 ScriptValue deflect_wing(const ScriptCall& call);
 ScriptValue control_wing(const ScriptCall& call);
 

@@ -14,7 +14,7 @@
 namespace sterna::scripting {
 
 struct CheckFamilyCommand {
-  std::vector<std::string> inputs;  ///< from coarse to fine
+  std::vector<std::string> inputs;  ///< mesh files from coarse to fine
   OptionOverrides options;
   bool is_json = false;
 };

@@ -10,7 +10,7 @@
 
 namespace sterna::scripting {
 
-/// read_cad, read_smx, read_cpacs, airfoil, surface.
+/// The verbs read_cad, read_smx, read_cpacs, airfoil, surface.
 std::span<const ScriptVerb> geometry_verbs();
 extern const ScriptVerb k_airfoil_field;
 std::string describe(const Airfoil& airfoil);

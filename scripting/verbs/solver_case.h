@@ -37,7 +37,7 @@ struct CaseBoundary {
   double pressure_jump = k_automatic;
   double temperature_jump = 0.0;
 };
-using CaseBoundaries = std::map<std::string, CaseBoundary>;  ///< by names of patches
+using CaseBoundaries = std::map<std::string, CaseBoundary>;  ///< conditions by names of patches
 
 /// Reference values of the whole aircraft.
 struct CaseReference {

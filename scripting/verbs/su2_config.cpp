@@ -31,8 +31,8 @@ constexpr March k_usual_march{.cfl = 10.0, .largest_cfl = 1000.0, .linear_iterat
 constexpr March k_careful_march{.cfl = 5.0, .largest_cfl = 100.0, .linear_iterations = 15};
 constexpr March k_slow_march{.cfl = 1.0, .largest_cfl = 20.0, .linear_iterations = 20};
 constexpr int k_force_window = 200;            ///< iterations
-constexpr double k_force_change = 0.002;       ///< of lift and drag within the window
-constexpr double k_no_angle = 0.1 * k_degree;  ///< of attack: lift may be zero below it
+constexpr double k_force_change = 0.002;       ///< largest change of lift and drag within the window
+constexpr double k_no_angle = 0.1 * k_degree;  ///< angle of attack: lift may be zero below it
 
 std::string list(const std::vector<std::string>& entries) {
   if (entries.empty()) return "( NONE )";
@@ -311,7 +311,7 @@ class Configuration {
   const RunContext& context_;
   CaseProblems problems_;
   CaseSite site_;
-  std::vector<std::string> names_;  ///< of markers, by patch
+  std::vector<std::string> names_;  ///< names of markers, by patch
   std::string solver_;
   bool is_viscous_ = false;
   bool has_wall_functions_ = false;

@@ -7,7 +7,7 @@
 
 namespace sterna::scripting {
 
-/// test_section, assembly.
+/// The verbs test_section, assembly.
 std::span<const ScriptVerb> tunnel_verbs();
 
 }  // namespace sterna::scripting
