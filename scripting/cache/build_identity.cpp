@@ -19,7 +19,7 @@ namespace {
 /// Returns the build id among the notes of a loaded file, as hex digits; empty if there is none.
 std::string build_id(const dl_phdr_info& object) {
   constexpr char k_digits[] = "0123456789abcdef";
-  constexpr std::string_view k_owner{"GNU", 4};  // with its NUL
+  constexpr std::string_view k_owner{"GNU", 4};  // length with the final NUL
   for (std::size_t i = 0; i < object.dlpi_phnum; ++i) {
     const ElfW(Phdr)& header = object.dlpi_phdr[i];
     if (header.p_type != PT_NOTE) continue;

@@ -48,7 +48,7 @@ class SealedFile {
 
  private:
   int descriptor_ = -1;
-  std::uint64_t n_bytes_ = 0;  ///< of content, as given in the head
+  std::uint64_t n_bytes_ = 0;  ///< size of the content, as given in the head
   ContentKey seal_;
 };
 

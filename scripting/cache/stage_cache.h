@@ -22,7 +22,7 @@ inline constexpr double k_cache_limit = 20e9;
 struct CacheSettings {
   std::filesystem::path folder;  ///< created if missing
   double limit = k_cache_limit;  ///< bytes; when exceeded, the least recently used entries are evicted
-  std::string identity;          ///< of the calling program; empty: build_identity()
+  std::string identity;          ///< identity of the calling program; empty: build_identity()
 };
 
 /// One file of a cache, as listed by entries().

@@ -79,7 +79,7 @@ CaseBoundaries boundaries_of(const std::vector<std::pair<std::string, OptionOver
 std::string mesh_beside(const CaseCommand& command) {
   const std::filesystem::path mesh = command.input;
   if (!problem_of_su2_mesh(mesh.string()).empty()) return {};
-  std::error_code failure;  // of a missing folder, which the writer reports
+  std::error_code failure;  // error of a missing folder, which the writer reports
   const std::filesystem::path folder = command.output.has_parent_path() ? command.output.parent_path() : std::filesystem::path(".");
   const std::filesystem::path beside = std::filesystem::proximate(mesh, folder, failure);
   return failure ? mesh.string() : beside.string();

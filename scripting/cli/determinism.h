@@ -36,7 +36,7 @@ struct ComparedFile {
 struct DeterminismReport {
   std::string script;
   std::vector<int> threads;
-  std::vector<ComparedFile> files;    ///< by name
+  std::vector<ComparedFile> files;    ///< sorted by name
   std::vector<std::string> left_out;  ///< files that contain times by their nature: pages, measures and logs of cases
   std::filesystem::path kept;         ///< the folder with the runs, if a file differs
   bool is_pass() const;

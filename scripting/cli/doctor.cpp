@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double k_gigabyte = 1e9;
-constexpr double k_bytes_of_cell = 250.0;                     ///< from complete runs on a few million cells, with a margin
+constexpr double k_bytes_of_cell = 250.0;                     ///< memory per cell in complete runs on a few million cells, with a margin
 constexpr double k_little_memory = 2e9, k_little_room = 1e9;  ///< bytes; a warning is given below
 constexpr std::array<const char*, 3> k_engines = {"sterna", "hxt", "tetgen"};
 

@@ -35,7 +35,7 @@ std::optional<double> number_of_text(const std::string& text) {
     try {
       return parse_number_with_unit(text, unit, BareAngle::radians);  // a plain number is parsed as a length: unchanged
     } catch (const Error&) {
-      continue;  // of another dimension, or no number: the caller decides on other interpretations
+      continue;  // a unit of another dimension, or no number: the caller decides on other interpretations
     }
   }
   return std::nullopt;

@@ -16,7 +16,7 @@ struct ComponentValue {
   ComponentKind kind = ComponentKind::body;
   std::variant<Body, Wing> shape;
   std::string intake, exhaust;          ///< patch names of a nacelle's fan face and nozzle; empty: its own name
-  std::vector<Deflection> deflections;  ///< of a wing, including deflections of zero angle, in the order of the script
+  std::vector<Deflection> deflections;  ///< deflections of a wing, including those of zero angle, in the order of the script
 
   const std::string& name() const {
     return std::visit([](const auto& s) -> const std::string& { return s.name; }, shape);

@@ -12,7 +12,7 @@ namespace sterna::scripting {
 
 struct FieldDoc {
   std::string_view name;
-  std::string_view help;  ///< with its unit; "if ..." if it is not always present
+  std::string_view help;  ///< description with unit; "if ..." if the field is not always present
 };
 
 struct ObjectKind {
@@ -25,7 +25,7 @@ struct ObjectKind {
 };
 
 struct ScriptHooks {
-  std::span<const ObjectKind> (*kinds)();                                   ///< of all objects
+  std::span<const ObjectKind> (*kinds)();                                   ///< kinds of all objects
   const ScriptVerb* describe;                                               ///< tostring() of all objects of sterna
   ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);       ///< runs the verb, or takes its result from the cache; models get their key
   ScriptValue (*stand_in)(const ScriptCall& call, std::string_view gives);  ///< see stand_in() of script_check.h

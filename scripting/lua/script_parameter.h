@@ -16,8 +16,8 @@ struct ScriptParameter {
   std::string name;
   ScriptValue initial;             ///< SI; nil: the argument is required
   ScriptValue value;               ///< SI, the current value
-  std::optional<double> min, max;  ///< in `unit`
-  std::optional<double> step;      ///< likewise
+  std::optional<double> min, max;  ///< limits in `unit`
+  std::optional<double> step;      ///< step in `unit`
   std::string unit = {};           ///< "deg"; empty: a plain number, string or flag
   double unit_value = 1.0;         ///< SI value of the unit: a plain number on the command line is in this unit
 };

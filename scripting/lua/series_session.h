@@ -20,13 +20,13 @@ class ReferenceUse;  // kept_reference.h
 /// One case of one series: "polar/3" of --series-case.
 struct CaseAddress {
   std::string series;
-  std::size_t index = 0;  ///< from 1
+  std::size_t index = 0;  ///< number from 1
 };
 
 /// Settings of the command line.
 struct SeriesSettings {
   std::filesystem::path program;                ///< program of the workers: this one; empty: series{} is refused
-  std::vector<std::string> words;               ///< of a worker's command line after the script: all arguments that can change the results of the script
+  std::vector<std::string> words;               ///< arguments of a worker after the script: all that can change the results of the script
   std::optional<CaseAddress> worker;            ///< this process runs only that case
   std::function<void(bool)> stops_itself = {};  ///< called with true while a series runs, which ends its workers or jobs itself on a stop request; may be empty
   int tasks = 0;                                ///< cases at a time, overrides the script; 0 = as given in the script
@@ -51,7 +51,7 @@ struct SeriesSession {
   std::optional<ReferenceCase> reference = {};      ///< while a case runs in a series that has one
 
   std::map<std::string, std::string> inputs = {};  ///< in a worker: every file that was searched -> hash, or k_absent
-  std::set<std::filesystem::path> written = {};    ///< by the running case, which may read them back
+  std::set<std::filesystem::path> written = {};    ///< files of the running case, which may read them back
   bool is_case_running = false;
   bool is_case_over = false;  ///< the worker's work is done: no further verb runs
   bool is_case_done = false;  ///< the work was a success

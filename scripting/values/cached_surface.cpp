@@ -122,7 +122,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
     return surface;
   };
   const auto make_here = [&](const SizeFunction& asked_size) {
-    found.reset();  // of an entry that was not valid after all
+    found.reset();  // data of an entry that was not valid after all
     return make(asked_size);
   };
   SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)

@@ -33,11 +33,11 @@ using volmesh::InspectRequest;
 using volmesh::Severity;
 using PlainJson = nlohmann::json;
 
-constexpr double k_joined = 0.3;     ///< of the progress: files read and joined
-constexpr double k_inspected = 0.9;  ///< of the progress: the rest is the required preparation
+constexpr double k_joined = 0.3;     ///< progress after files are read and joined
+constexpr double k_inspected = 0.9;  ///< progress after the inspection; the rest is the required preparation
 constexpr double k_percent = 100.0;
 constexpr double k_many_triangles = 1e6;          ///< above this number the cause is reported
-constexpr double k_read = 0.3, k_foretold = 0.4;  ///< of the progress of models: files read, triangles predicted
+constexpr double k_read = 0.3, k_foretold = 0.4;  ///< progress for models: files read, triangles predicted
 
 FindingKind kind_of(ErrorCode code) {
   switch (code) {

@@ -17,8 +17,8 @@ namespace sterna::scripting {
 /// The expected result of volume_mesh for a surface, and the steps required before.
 struct Inspection : volmesh::InspectReport {
   Preparation preparation;
-  std::optional<double> expected_triangles;  ///< of the model's surface, predicted before meshing
-  std::optional<double> remeshed_triangles;  ///< of the new triangles if remesh is advised, predicted
+  std::optional<double> expected_triangles;  ///< number for the model's surface, predicted before meshing
+  std::optional<double> remeshed_triangles;  ///< number of new triangles if remesh is advised, predicted
 };
 
 using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunContext&)>;

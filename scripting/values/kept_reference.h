@@ -28,7 +28,7 @@ struct KeptPart {
   std::uint64_t call = 0;  ///< number of the call of surface_mesh in the case, from 0
   std::string name;        ///< name of its first component
   surfmesh::StructuredMesh mesh;
-  ContentKey geometry;  ///< of the points of its vertices on the model (carried_points): equal if the geometry is equal
+  ContentKey geometry;  ///< key of the points of its vertices on the model (carried_points): equal if the geometry is equal
   surfmesh::SurfaceMeshOptions options;
   std::vector<surfmesh::PatchSurfaceOptions> patches;
   bool has_sizes_by_place = false;  ///< sources or a size function apply

@@ -20,8 +20,8 @@ struct PartTask {
   std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules that match the name of one of its faces
   surfmesh::SpaceSizes sizes;                          ///< sizes in the part's own frame
   bool has_sizes_by_place = false;                     ///< sizes are set: they depend on the part's location
-  Transform placement;                                 ///< of the part; affects its mesh only if has_sizes_by_place
-  std::optional<ContentKey> model_key;                 ///< of the inputs of the model, except its names and kinds; nothing: unknown
+  Transform placement;                                 ///< placement of the part; affects its mesh only if has_sizes_by_place
+  std::optional<ContentKey> model_key;                 ///< key of the inputs of the model, except its names and kinds; nothing: unknown
 };
 
 /// Meshes one part.

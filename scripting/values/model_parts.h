@@ -17,9 +17,9 @@ namespace sterna::scripting {
 struct ModelValue;
 
 struct ModelPart {
-  std::shared_ptr<const Model> own;    ///< in its own frame; its names and kinds may be older than those of the model that contains the part
+  std::shared_ptr<const Model> own;    ///< geometry in its own frame; its names and kinds may be older than those of the model that contains the part
   Transform placement;                 ///< rotation and shift, from its own frame to its location
-  std::optional<ContentKey> key = {};  ///< of the inputs of `own`, for caches; nothing: unknown
+  std::optional<ContentKey> key = {};  ///< key of the inputs of `own`, for caches; nothing: unknown
   bool is_in_place() const { return placement == Transform{}; }
 };
 

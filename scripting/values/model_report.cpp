@@ -32,7 +32,7 @@ ParameterBox used_box(const Model& model, const ModelFace& face) {
 /// Returns true if the face fills its parameter box, regardless of the number of edges of its sides: then points within the box are on the face.
 bool is_whole(const Model& model, const ModelFace& face, const ParameterBox& box) {
   if (face.borders.size() != 1) return false;
-  constexpr double k_on_side = 1e-6;  // of the box
+  constexpr double k_on_side = 1e-6;  // relative to the box
   const auto is_at_end = [](double x, const Interval& range) {
     return std::min(std::abs(x - range.from), std::abs(x - range.to)) <= k_on_side * range.length();
   };
@@ -135,7 +135,7 @@ std::vector<OpenEdge> open_edges(const Model& model) {
 }
 
 std::string open_plane_text(const std::vector<OpenEdge>& open) {
-  constexpr double k_in_plane = 1e-6;  // of the size of all open edges
+  constexpr double k_in_plane = 1e-6;  // relative to the size of all open edges
   Box box;
   double length = 0.0;
   for (const OpenEdge& edge : open) {
@@ -175,7 +175,7 @@ namespace {
 
 /// Returns true if the whole model lies in one plane of constant x, y or z: then its boundary does not indicate symmetry.
 bool is_flat_model(const Model& model) {
-  constexpr double k_flat_share = 1e-6;  // of the longest side
+  constexpr double k_flat_share = 1e-6;  // relative to the longest side
   const Box box = box_of(model);
   const Vec3 side = box.max - box.min;
   return std::min({side.x, side.y, side.z}) <= k_flat_share * box.longest_side();

@@ -93,7 +93,7 @@ struct OpenPlane {
 
 /// Returns planes with two open edges or more, the one with the longest open boundary first; removes their edges from the list.
 std::vector<OpenPlane> open_planes(std::vector<OpenEdge>& open) {
-  constexpr double k_flat = 1e-6;  // of the longest side of all
+  constexpr double k_flat = 1e-6;  // relative to the longest side of the box of all open edges
   Box box;
   for (const OpenEdge& edge : open)
     for (const Point* p : {&edge.from, &edge.middle, &edge.to}) box.add(*p);

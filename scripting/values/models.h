@@ -31,11 +31,11 @@ struct ModelValue {
   std::vector<InputFile> inputs;
   std::string report;  ///< lines about how the model was read or made; may be empty
   std::vector<surfmesh::PatchSurfaceOptions> sizes =
-      {};  ///< of its faces by name, as given to the verb that made the model; they come before the user's rules if a face has the name
-  std::vector<volmesh::PatchRule> layers = {};  ///< of its patches, likewise; volume_mesh takes them over
-  std::vector<ModelPart> parts = {};            ///< of the model, in its order; empty: one part, at its location. Cleared by code that replaces faces
-  std::vector<std::string> through = {};        ///< of a tunnel: patterns of the names of components or faces that may pass through its walls
-  Provenance provenance = {};                   ///< of its inputs, for caches
+      {};  ///< size rules by face name, as given to the verb that made the model; they come before the user's rules if a face has the name
+  std::vector<volmesh::PatchRule> layers = {};  ///< layer rules of its patches, likewise; volume_mesh takes them over
+  std::vector<ModelPart> parts = {};            ///< parts in the order of the model; empty: one part, at its location. Cleared by code that replaces faces
+  std::vector<std::string> through = {};        ///< for a tunnel: patterns of the names of components or faces that may pass through its walls
+  Provenance provenance = {};                   ///< key of its inputs, for caches
 };
 
 /// Returns true if the name is that of a file with a model: CAD, .smx or (CPACS) .xml.

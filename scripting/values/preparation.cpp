@@ -22,16 +22,16 @@ using volmesh::FindingKind;
 using volmesh::InspectReport;
 
 // Seconds of one thread, fitted to all files of tests/data/shared; the program for the fit is not kept.
-constexpr double k_start_seconds = 0.05;       ///< of each step
+constexpr double k_start_seconds = 0.05;       ///< start of each step
 constexpr double k_repair_of_facet = 1e-5;     ///< welding, seams, distances
 constexpr double k_repair_of_hull = 0.15;      ///< if facets cross: mostly samples of distances
-constexpr double k_repair_of_crossing = 4e-4;  ///< of a pair: cutting, hull, repair of rounding errors
+constexpr double k_repair_of_crossing = 4e-4;  ///< per pair: cutting, hull, repair of rounding errors
 constexpr double k_repair_of_filling = 1e-4;   ///< per facet that fills a hole
-constexpr double k_wrap_of_triangle = 2.5e-4;  ///< of the wrap
+constexpr double k_wrap_of_triangle = 2.5e-4;  ///< per triangle of the wrap
 constexpr double k_wrap_coarse = 2.0;          ///< factor if a coarser wrap closes openings first
 constexpr double k_wrap_leaking = 3.0;         ///< factor if openings are wider than the widest gap
 constexpr double k_remesh_of_facet = 3.5e-5;
-constexpr double k_remesh_of_first = 5e-4;  ///< of each of the first facets: coarse surfaces are refined to many new triangles
+constexpr double k_remesh_of_first = 5e-4;  ///< per facet of the first ones: coarse surfaces are refined to many new triangles
 constexpr double k_remesh_first = 2000.0;
 constexpr double k_model_of_triangle = 4e-5;  ///< faces are meshed twice: once to find crossings
 constexpr double k_seconds_off = 3.0;         ///< error factor of the seconds

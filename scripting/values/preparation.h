@@ -35,7 +35,7 @@ struct Preparation {
   std::string script;              ///< the same in Lua
   std::string hint;                ///< further settings to make; may be empty
   double seconds = 0.0;            ///< for all preparation of the surface, one thread; for `none`: 0
-  std::string basis;               ///< of the seconds: the counted quantities, and the error margin
+  std::string basis;               ///< origin of the seconds: the counted quantities, and the error margin
   bool is_changed = false;         ///< repair changes the surface: half a model may only have to be recognised
   surfmesh::RepairForecast forecast;
   std::int64_t n_needles = 0;  ///< triangles with a corner below needle_limit

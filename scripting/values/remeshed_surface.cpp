@@ -69,7 +69,7 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
   made.remesh_options = recipe.options;
-  made.mesh_report.reset();  // of the triangles before
+  made.mesh_report.reset();  // report of the triangles before
   made.model_wall.reset();
   made.model_wall_key.reset();
   made.parts.clear();

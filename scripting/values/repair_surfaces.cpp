@@ -231,7 +231,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   }
   context.info("auto: " + first.attempted + ": " + first.problem + "; repair is tried");
   std::vector<UnionItem> items(files.begin(), files.end());
-  SurfaceHandle of_model;  // with the triangles of its faces
+  SurfaceHandle of_model;  // surface of the model with the triangles of its faces
   if (are_models(files)) {
     SurfaceRecipe recipe = options.recipe;
     recipe.options.crossings = "ignore";

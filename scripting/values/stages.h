@@ -18,9 +18,9 @@ struct EnvelopeValue {
   SurfaceHandle wall;
   volmesh::MeshCase options;
   volmesh::EnvelopeStage stage;
-  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< of make_envelope by hand (envelope_steps.h): last step performed
-  std::shared_ptr<const volmesh::Classification> classes = {};   ///< of the step "classified", which has no other data
-  std::size_t n_sources_in_file = 0;  ///< number of sources of the run that wrote the file which this was read from; `options` do not have them
+  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< last step performed, if the steps are called one by one (envelope_steps.h)
+  std::shared_ptr<const volmesh::Classification> classes = {};   ///< result of the step "classified", which has no other data
+  std::size_t n_sources_in_file = 0;                             ///< number of sources in the run that wrote the file of this value; `options` lack them
 };
 
 /// Layer and tetrahedra, not yet combined to one mesh.

@@ -51,7 +51,7 @@ T cached_with_reference(const Reuse& reuse, std::string_view stage, std::string_
   const ReferenceUse::Mark mark = reference.mark();
   std::optional<ReferenceUse::Beside> found;
   const auto make_here = [&] {
-    found.reset();  // of an entry that turned out to be damaged
+    found.reset();  // data of an entry that turned out to be damaged
     return make();
   };
   const auto write = [&](ByteSink& sink, const T& value) {

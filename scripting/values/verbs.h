@@ -50,18 +50,18 @@ struct SurfaceValue {
   surfmesh::StitchReport report;
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
-  std::optional<UnionOptions> union_options = {};               ///< of a surface made by union
-  std::optional<surfmesh::RepairOptions> repair_options = {};   ///< of a surface processed by repair
-  std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< of a surface made by wrap
-  std::optional<surfmesh::RemeshOptions> remesh_options = {};   ///< of a surface whose triangles were made by remesh
-  std::optional<SurfaceRecipe> recipe = {};                     ///< of a surface made by surface_mesh
+  std::optional<UnionOptions> union_options = {};               ///< set for a surface made by union
+  std::optional<surfmesh::RepairOptions> repair_options = {};   ///< set for a surface processed by repair
+  std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< set for a surface made by wrap
+  std::optional<surfmesh::RemeshOptions> remesh_options = {};   ///< set for a surface whose triangles were made by remesh
+  std::optional<SurfaceRecipe> recipe = {};                     ///< set for a surface made by surface_mesh
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< likewise, unless the surface was read from a file
   std::optional<double> smooth_angle = {};  ///< rad, of surface_mesh or of the manifest beside the file: the largest turn where the surface is smooth
   std::vector<volmesh::PatchRule> layers =
       {};  ///< layer rules of the model's makers for patches, in order: the last of a name applies, the user's own come after
-  std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< of a surface made by surface_mesh in this run: gives the positions of new vertices
-  std::vector<volmesh::PlacedPart> parts = {};    ///< that were meshed or read elsewhere and moved to their locations; in ascending order of their triangles
-  std::optional<ContentKey> model_wall_key = {};  ///< of the data of model_wall, for caches
+  std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< set for a surface made by surface_mesh in this run: gives the positions of new vertices
+  std::vector<volmesh::PlacedPart> parts = {};    ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles
+  std::optional<ContentKey> model_wall_key = {};  ///< key of the data of model_wall, for caches
   std::vector<std::string> changes = {};          ///< differences from the surface of the files: one sentence each, first in summaries and manifests
   std::vector<std::string> changed = {};          ///< figures before and after each step that changed it, JSON objects (geom/mesh/compare_geometry.h)
 };
@@ -74,7 +74,7 @@ struct MeshOrigin {
   std::optional<surfmesh::WrapOptions> wrap_options;
   std::optional<surfmesh::RemeshOptions> remesh_options;
   std::optional<SurfaceRecipe> recipe;
-  std::optional<double> smooth_angle;  ///< of the wall
+  std::optional<double> smooth_angle;  ///< smooth angle of the wall
   volmesh::MeshCase options;
   volmesh::LayerReport layer;
   volmesh::EnvelopeCertificate certificate;
@@ -85,8 +85,8 @@ struct MeshOrigin {
   std::string tetra_choice;  ///< VolumeMeshResult::tetra_choice
   std::int64_t n_split_triangles = 0;
   volmesh::NeedleReport needles;
-  std::vector<std::string> changes;  ///< of the wall
-  std::vector<std::string> changed;  ///< of the wall
+  std::vector<std::string> changes;  ///< changes of the wall
+  std::vector<std::string> changed;  ///< changed figures of the wall
   bool is_reproducible = true;
   double tetra_engine_seconds = 0.0;
   double tetra_engine_peak_bytes = 0.0;
@@ -96,8 +96,8 @@ struct MeshValue {
   HybridMesh mesh;
   std::vector<InputFile> inputs;
   std::optional<MeshOrigin> origin;
-  mutable std::optional<CheckReport> check;  ///< of the default options, always present for a mesh made here; then of the last complete check requested, so
-                                             ///< that manifests and reports have its findings
+  mutable std::optional<CheckReport> check;  ///< report with the default options, always present for a mesh made here; then of the last complete check
+                                             ///< requested, so that manifests and reports have its findings
   std::set<std::string> unknown_kinds = {};  ///< patches of a file whose kind is given neither by the file, nor by a manifest, nor by their name
 };
 

@@ -70,7 +70,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
         return wall;
       }));
   SurfaceValue wall = with_mesh(read, std::move(made.mesh), std::move(made.report));
-  wall.smooth_angle.reset();  // of the triangles before
+  wall.smooth_angle.reset();  // angle of the triangles before
   wall.wrap_options = used;
   wall.changes.push_back(change_text("wrapped", wall.report.messages));
   note_change(wall, compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "wrap", context), context);

@@ -133,7 +133,7 @@ ScriptValue read_stages_verb(const ScriptCall& call) {
 /// Returns the envelope's points with the connectivity of the wall.
 SurfaceValue surface_of(const EnvelopeValue& envelope) {
   SurfaceValue surface = *envelope.wall;
-  surface.mesh_report.reset();  // of the wall
+  surface.mesh_report.reset();  // report of the wall
   surface.parts.clear();
   for (const VertexId v : surface.mesh.points.ids()) surface.mesh.points[v] = envelope.stage.envelope.point(envelope.wall->mesh, v);
   return surface;

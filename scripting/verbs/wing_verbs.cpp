@@ -157,7 +157,7 @@ struct GivenSection {
   double roll = k_automatic;
   bool is_break = false;
   bool is_reversed = false;
-  double dihedral = 0.0;  ///< of the panel before it, at its actual position
+  double dihedral = 0.0;  ///< dihedral of the panel before it, at its actual position
   Airfoil airfoil;
 };
 
