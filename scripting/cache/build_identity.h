@@ -5,9 +5,9 @@
 
 namespace sterna::scripting {
 
-/// Returns the version, the build ids of this executable and of every library in this process (the file's hash if there is no build id), and the vector
-/// instructions of the processor, because mathematical functions are selected by them. Two processes with the same string produce the same bytes from the same
-/// inputs. Human-readable lines; takes some milliseconds.
+/// Returns the version and the build ids of this executable and of every library in this process (the file's hash if there is no build id). Also returns the
+/// vector instructions of the processor, because mathematical functions are selected by them. Two processes with the same string produce the same bytes from
+/// the same inputs. Human-readable lines; takes some milliseconds.
 /// \throws Error(file_not_found) if the executable cannot be read
 std::string build_identity();
 

@@ -42,7 +42,8 @@ struct DeterminismReport {
   bool is_pass() const;
 };
 
-/// Compares the files of a run in `folder` with the first run in `first` (the same folder for the first run itself), and adds the results to the report.
+/// Compares the files of a run in `folder` with those of the first run in `first`, and adds the results to the report. For the first run both folders are the
+/// same.
 /// \throws Error of hash_file
 void compare_run(const std::filesystem::path& first, const std::filesystem::path& folder, int threads, DeterminismReport& report);
 

@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Returns the options that no name on the command line refers to, even a misspelt name or one with a refused value, so that each mistake is reported once.
+/// Returns the options to which no name on the command line refers, not even a misspelt name or one with a refused value. Thus each mistake is reported once.
 OptionTable not_meant(const OptionTable& table, const OptionOverrides& given) {
   OptionTable result;
   for (const Option& option : table) {

@@ -9,8 +9,9 @@
 
 namespace sterna::scripting {
 
-/// Returns one sentence with the planes if all boundary loops of an open surface lie in one to three planes x, y or z = constant at its ends and span its
-/// opening there: half or a quarter of a body, or a section between two planes. Returns nothing if repair has to close the surface.
+/// Returns one sentence with the planes if all boundary loops of an open surface lie in one to three planes x, y or z = constant. The planes must be at its
+/// ends, and the loops must span its opening there: half or a quarter of a body, or a section between two planes. Returns nothing if repair has to close the
+/// surface.
 std::optional<std::string> ends_in_planes(const TriMesh& mesh, const RunContext& context);
 
 /// Returns one sentence if the largest open part of the surface is a sheet: as large as its opening, with all normals to one side, such as terrain.

@@ -32,10 +32,10 @@ inline constexpr double k_many_needles = 0.02;
 /// triangulations. Always false for the triangles of models' faces.
 bool is_remesh_advised(const SurfaceValue& wall);
 
-/// Returns the wall with new triangles if they are advised and better: at most half the share of slivers, no corner below a degree that was not there before, a
-/// distance from the given triangles of at most a thousandth of the length and a fifth of their edges, and no more area turned by more than 10 degrees. Else
-/// returns the wall unchanged; the log reports the choice. A max_triangles other than the default is the budget; by default the budget is 20 times the given
-/// triangles, at least 200 000.
+/// Returns the wall with new triangles if they are advised and better: at most half the share of slivers, and no corner below a degree that was not there
+/// before. The distance from the given triangles must be at most a thousandth of the length and a fifth of their edges. The area turned by more than 10 degrees
+/// must not grow. Else returns the wall unchanged; the log reports the choice. A max_triangles other than the default is the budget; by default the budget is
+/// 20 times the given triangles, at least 200 000.
 SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
 
 }  // namespace sterna::scripting

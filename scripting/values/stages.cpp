@@ -470,7 +470,7 @@ void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, co
     context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }; members of a family have one");
 }
 
-/// Gives a hint, before the work, if the layers are too few to reach the size of tetrahedra and leave a jump on top, with the sufficient number.
+/// Gives a hint, before the work, if the layers are too few to reach the size of tetrahedra and leave a jump on top. The hint contains the sufficient number.
 void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (const auto thin = volmesh::thin_layers(wall.mesh, options))
     context.info(

@@ -23,8 +23,8 @@ ScriptValue make_farfield_cylinder(const ScriptCall& call);
 bool is_farfield(const ScriptCall& call);
 std::string sphere_help();
 
-/// Returns the table with "farfield" converted to options of its stage. The entry may be a shape, a string ("none", "box -10 -5 -5 20 5 5 edge=2", the name of
-/// a file), a surface, or a model, whose surface is meshed. A surface goes to `surface`, its files to `inputs`.
+/// Returns the table with "farfield" converted to options of its stage. A surface goes to `surface`, its files to `inputs`. The entry may be a shape, a
+/// surface, or a model, whose surface is meshed; or a string: "none", "box -10 -5 -5 20 5 5 edge=2", the name of a file.
 ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared_ptr<const TriMesh>& surface, std::vector<InputFile>& inputs);
 
 /// Returns the options of a string: "none", "sphere radius=100 edge=20", "box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5", "cylinder -10 0 0

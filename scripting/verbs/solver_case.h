@@ -130,7 +130,7 @@ class UsedBoundaries {
   CaseBoundary of(const Patch& patch);
   /// Returns the pressure jump over an actuator disc, Pa; nothing, and adds a problem, if it cannot be determined.
   std::optional<double> pressure_jump(const Patch& disc, double area, CaseProblems& problems);
-  /// Adds a problem for every name that no patch has used, and for every value that has no meaning at such a patch (a thrust at an inflow).
+  /// Adds a problem for every name that no patch has used. Adds a problem for every value that has no meaning at such a patch (a thrust at an inflow).
   void require_used(CaseProblems& problems) const;
 
  private:
