@@ -87,7 +87,7 @@ void add_kinds(HybridMesh& mesh, const KnownPatches& known, const InputPath& fil
 /// Returns the patches with faces that are walls only by default.
 std::set<std::string> unknown_kinds(const HybridMesh& mesh, const KnownPatches* known, const InputPath& file) {
   const io::Format& format = io::format_of(file.path);
-  // VTK files of other programs contain only numbers.
+  // VTK files of other programs identify patches only by numbers.
   const auto is_number = [](const std::string& name) { return name.starts_with("patch_") && name.find_first_not_of("0123456789", 6) == std::string::npos; };
   const bool states_all = io::states_patch_kinds(file.path), is_vtk = format.name.starts_with("VT");
   std::vector<std::uint8_t> has_faces(mesh.patches.size(), 0);

@@ -40,7 +40,8 @@ struct RemeshAttempt {
   double refinement;
   bool is_smooth;
 };
-/// The first attempt uses the requested sizes. With too many triangles, larger sizes follow; with a poor or too thin result, smaller ones.
+/// The first attempt uses the requested sizes. With too many triangles, larger sizes follow; with a result that is too far from the shape, or too thin, smaller
+/// ones.
 constexpr RemeshAttempt k_first{1.0, true};
 constexpr std::array<RemeshAttempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0, true}}};
 constexpr std::array<RemeshAttempt, 2> k_finer{{{1.0, false}, {1.5, true}}};

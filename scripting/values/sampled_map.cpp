@@ -1,4 +1,4 @@
-// Starts with four intervals along each axis; builds the spline; compares at the middle of the intervals of each axis, between the stations of the other axes,
+// Starts with four intervals along each axis; builds the spline; compares at the middle of the intervals of each axis, at the stations of the other axes,
 // and at irregular points in all cells; halves the intervals with too large errors; repeats.
 #include "scripting/values/sampled_map.h"
 
