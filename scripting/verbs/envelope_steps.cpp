@@ -34,7 +34,7 @@ OptionTable some_options(MeshCase& options, std::string_view names) {
   return table;
 }
 
-/// The steps use the wall at its current position. make_envelope performs further steps if parts were placed, or sides are periodic: the steps would not give
+/// The steps treat the wall as one surface. make_envelope performs further steps if parts were placed, or sides are periodic: the steps would not give
 /// its envelope.
 void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
   if (!site.options.periodic.empty())
