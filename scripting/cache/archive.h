@@ -1,5 +1,5 @@
-// Values as bytes: for hashing them (keys) and for keeping them (entries of the cache), both by the same description. To the bit: what is read back equals what
-// was written.
+// Serialisation of values to bytes, for hashing (keys) and for storage (entries of the cache), both by the same description. Exact to the bit: the value read
+// back equals the value written.
 #pragma once
 
 #include <array>
@@ -21,21 +21,21 @@
 
 namespace sterna::scripting {
 
-/// Where bytes go.
+/// Destination of bytes.
 class ByteSink {
  public:
   virtual ~ByteSink() = default;
   virtual void put(const void* bytes, std::size_t n) = 0;
 };
 
-/// Where bytes come from.
+/// Source of bytes.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
-  /// \throws Error(file_malformed) when there are fewer
+  /// \throws Error(file_malformed) if fewer bytes are left
   virtual void take(void* bytes, std::size_t n) = 0;
   virtual std::uint64_t n_left() const = 0;
-  /// Throws Error(file_malformed).
+  /// \throws Error(file_malformed) always
   [[noreturn]] virtual void refuse() const = 0;
 };
 
@@ -44,7 +44,7 @@ struct IsId : std::false_type {};
 template <class Tag>
 struct IsId<Id<Tag>> : std::true_type {};
 
-/// Values whose bytes in memory are all there is to them: no padding, no pointers.
+/// True for types whose bytes in memory are their complete value: no padding, no pointers.
 template <class T>
 struct IsPlain : std::bool_constant<((std::is_arithmetic_v<T> || std::is_enum_v<T>)&&!std::is_same_v<T, bool>) || IsId<T>::value || std::is_same_v<T, Vec3>> {};
 template <class T, std::size_t N>
@@ -64,7 +64,7 @@ inline void write_count(ByteSink& sink, std::size_t n) {
   const std::uint64_t count = n;
   sink.put(&count, sizeof count);
 }
-/// \param least bytes that each of them takes: a count that cannot be is refused before memory is asked for
+/// \param least minimum bytes of each element: an impossible count is refused before memory is allocated
 inline std::size_t read_count(ByteSource& source, std::size_t least) {
   std::uint64_t count = 0;
   source.take(&count, sizeof count);
@@ -187,7 +187,7 @@ struct Archive<std::shared_ptr<const T>> {
   }
 };
 
-/// For keys only.
+/// Variants are supported for keys only.
 template <class... T>
 struct Archive<std::variant<T...>> {
   static void write(ByteSink& sink, const std::variant<T...>& value) {

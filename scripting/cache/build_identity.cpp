@@ -16,17 +16,17 @@
 namespace sterna::scripting {
 namespace {
 
-/// The build id among the notes of a loaded file, as hex digits; empty where there is none.
+/// Returns the build id among the notes of a loaded file, as hex digits; empty if there is none.
 std::string build_id(const dl_phdr_info& object) {
   constexpr char k_digits[] = "0123456789abcdef";
-  constexpr std::string_view k_owner{"GNU", 4};  // with its NUL
+  constexpr std::string_view k_owner{"GNU", 4};  // length with the final NUL
   for (std::size_t i = 0; i < object.dlpi_phnum; ++i) {
     const ElfW(Phdr)& header = object.dlpi_phdr[i];
     if (header.p_type != PT_NOTE) continue;
     const std::size_t alignment = header.p_align == 8 ? 8 : 4;
     const auto padded = [&](std::size_t n) { return (n + alignment - 1) / alignment * alignment; };
     const char* at =
-        reinterpret_cast<const char*>(object.dlpi_addr + header.p_vaddr);  // NOLINT(performance-no-int-to-ptr): that is how the loader says where it is
+        reinterpret_cast<const char*>(object.dlpi_addr + header.p_vaddr);  // NOLINT(performance-no-int-to-ptr): the loader gives the address as an integer
     const char* end = at + header.p_memsz;
     while (at + sizeof(ElfW(Nhdr)) <= end) {
       ElfW(Nhdr) note;
@@ -49,7 +49,7 @@ std::string build_id(const dl_phdr_info& object) {
   return {};
 }
 
-/// The kernel's own, which no result depends on, has no file.
+/// The object of the kernel itself, which no result depends on, has no file.
 bool has_file(const std::string& name) { return name.find('/') != std::string::npos; }
 
 int add_object(dl_phdr_info* object, std::size_t, void* lines) {

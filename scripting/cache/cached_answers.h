@@ -1,7 +1,7 @@
-// Caching what a script's function has a say in. A function enters a key by the values that it returned, and where it is asked depends on what it answered
-// before. So an entry keeps its questions: whoever looks for it asks the script's own function the same in the same order, as making the result would. All
-// answers as they are kept: the result is this one, as nothing else differs. One that differs leads to another entry, whose key holds the answers so far. The
-// function is asked exactly what it would be without a cache, so not even one that counts its calls can tell the difference.
+// Caching of results that depend on a function of a script. The function enters a key by its returned values, and the points of evaluation depend on earlier
+// return values. An entry therefore stores its points: a lookup evaluates the script's own function at the same points in the same order as the computation
+// would. If all values equal the stored ones, the entry is the result, because nothing else differs. A value that differs leads to another entry, whose key
+// holds the values so far. The function receives exactly the same calls as without a cache, so even a function that counts its calls behaves the same.
 #pragma once
 
 #include <cmath>
@@ -19,20 +19,20 @@ namespace sterna::scripting {
 
 using SizeFunction = std::function<double(const Point&)>;
 
-/// What was asked of a function, and its answers.
+/// Points of evaluation of a function, and its values.
 struct Transcript {
   std::vector<Point> questions;
   std::vector<double> answers;
 };
 
-/// A function whose first answers are known.
+/// A function whose first values are known.
 class AskedFunction {
  public:
   AskedFunction(SizeFunction function, Transcript known) : function_(std::move(function)), transcript_(std::move(known)) {}
   double operator()(const Point& p) {
     if (n_asked_ < transcript_.questions.size()) {
       if (transcript_.questions[n_asked_] == p) return transcript_.answers[n_asked_++];
-      is_as_known_ = false;  // cannot be, as what is asked follows from the answers. Were it so, the function itself is right
+      is_as_known_ = false;  // cannot happen, as the points follow from the values. If it did, the function itself gives the right value
       transcript_.questions.resize(n_asked_);
       transcript_.answers.resize(n_asked_);
     }
@@ -52,15 +52,16 @@ class AskedFunction {
   bool is_as_known_ = true;
 };
 
-/// As cached() of stage_cache.h, of what `make` makes with the function. `key` becomes that of the result: with the function's answers in it; or nothing.
-/// \pre reuse.cache and key. The function's own errors come out.
+/// As cached() of stage_cache.h, for the result of `make`, which calls the function. `key` becomes the key of the result, which includes the function's values;
+/// or nothing.
+/// \pre reuse.cache and key. Errors of the function are passed on.
 template <class T>
 T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view what, std::optional<ContentKey>& key, const SizeFunction& function,
                     const RunContext& context, const std::function<T(const SizeFunction&)>& make, const std::function<void(ByteSink&, const T&)>& write,
                     const std::function<T(ByteSource&)>& read) {
   const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
-  Transcript known;          // what this run's function was asked so far
-  std::size_t n_of_key = 0;  // of them, those that are in the key
+  Transcript known;          // evaluations of the function in this run so far
+  std::size_t n_of_key = 0;  // number of them that are in the key
   for (;;) {
     Transcript stored;
     std::optional<T> value;

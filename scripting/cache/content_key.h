@@ -1,4 +1,4 @@
-// Keys of what things hold, never of how they came about: equal keys, equal results. Not for security. Those of values are in values/value_keys.h.
+// Keys by content, independent of how the content was made: equal keys, equal results. Not for security. Keys of values are in values/value_keys.h.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@
 
 namespace sterna::scripting {
 
-/// Collects what a key is made of.
+/// Collects the data of a key.
 class KeyMaker final : public ByteSink {
  public:
-  /// \p what names the kind of thing: things of different kinds have different keys.
+  /// \p what names the type of object: objects of different types have different keys.
   explicit KeyMaker(std::string_view what);
 
   void put(const void* bytes, std::size_t n) override;
-  /// Anything of archive.h.
+  /// Adds any value supported by archive.h.
   template <class T>
   KeyMaker& add(const T& value) {
     write_value(*this, value);
@@ -35,9 +35,9 @@ class KeyMaker final : public ByteSink {
   }
   KeyMaker& add(std::string_view text);
   KeyMaker& add(const char* text) { return add(std::string_view(text)); }
-  /// Stage, name and value (17 digits) of each option; in the table's order.
+  /// Adds stage, name and value (17 digits) of each option, in the order of the table.
   KeyMaker& add(const OptionTable& options);
-  /// Only those of these stages.
+  /// Adds only the options of these stages.
   KeyMaker& add(const OptionTable& options, std::initializer_list<std::string_view> stages);
   ContentKey key() const;
 
@@ -45,7 +45,7 @@ class KeyMaker final : public ByteSink {
   ContentHash hash_;
 };
 
-/// Of options alone.
+/// Returns the key of options alone.
 ContentKey key_of(const OptionTable& options);
 
 }  // namespace sterna::scripting

@@ -1,12 +1,12 @@
-// The members of plain structs, in order: what keys and stored results are made of without a list of names for each. A struct says how many members it has; the
-// compiler refuses another number, so a member that is added later cannot be forgotten in a key or in a stored result.
+// The members of plain structs, in order, so that keys and stored results need no list of names for each struct. Each struct declares its number of members.
+// The compiler rejects a wrong number, so a member added later cannot be omitted from a key or from a stored result.
 #pragma once
 
 #include <cstddef>
 
 namespace sterna::scripting {
 
-/// Number of members of a struct that may be taken apart; specialised in stored_types.h. Zero: it may not.
+/// Number of members of a struct that may be decomposed; specialised in stored_types.h. Zero: the struct may not be decomposed.
 template <class T>
 inline constexpr std::size_t k_members = 0;
 

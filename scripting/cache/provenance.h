@@ -1,4 +1,4 @@
-// Keys by content, and which values have one.
+// Keys by content, and their attachment to values.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace sterna::scripting {
 
-/// 128 bits of XXH3.
+/// A key: 128 bits of XXH3.
 struct ContentKey {
   std::array<std::uint8_t, 16> bytes{};
   std::string hex() const;  ///< 32 digits
   friend auto operator<=>(const ContentKey&, const ContentKey&) = default;
 };
 
-/// A key that the holder's copies do not have: whoever copies a value may change it. Moving keeps it.
+/// A key that copies of the holder do not inherit, because a copy may be changed. Moving keeps the key.
 class Provenance {
  public:
   Provenance() = default;
@@ -31,7 +31,7 @@ class Provenance {
     key_ = key;
     return *this;
   }
-  /// Nothing: what the value was made of is not known, and what is made of it cannot be cached.
+  /// Returns nothing if the inputs of the value are unknown; results made from such a value cannot be cached.
   const std::optional<ContentKey>& key() const { return key_; }
 
  private:

@@ -1,4 +1,4 @@
-// What a verb hands to the stages that it runs.
+// Data that a verb passes to the stages it runs.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ class StageCache;    // stage_cache.h
 class ReferenceUse;  // scripting/values/kept_reference.h
 
 struct Reuse {
-  const StageCache* cache = nullptr;          ///< null: everything is made anew
-  std::vector<std::string>* lines = nullptr;  ///< gets a line for each stage that came from the cache, or started from a reference
-  ReferenceUse* reference = nullptr;          ///< of the series whose case runs; null: there is none
+  const StageCache* cache = nullptr;          ///< null: everything is recomputed
+  std::vector<std::string>* lines = nullptr;  ///< receives a line for each stage that came from the cache, or started from a reference
+  ReferenceUse* reference = nullptr;          ///< reference of the series of the running case; null: there is none
 };
 
 }  // namespace sterna::scripting

@@ -34,7 +34,7 @@ using Seal = std::array<std::uint8_t, 16>;
 
 std::span<const std::byte> bytes_of(const void* at, std::size_t n) { return {static_cast<const std::byte*>(at), n}; }
 
-/// False where the file ends before.
+/// Returns false if the file ends before.
 bool read(int descriptor, void* to, std::size_t n, std::uint64_t from) {
   auto* at = static_cast<char*>(to);
   while (n > 0) {
@@ -91,7 +91,7 @@ class FileSink final : public ByteSink {
   std::string buffer_;
 };
 
-/// Content that has been proved.
+/// Verified content.
 class FileSource final : public ByteSource {
  public:
   FileSource(int descriptor, std::uint64_t n_bytes) : descriptor_(descriptor), n_left_(n_bytes) {}

@@ -1,6 +1,6 @@
-// An entry is a sealed file (sealed_file.h) <first two digits>/<key>.stage: the stage's name, then what its writer wrote.
-// It is written under a temporary name and renamed, so it is whole whenever it has its name, and a killed process leaves nothing that anybody reads. Readers
-// hold a shared lock; what is to go must be free of locks, and a file that is removed while it is read stays readable.
+// An entry is a sealed file (sealed_file.h) <first two digits>/<key>.stage: the stage's name, then the output of its writer.
+// An entry is written under a temporary name and renamed. It is therefore complete once it has its name, and a killed process leaves nothing that another
+// process reads. Readers hold a shared lock; an entry is evicted only if it has no locks, and a file that is removed during reading stays readable.
 #include "scripting/cache/stage_cache.h"
 
 #include <fcntl.h>
@@ -33,14 +33,14 @@ void remove_damaged(const std::filesystem::path& path, std::string_view stage, c
 
 bool is_key_text(const std::string& text) { return text.size() == 2 * sizeof(Seal) && text.find_first_not_of("0123456789abcdef") == std::string::npos; }
 
-/// A file of the cache as the file system has it.
+/// A file of the cache as listed by the file system.
 struct Listed {
   std::filesystem::file_time_type used;
   std::filesystem::path file;
   std::uint64_t bytes = 0;
 };
 
-/// Other processes add and remove files meanwhile: what is gone is passed over.
+/// Other processes add and remove files meanwhile: files that have disappeared are skipped.
 std::vector<Listed> listed(const std::filesystem::path& folder) {
   std::vector<Listed> result;
   std::error_code gone;
@@ -89,7 +89,7 @@ bool StageCache::find(std::string_view stage, const ContentKey& key, const std::
     if (errno != ENOENT) context.warn("cache: " + path.string() + " cannot be opened: " + std::generic_category().message(errno));
     return false;
   }
-  ::flock(file.descriptor(), LOCK_SH | LOCK_NB);  // held until the file is closed; without it the file could only go sooner than it should
+  ::flock(file.descriptor(), LOCK_SH | LOCK_NB);  // held until the file is closed; without the lock the file could only be evicted too early
   if (const std::string problem = file.problem(key, context); !problem.empty()) {
     remove_damaged(path, stage, problem, context);
     return false;
@@ -106,7 +106,7 @@ bool StageCache::find(std::string_view stage, const ContentKey& key, const std::
     remove_damaged(path, stage, error.info().problem, context);
     return false;
   }
-  // When it was used last; where that cannot be written it only goes sooner than others.
+  // Sets the time of last use. If the time cannot be written, the entry is only evicted earlier than others.
   ::futimens(file.descriptor(), nullptr);
   return true;
 }
@@ -115,7 +115,7 @@ void StageCache::store(std::string_view stage, const ContentKey& key, const std:
   const std::filesystem::path path = path_of(stage, key);
   try {
     std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);  // AtomicFile says why where it cannot be
+    std::filesystem::create_directories(path.parent_path(), error);  // AtomicFile reports the reason of a failure
     const auto write_entry = [&](ByteSink& sink) {
       write_value(sink, std::string(stage));
       write(sink);
@@ -140,7 +140,7 @@ void StageCache::trim(const std::filesystem::path& newest, const RunContext& con
     if (bytes <= settings_.limit) break;
     if (old.file == newest) continue;
     const SealedFile file(old.file);
-    if (!file.is_open() || ::flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0) continue;  // gone, or somebody reads it
+    if (!file.is_open() || ::flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0) continue;  // removed, or in use by a reader
     std::error_code error;
     if (!std::filesystem::remove(old.file, error) && error) {
       context.warn("cache: " + old.file.string() + " could not be removed: " + error.message());
@@ -162,7 +162,7 @@ std::vector<CacheEntry> StageCache::entries(const std::filesystem::path& folder)
       try {
         read_value(*open.content(), entry.stage);
       } catch (const Error&) {
-        entry.stage.clear();  // as the contract says: damaged
+        entry.stage.clear();  // according to the interface: damaged
       }
     }
     result.push_back(std::move(entry));

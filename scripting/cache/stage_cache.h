@@ -1,5 +1,5 @@
-// Results of stages on disk, by the content of what they were made of. For several processes at once, on one machine or on shared disks; nothing in it is
-// trusted.
+// Results of stages on disk, by the content of their inputs. Usable by several processes at once, on one machine or on shared disks. No entry is trusted before
+// verification.
 #pragma once
 
 #include <cstdint>
@@ -20,38 +20,38 @@ namespace sterna::scripting {
 inline constexpr double k_cache_limit = 20e9;
 
 struct CacheSettings {
-  std::filesystem::path folder;  ///< made where it is not there
-  double limit = k_cache_limit;  ///< bytes: above it the entries go that were not used for longest
-  std::string identity;          ///< of the program that asks; empty: build_identity()
+  std::filesystem::path folder;  ///< created if missing
+  double limit = k_cache_limit;  ///< bytes; when exceeded, the least recently used entries are evicted
+  std::string identity;          ///< identity of the calling program; empty: build_identity()
 };
 
-/// One file of a cache.
+/// One file of a cache, as listed by entries().
 struct CacheEntry {
   std::filesystem::path file;
-  std::string stage;  ///< what it is a result of; empty where its head is damaged
+  std::string stage;  ///< stage of the result; empty if the head is damaged
   std::uint64_t bytes = 0;
 };
 
 class StageCache {
  public:
-  /// \throws Error(write_failed) when the folder cannot be made
+  /// \throws Error(write_failed) if the folder cannot be created
   explicit StageCache(CacheSettings settings);
 
   const std::filesystem::path& folder() const { return settings_.folder; }
 
-  /// Hands the entry of this stage and key to `read`, once its hash has proved that it is as it was stored. False: there is none. One that is damaged is
-  /// removed, with a warning.
+  /// Passes the entry of this stage and key to `read`, after its hash is verified. Returns false if there is no entry. A damaged entry is removed, with a
+  /// warning.
   /// \throws Error(cancelled)
   bool find(std::string_view stage, const ContentKey& key, const std::function<void(ByteSource&)>& read, const RunContext& context) const;
-  /// Keeps what `write` writes. The entry appears whole or not at all. A disk that is full or may not be written to is a warning: the run goes on. Then the
-  /// entries that were not used for longest go, until the limit holds; never this one, nor one that is being read.
+  /// Stores the output of `write`. The entry is written atomically. A full or write-protected disk only gives a warning: the run continues. Then the least
+  /// recently used entries are evicted until the limit holds; never this entry, nor one that is being read.
   /// \throws Error(cancelled)
   void store(std::string_view stage, const ContentKey& key, const std::function<void(ByteSink&)>& write, const RunContext& context) const;
 
-  /// Of a folder, in order of file names; entries of all builds.
-  /// \throws Error(file_not_found) when there is no such folder
+  /// Returns the entries of a folder, in order of file names; entries of all builds.
+  /// \throws Error(file_not_found) if there is no such folder
   static std::vector<CacheEntry> entries(const std::filesystem::path& folder);
-  /// Removes all entries; returns how many.
+  /// Removes all entries; returns their number.
   /// \throws Error(file_not_found, write_failed)
   static std::size_t clear(const std::filesystem::path& folder);
 
@@ -62,10 +62,10 @@ class StageCache {
   CacheSettings settings_;
 };
 
-/// What a log says of a stage that came from the cache.
+/// Logs that a stage came from the cache.
 void report_reuse(const Reuse& reuse, std::string_view stage, std::string_view what, const RunContext& context);
 
-/// The result of a stage: from the cache, or made and kept. Nothing is kept without a key, nor where `may_keep` says no of the result.
+/// Returns the result of a stage: from the cache, or computed and stored. Nothing is stored without a key, nor if `may_keep` returns false for the result.
 /// \param what for the log: "of body, wing"; may be empty
 template <class T>
 T cached(const Reuse& reuse, std::string_view stage, std::string_view what, const std::optional<ContentKey>& key, const RunContext& context,
@@ -89,7 +89,7 @@ T cached(const Reuse& reuse, std::string_view stage, std::string_view what, cons
   return value;
 }
 
-/// The same of what archive.h knows.
+/// As above, for types supported by archive.h.
 template <class T>
 T cached(const Reuse& reuse, std::string_view stage, std::string_view what, const std::optional<ContentKey>& key, const RunContext& context,
          const std::function<T()>& make, const std::function<bool(const T&)>& may_keep = {}) {

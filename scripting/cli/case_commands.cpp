@@ -19,9 +19,9 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_case_read_end = 0.6;  ///< share of the progress
+constexpr double k_case_read_end = 0.6;  ///< fraction of the progress
 
-/// All that a case takes as numbers and texts, with the structs that they are written to.
+/// All numeric and string settings of a case, with the structs that they are written to.
 struct CaseSettings {
   FoamOptions foam;
   Su2Options su2;
@@ -40,7 +40,7 @@ std::string attempted_by(const CaseCommand& command) {
   return (command.solver == CaseSolver::openfoam ? "writing the case " : "writing the configuration ") + command.output.string();
 }
 
-/// "mach=0.78 altitude=11000 length=4.2" as single options.
+/// Splits "mach=0.78 altitude=11000 length=4.2" into single options.
 void add_flow_words(const std::string& text, OptionOverrides& options) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {
@@ -75,11 +75,11 @@ CaseBoundaries boundaries_of(const std::vector<std::pair<std::string, OptionOver
   return boundaries;
 }
 
-/// Of the mesh that is read, as the configuration is to name it; SU2 reads two formats.
+/// Returns the name of the mesh that is read, for the configuration; SU2 reads two formats.
 std::string mesh_beside(const CaseCommand& command) {
   const std::filesystem::path mesh = command.input;
   if (!problem_of_su2_mesh(mesh.string()).empty()) return {};
-  std::error_code failure;  // of a folder that is not there, which the writer tells
+  std::error_code failure;  // error of a missing folder, which the writer reports
   const std::filesystem::path folder = command.output.has_parent_path() ? command.output.parent_path() : std::filesystem::path(".");
   const std::filesystem::path beside = std::filesystem::proximate(mesh, folder, failure);
   return failure ? mesh.string() : beside.string();
@@ -149,7 +149,7 @@ int execute(const CaseCommand& command, const CommandContext& context) {
   if (!command.reference.empty()) request.reference = reference_of_model(command.reference, request.options, context.run.part("reference", 0.0, 0.1));
   set_reference(request.options, request.reference);
   if (!command.moment_origin.empty()) request.reference.moment_origin = point_of_words(command.moment_origin);
-  CaseProblems problems;  // what is wrong whatever the mesh is, before it is read
+  CaseProblems problems;  // problems that do not depend on the mesh, before it is read
   if (is_foam) require_foam_flow(settings.foam, request.flow, problems);
   else require_su2_flow(request.flow, std::nullopt, problems);
   if (const std::string problem = problem_of_su2_mesh(settings.su2.mesh); !problem.empty()) problems.add(problem);

@@ -1,4 +1,4 @@
-// `sterna foam-case` and `sterna su2-config`: what mesh:foam_case and mesh:su2_config do, for a mesh from a file.
+// `sterna foam-case` and `sterna su2-config`: the functions of mesh:foam_case and mesh:su2_config, for a mesh from a file.
 #pragma once
 
 #include <filesystem>
@@ -20,22 +20,22 @@ enum class CaseSolver { openfoam, su2 };
 struct CaseCommand {
   CaseSolver solver = CaseSolver::openfoam;
   std::string input;                                                ///< mesh file
-  std::filesystem::path output;                                     ///< folder of the case, or the configuration
-  OptionOverrides options;                                          ///< of the solver, of all cases, of the flow
+  std::filesystem::path output;                                     ///< folder of the case, or the configuration file
+  OptionOverrides options;                                          ///< options of the solver, of all cases, of the flow
   std::string reference;                                            ///< model file that describes the wing; empty: none
-  std::string moment_origin;                                        ///< "15,0,0"; empty: of the reference
-  std::vector<std::pair<std::string, OptionOverrides>> boundaries;  ///< by names of patches
-  OptionOverrides kinds;                                            ///< pattern of names, kind
+  std::string moment_origin;                                        ///< "15,0,0"; empty: from the reference
+  std::vector<std::pair<std::string, OptionOverrides>> boundaries;  ///< conditions by names of patches
+  OptionOverrides kinds;                                            ///< pattern of names, kind of patches
 };
 
 struct CaseCommands {
   CaseCommand foam, su2;
 };
 
-/// Adds the commands; the one that the command line asks for is handed to `choose`.
+/// Adds the commands; the command selected on the command line is passed to `choose`.
 void add_case_commands(CLI::App& app, CaseCommands& commands, const std::function<void(std::function<int(const CommandContext&)>)>& choose);
 
-/// \throws Error of reading the mesh and of the case; wrong options before the mesh is read
+/// \throws Error of reading the mesh and of the case; wrong options are reported before the mesh is read
 int execute(const CaseCommand& command, const CommandContext& context);
 
 }  // namespace sterna::scripting

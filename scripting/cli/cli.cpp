@@ -1,4 +1,4 @@
-// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
+// Parsing only: the commands are executed in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
 #include "scripting/cli/cli.h"
 
 #include <unistd.h>
@@ -45,11 +45,11 @@
 namespace sterna::scripting {
 namespace {
 
-/// More threads are a slip of the keyboard: far above any machine, far below what the system refuses.
+/// A larger number of threads is a typing error: far above any machine, far below the limit of the system.
 constexpr int k_max_threads = 1024;
 constexpr int k_max_tasks = 1000000;
 
-/// Options that every command has.
+/// Options common to all commands.
 struct CommonSettings {
   ConsoleSettings console;
   int threads = 0;
@@ -58,12 +58,12 @@ struct CommonSettings {
   bool only_options = false;
 };
 
-/// What the command line asks for: one command, and where the picture of a failure goes.
+/// The request of the command line: one command, and the file for the picture of a failure.
 struct Request {
   std::function<int(const CommandContext&)> execute;
-  std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
+  std::filesystem::path trouble;  ///< path of the picture: beside the output, or beside the input of commands that write nothing
   bool is_prompt = false;
-  bool tells_itself = false;  ///< what it reads is its result: the log says nothing of it, unless it is verbose
+  bool tells_itself = false;  ///< the printed findings on the input are its result: the log omits them, unless it is verbose
 };
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
@@ -108,8 +108,8 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
   add_set_option(*command, run.overrides);
   command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
   command->add_flag("--retry", run.retries, "of a series: run all cases again that failed in an earlier run, whatever the script says");
-  command->add_option("--series-case", run.series_case, "")->group("");  // hidden: what series{} gives its workers
-  command->add_option("--look-in", run.input_folder, "")->group("");     // hidden: what `sterna determinism` gives its runs
+  command->add_option("--series-case", run.series_case, "")->group("");  // not listed in the help: set by series{} for its workers
+  command->add_option("--look-in", run.input_folder, "")->group("");     // not listed in the help: set by `sterna determinism` for its runs
   add_cache_options(*command, run.cache);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(run, context); };
@@ -217,7 +217,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   OptionTable of_models = sterna::options_of(reading);
   const std::string unit_help = "metres for 1 unit of the file's numbers (of models: " + std::ranges::find(of_models, "unit", &Option::name)->range_text() +
                                 ", in place of the unit that their header states)";
-  for (const char* const name : {"fluid", "unit"}) {  // which reading a model knows, too
+  for (const char* const name : {"fluid", "unit"}) {  // options that are common with reading a model
     const auto shared = std::ranges::find(of_triangulations, name, &Option::name);
     of_both.insert(of_both.begin(), *shared);
     if (shared->name == "unit") of_both.front().help = unit_help;
@@ -521,7 +521,7 @@ int execute_request(const Request& request, const CommonSettings& common) {
   }
 }
 
-/// The commands of the program by name, or the long options that a command takes.
+/// Returns the names of the commands of the program, or the long options of a command.
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) {
@@ -538,7 +538,7 @@ std::vector<std::string> long_options(const CLI::App& app) {
   return names;
 }
 
-/// What is misspelt in a command line that was refused, with a suggestion; empty where every name is known and something else is wrong.
+/// Returns the misspelt name in a command line that was refused, with a suggestion; empty if every name is known and the problem is another one.
 std::string misspelling(const CLI::App& app, int argc, const char* const* argv) {
   const std::vector<std::string> commands = command_names(app);
   const auto with_suggestion = [](const std::string& what, const std::string& word, const std::vector<std::string>& known) {
@@ -622,7 +622,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_doctor_command(app, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_shell_commands(app, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
-  // Alone and at a terminal the program is a prompt.
+  // Without arguments and at a terminal the program is a prompt.
   constexpr std::array k_prompt = {"sterna", "prompt"};
   const bool is_alone = argc == 1 && ::isatty(STDIN_FILENO) != 0;
   try {
@@ -643,18 +643,18 @@ int parse_and_execute(int argc, const char* const* argv) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) noexcept {
-  // Before the console stands, and for what no Error describes, stderr is all there is.
+  // Before the console exists, and for failures without an Error, stderr is the only output.
   try {
     std::vector<const char*> arguments(argv, argv + argc);
     if (argc > 0 && std::filesystem::path(argv[0]).filename() == "pentagrow") arguments.insert(arguments.begin() + 1, "pentagrow");
-    // `sterna help --auto` asks for an option, it is not one of help.
+    // `sterna help --auto` requests help on an option; --auto is no option of help.
     if (argc == 3 && std::string_view(argv[1]) == "help" && std::string_view(argv[2]).starts_with("--") && std::string_view(argv[2]) != "--help")
       arguments[2] += 2;
     return parse_and_execute(static_cast<int>(arguments.size()), arguments.data());
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return exit_status_of(error.code());
-  } catch (const std::bad_alloc&) {  // no string is made here
+  } catch (const std::bad_alloc&) {  // no string is allocated here
     std::fputs("error: not enough memory\n  try: a larger limit (ulimit -v, the job's memory)\n", stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", Error(foreign_error(error, "sterna")).what());

@@ -8,7 +8,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// As of --threads of all commands.
+/// The same limit as for --threads of all commands.
 constexpr int k_max_gate_threads = 1024;
 
 using Choose = std::function<void(std::function<int(const CommandContext&)>)>;

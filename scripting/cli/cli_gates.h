@@ -1,4 +1,4 @@
-// The commands that check more than one mesh, on the command line: determinism, check-family.
+// Command line of the commands that check more than one mesh: determinism, check-family.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct GateCommands {
   CheckFamilyCommand family;
 };
 
-/// Adds the commands; the one that the command line asks for is handed to `choose`.
+/// Adds the commands; the command selected on the command line is passed to `choose`.
 void add_gate_commands(CLI::App& app, GateCommands& commands, const std::function<void(std::function<int(const CommandContext&)>)>& choose);
 
 }  // namespace sterna::scripting

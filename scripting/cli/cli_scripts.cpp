@@ -19,7 +19,7 @@ std::string markdown_cell(std::string text) {
 std::string options_markdown(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // hidden
+    if (option->get_group().empty()) continue;  // not listed
     const std::string type = option->get_type_name();
     text += "| `" + option->get_name(option->get_positional(), true) + "`" + (type.empty() ? "" : " " + markdown_cell(type)) + " | " +
             markdown_cell(option->get_description()) + " |\n";

@@ -1,4 +1,4 @@
-// The commands about scripts on the command line: check-script, prompt, manual.
+// Command line of the commands for scripts: check-script, prompt, manual.
 #pragma once
 
 #include <functional>
@@ -17,13 +17,13 @@ struct CheckScriptCommand {
   RunCommand script;
 };
 
-/// Adds the arguments NAME=VALUE behind a script.
+/// Adds the arguments NAME=VALUE after a script.
 void add_script_arguments(CLI::App& command, OptionOverrides& arguments);
 
-/// The commands of the program in Markdown, for the manual.
+/// Returns the commands of the program in Markdown, for the manual.
 std::string commands_markdown(const CLI::App& app);
 
-/// Prints what is wrong with a script, all of it; status 2 where there is something.
+/// Prints all problems of a script; status 2 if there are any.
 int execute(const CheckScriptCommand& command, const CommandContext& context);
 
 }  // namespace sterna::scripting

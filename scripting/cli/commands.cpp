@@ -51,9 +51,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Shares of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
+// Fractions of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
 constexpr double k_read_end = 0.03;
-constexpr double k_surface_end = 0.2;  ///< of models
+constexpr double k_surface_end = 0.2;  ///< for models
 constexpr double k_mesh_end = 0.93;
 
 struct PatchSize {
@@ -87,7 +87,7 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   context.console.print("  " + describe(value));
   print_box(context, box);
   print_patches(context, value.mesh.patches, sizes, value.unknown_kinds);
-  // In brief: without the slow exact test for intersections.
+  // Brief check: without the slow exact test for intersections.
   const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
   context.console.print("  check    " +
                         std::string(report.is_valid() ? "no faults found, boundaries not tested for intersection" : "INVALID, `sterna check` says where") +
@@ -95,7 +95,7 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   return k_exit_success;
 }
 
-/// Ranges of edges and angles; of triangles without area nothing but their number.
+/// Prints the ranges of edges and angles; for triangles without area only their number.
 void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0, least_angle = std::numbers::pi, most_angle = 0.0, area = 0.0;
   std::int64_t n_degenerate = 0;
@@ -124,7 +124,7 @@ void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) 
 }
 
 int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
-  // Joined as `sterna mesh` would join it, but for the slow exact test for intersections; what cannot be joined is reported by the caller.
+  // Joined in the same way as by `sterna mesh`, but without the slow exact test for intersections; the caller reports defects that prevent joining.
   surfmesh::StitchOptions options;
   options.unit = unit;
   options.allow_open = true;
@@ -145,20 +145,20 @@ int print_surface_info(const InputPath& input, double unit, const CommandContext
   return k_exit_success;
 }
 
-/// The steps of a run, where the one input is a .sterna file that holds some; else nothing.
+/// Returns the steps of a run if the only input is a .sterna file with steps; else nothing.
 StageContent steps_of(const MeshCommand& command, const CommandContext& context) {
   if (command.inputs.size() != 1 || std::filesystem::path(command.inputs.front()).extension() != ".sterna") return {};
   return read_stages({command.inputs.front(), command.inputs.front()}, context.run.part("read", 0.0, k_read_end));
 }
 
-/// Whether the command line names the option, alone or with its stage.
+/// Returns true if the command line names the option, alone or with its stage.
 bool is_given(const MeshCommand& command, std::string_view stage, std::string_view name) {
   return std::ranges::any_of(command.options, [&](const auto& option) {
     return option.first == name ? stage != "surface_mesh" : option.first == std::string(stage) + "." + std::string(name);
   });
 }
 
-/// Reads the file of the shape "surface", where one is named, and notes it with the wall's inputs.
+/// Reads the file of the shape "surface", if one is named, and adds it to the wall's inputs.
 void read_farfield_of(volmesh::MeshCase& options, SurfaceValue& wall, const RunContext& context) {
   const SurfaceHandle surface = read_farfield(
       options.farfield,
@@ -171,13 +171,13 @@ void read_farfield_of(volmesh::MeshCase& options, SurfaceValue& wall, const RunC
   wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
 }
 
-/// Regions of short edges, and what the body leaves behind.
+/// Adds refinement regions and wakes behind the body.
 void add_sources(const MeshCommand& command, const TriMesh& wall, volmesh::MeshCase& options) {
   for (const std::string& text : command.sources) options.sources.push_back(source_of_text(text));
   for (const std::string& text : command.wakes) options.sources.push_back(wake_of_text(text, wall));
 }
 
-/// From the last step on. Options that are given win over those of the file.
+/// Continues from the last step. Options that are given win over those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   if (!command.stages.empty())
     throw Error({.code = ErrorCode::bad_argument,
@@ -235,7 +235,7 @@ std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
   return pairs;
 }
 
-/// With --half: the half of what was read.
+/// With --half: takes the half of the surface.
 void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
   if (!command.is_half) {
     if (!command.half.empty())
@@ -253,7 +253,7 @@ std::vector<volmesh::SizeSource> sources_of(const std::vector<std::string>& text
   return sources;
 }
 
-/// With --remesh: the surface with new triangles, as fine as the family asks; sources refine it as they do the volume.
+/// With --remesh: remeshes the surface with the fineness of the family; sources refine the surface as they do the volume.
 void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, SurfaceValue& wall, const Reuse& reuse, const CommandContext& context) {
   if (!command.is_remeshed) {
     if (!command.remesh.empty() && !command.is_auto)
@@ -268,7 +268,7 @@ void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, Su
   wall = remeshed(wall, recipe, {}, context.run, reuse);
 }
 
-/// Options that `sterna mesh` has for other inputs or with other flags.
+/// Returns the options that `sterna mesh` has for other inputs or with other flags.
 std::vector<OptionsElsewhere> elsewhere_of(const MeshCommand& command, bool is_model, AutoSurface& unused) {
   const std::string& name = command.inputs.front();
   std::vector<OptionsElsewhere> result;
@@ -284,7 +284,7 @@ std::vector<OptionsElsewhere> elsewhere_of(const MeshCommand& command, bool is_m
   return result;
 }
 
-/// What follows from the options together, and what heights were found from flow conditions.
+/// Completes the options: values that follow from combinations of options, and heights derived from flow conditions.
 void complete_options(volmesh::MeshCase& options, const MeshCommand& command, const RunContext& context) {
   choose_solve_for(
       options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
@@ -298,7 +298,7 @@ void complete_options(volmesh::MeshCase& options, const MeshCommand& command, co
       if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);
 }
 
-/// Options of repair and wrap, where they are asked for.
+/// Adds the options of repair and wrap, if requested.
 void add_preparation(const MeshCommand& command, AutoSurface& asked, OptionTable& table) {
   if (command.is_repaired + command.is_wrapped + command.is_auto > 1)
     throw Error({.code = ErrorCode::bad_argument, .attempted = "reading the options", .problem = "more than one of --repair, --wrap and --auto"});
@@ -306,10 +306,10 @@ void add_preparation(const MeshCommand& command, AutoSurface& asked, OptionTable
     for (Option& option : sterna::options_of(asked.repair)) table.push_back(std::move(option));
   if (command.is_wrapped || command.is_auto)
     for (Option& option : sterna::options_of(asked.wrap))
-      if (option.name != "unit" && option.name != "split_angle" && option.name != "fluid") table.push_back(std::move(option));  // those of reading count
+      if (option.name != "unit" && option.name != "split_angle" && option.name != "fluid") table.push_back(std::move(option));  // those of reading apply
 }
 
-/// The wall of triangulations.
+/// Returns the wall of triangulations.
 SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& inputs, const AutoSurface& asked, const Reuse& reuse,
                      const CommandContext& context) {
   if (command.is_auto) return auto_triangles(inputs, asked, reuse, context.run.part("surface", 0.0, k_surface_end));
@@ -325,7 +325,8 @@ SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& i
   return read_wall(inputs, asked.stitching, context.run.part("surface", 0.0, k_read_end));
 }
 
-/// The volume mesh. With --auto new triangles are tried, too, where the given ones allow no envelope or no tetrahedra; first where they are needles.
+/// Generates the volume mesh. With --auto a remeshed surface is tried as well if the given triangles allow no envelope or no tetrahedra; it is tried first if
+/// they are slivers.
 MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
                const CommandContext& context) {
   const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
@@ -350,7 +351,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   }
 }
 
-/// Of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
+/// Generates the mesh of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
 MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const Reuse& reuse, const CommandContext& context) {
   if (command.is_repaired || command.is_wrapped)
     throw Error({.code = ErrorCode::bad_argument,
@@ -362,7 +363,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   ReadCadOptions& reading = asked.reading;
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
-  recipe.sources = sources_of(command.sources);  // one source means wall and volume
+  recipe.sources = sources_of(command.sources);  // one source applies to wall and volume
   if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   OptionTable table = volmesh::required_options_of(volume_options);
   add_preparation(command, asked, table);
@@ -371,7 +372,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   OptionOverrides given = command.options;
   const auto named = [&](std::string_view name) { return std::ranges::find(command.options, name, [](const auto& option) { return option.first; }); };
   if (const auto limit = named("time_limit"); limit != command.options.end() && named("read_cad.time_limit") == command.options.end())
-    given.emplace_back("read_cad.time_limit", limit->second);  // one limit means reading, too
+    given.emplace_back("read_cad.time_limit", limit->second);  // one limit applies to reading, too
   set_options(table, given, context, elsewhere_of(command, true, unused));
   if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
     recipe.options.refinement = volume_options.family.refinement;
@@ -396,7 +397,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
     return make_mesh_of_models(command, inputs, reuse, context);
   AutoSurface asked;
   volmesh::MeshCase volume_options;
-  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // of the new triangles
+  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of the new triangles
   volume_options.patches = layer_rules_of(command.patches, command.is_remeshed ? &sizes : nullptr);
   asked.stitching.allow_open = command.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);
@@ -429,7 +430,7 @@ std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice) {
   return std::make_unique<const StageCache>(CacheSettings{.folder = choice.folder, .limit = choice.limit});
 }
 
-/// "polar/3"
+/// Parses "polar/3".
 CaseAddress case_of_text(const std::string& text) {
   const std::size_t slash = text.rfind('/');
   CaseAddress address{.series = text.substr(0, slash)};
@@ -439,11 +440,11 @@ CaseAddress case_of_text(const std::string& text) {
   return address;
 }
 
-/// All of the command line that can change what a script does: a worker gets the same.
+/// Returns all parts of the command line that can change the results of a script: a worker gets the same.
 std::vector<std::string> worker_words(const RunCommand& command, const RunContext& run) {
   std::vector<std::string> words;
   for (const auto& [name, value] : command.overrides)
-    if (name != "retry" && name != "series.retry") words.push_back("--set=" + name + "=" + value);  // which cases run again is no matter of a case
+    if (name != "retry" && name != "series.retry") words.push_back("--set=" + name + "=" + value);  // the choice of cases to run again does not affect a case
   words.push_back("--seed=" + std::to_string(run.seed()));
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
   if (!command.input_folder.empty()) words.push_back("--look-in=" + command.input_folder.string());
@@ -478,7 +479,7 @@ int execute(const RunCommand& command, const CommandContext& context) {
 int execute(const MeshCommand& command, const CommandContext& context) {
   for (const auto& output : command.outputs) require_mesh_output(output);
   WriteOptions writing;
-  CommandContext of_files = context;  // --show-options shows those of the stages, further on
+  CommandContext of_files = context;  // --show-options shows those of the stages, later
   of_files.only_options = false;
   set_options(sterna::options_of(writing), command.writing, of_files);
   const Clock::time_point start = Clock::now();
@@ -541,14 +542,14 @@ int execute(const HalfCommand& command, const CommandContext& context) {
 
 namespace {
 
-/// Says before the work why nothing can be written there; empty names are no files.
+/// Reports before the work starts why a file cannot be written; empty names are no files.
 void require_writable(const std::filesystem::path& path) {
   if (!path.empty()) io::AtomicFile probe(path);
 }
 
 void require_other_output(const std::vector<std::string>& inputs, const std::filesystem::path& output, const std::string& attempted) {
   for (const std::string& name : inputs) {
-    std::error_code none;  // of files that are not there
+    std::error_code none;  // for missing files
     if (std::filesystem::equivalent(name, output, none))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = attempted,
@@ -630,7 +631,7 @@ int execute(const RemeshCommand& command, const CommandContext& context) {
 
 int execute(const UnionCommand& command, const CommandContext& context) {
   for (const std::string& name : command.inputs) {
-    std::error_code none;  // of files that are not there: they are no input, or not yet an output
+    std::error_code none;  // for missing files: they are no input, or not yet an output
     if (std::filesystem::equivalent(name, command.output, none))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "union",
@@ -656,7 +657,7 @@ int execute(const UnionCommand& command, const CommandContext& context) {
 
 namespace {
 
-/// \throws Error(unsupported_format) unless the name ends in .vtu, (bad_argument) where it is the mesh itself
+/// \throws Error(unsupported_format) unless the name ends in .vtu, (bad_argument) if the file is the mesh itself
 void require_cells_output(const std::filesystem::path& path, const std::filesystem::path& input) {
   const std::string attempted = "--cells " + path.string();
   if (path.extension() != ".vtu")
@@ -664,7 +665,7 @@ void require_cells_output(const std::filesystem::path& path, const std::filesyst
                  .attempted = attempted,
                  .problem = "the quality of cells is written as a .vtu file",
                  .hint = "such as --cells " + path.stem().string() + ".vtu"});
-  std::error_code none;  // a file that is not there is another one
+  std::error_code none;  // a missing file is a different one
   if (std::filesystem::equivalent(path, input, none))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
@@ -731,7 +732,7 @@ int execute(const InfoCommand& command, const CommandContext& context) {
   if (!std::filesystem::exists(input.path))
     throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + command.input, .problem = "there is no such file"});
   context.console.print(fmt::format("{}: {}, 1 unit of the file = {:g} m", command.input, format.name, unit.unit));
-  // A format that holds volume meshes may hold a surface alone; then it is read as one.
+  // A format that holds volume meshes may hold a surface alone; then the file is read as a surface.
   if (format.read_volume) {
     const int status = print_volume_info(input, unit.unit, context);
     if (status >= 0) return status;

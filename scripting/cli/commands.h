@@ -1,4 +1,4 @@
-// The subcommands of `sterna`, free of any parsing: each takes its settings, prints its result and returns the exit status.
+// The subcommands of `sterna`, independent of parsing: each takes its settings, prints its result and returns the exit status.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@
 
 namespace sterna::scripting {
 
-/// --cache and --cache-limit.
+/// The options --cache and --cache-limit.
 struct CacheChoice {
   std::filesystem::path folder;  ///< empty: no cache
   double limit = k_cache_limit;  ///< bytes
@@ -30,31 +30,31 @@ struct RunCommand {
   std::filesystem::path script;
   OptionOverrides overrides;  ///< --set
   CacheChoice cache;
-  int tasks = 0;                       ///< --tasks: cases of a series at a time; 0 = as the script says
+  int tasks = 0;                       ///< --tasks: cases of a series at a time; 0 = as given in the script
   bool retries = false;                ///< --retry: failed cases of a series run again
   std::string series_case;             ///< --series-case NAME/INDEX: this process is a worker
   OptionOverrides arguments;           ///< NAME=VALUE
-  std::filesystem::path input_folder;  ///< --look-in: this process was started in a folder of its own by another one, and ends with it
+  std::filesystem::path input_folder;  ///< --look-in: this process was started by another one in a folder of its own, and ends with its parent
 };
 
 struct MeshCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
   OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
-  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
   std::filesystem::path stats;
-  std::filesystem::path stages;       ///< .sterna file that keeps the steps of the run; empty: none
+  std::filesystem::path stages;       ///< .sterna file for the steps of the run; empty: none
   std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
   std::vector<std::string> sources;   ///< source_of_text
   std::vector<std::string> sheets;    ///< wake_sheet_of_text
   std::vector<std::string> wakes;     ///< wake_of_text
-  bool is_half = false;               ///< the half of the surface
+  bool is_half = false;               ///< the surface is cut to its half
   bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
-  bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped; remeshed where they are needles
+  bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped; remeshed if their triangles are slivers
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
-  bool is_remeshed = false;           ///< the surface gets new triangles first
+  bool is_remeshed = false;           ///< the surface is remeshed first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
   OptionOverrides writing;            ///< --numbering and --set write.numbering=both
   CacheChoice cache;
@@ -64,11 +64,11 @@ struct MeshCommand {
 struct SurfaceCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
-  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
   std::vector<std::string> sources;                              ///< source_of_text
   OptionOverrides options;
   CacheChoice cache;
-  bool is_auto = false;  ///< --auto: what crosses or is open is repaired or wrapped
+  bool is_auto = false;  ///< --auto: crossing or open parts are repaired or wrapped
 };
 
 struct CacheCommand {
@@ -86,7 +86,7 @@ struct HalfCommand {
 struct RemeshCommand {
   std::string input;
   std::vector<std::filesystem::path> outputs;
-  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
   std::vector<std::string> sources;                              ///< source_of_text
   OptionOverrides options;
   CacheChoice cache;
@@ -110,7 +110,7 @@ struct RepairCommand {
 struct WrapCommand {
   std::vector<std::string> inputs;
   std::filesystem::path output;
-  std::filesystem::path changes;  ///< VTU of what was closed; empty: none
+  std::filesystem::path changes;  ///< VTU of the closures; empty: none
   std::filesystem::path report;   ///< JSON of closures, leaks, distances; empty: none
   OptionOverrides options;
   CacheChoice cache;
@@ -119,7 +119,7 @@ struct WrapCommand {
 struct CheckCommand {
   std::string input;
   bool is_json = false;
-  std::vector<std::string> models;  ///< --model: the walls are compared with them (G17, G18)
+  std::vector<std::string> models;  ///< --model: files with which the walls are compared (G17, G18)
   CheckSettings options;
   std::vector<std::string> gates;  ///< set_gate_limits
   std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
@@ -128,7 +128,7 @@ struct CheckCommand {
 
 struct InfoCommand {
   std::string input;
-  std::string unit;  ///< empty: not given; of models what the file says, else metres
+  std::string unit;  ///< empty: not given; as given in the file for models, else metres
   bool is_json = false;
 };
 
@@ -136,26 +136,26 @@ struct ConvertCommand {
   std::string input;
   std::filesystem::path output;
   ConvertSettings settings;
-  OptionOverrides options;         ///< of models: --unit, --tolerance ...
-  OptionOverrides writing;         ///< of volume meshes: --numbering
+  OptionOverrides options;         ///< for models: --unit, --tolerance ...
+  OptionOverrides writing;         ///< for volume meshes: --numbering
   std::vector<std::string> given;  ///< given_options
 };
 
-/// `sterna info` and `sterna check` of a model file (model_commands.cpp): what it holds with its reference data; whether it is closed, with every open edge.
+/// `sterna info` and `sterna check` of a model file (model_commands.cpp): its content with its reference data; closed or not, with every open edge.
 int print_model_info(const InfoCommand& command, const CommandContext& context);
 int check_model(const CheckCommand& command, const CommandContext& context);
 /// `sterna union` of models, and `sterna convert` of a model to a model. `options` are checked against each command's schema.
 int unite_models(const UnionCommand& command, const CommandContext& context);
 int convert_model(const ConvertCommand& command, const CommandContext& context);
 
-/// The options of `sterna surface`, and of `sterna mesh` of a model, but for those of the volume. The arguments must outlive the table.
+/// Returns the options of `sterna surface`, and of `sterna mesh` of a model, except those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
 
-/// Null without a folder.
-/// \throws Error(write_failed) when the folder cannot be made
+/// Returns the cache; null without a folder.
+/// \throws Error(write_failed) if the folder cannot be created
 std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice);
 
-/// Each throws Error; the caller prints it and turns its code into the exit status.
+/// Each throws Error; the caller prints the error and converts its code to the exit status.
 int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
 int execute(const SurfaceCommand& command, const CommandContext& context);
@@ -168,10 +168,11 @@ int execute(const WrapCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);
 int execute(const ConvertCommand& command, const CommandContext& context);
-/// `sterna formats`
+/// Lists the formats for `sterna formats`.
 int list_formats(const CommandContext& context);
 
-/// Writes the geometry of a failure to `path`; returns the sentence that tells the user so, or why it could not be written. Empty without geometry.
+/// Writes the geometry of a failure to `path`. Returns a sentence for the user with the file, or with the reason why it could not be written. Returns an empty
+/// string without geometry.
 std::string draw_trouble(const Error& error, const std::filesystem::path& path);
 
 }  // namespace sterna::scripting

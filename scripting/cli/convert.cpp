@@ -16,7 +16,7 @@ namespace {
 
 constexpr double k_convert_read_end = 0.5;  // reading and writing take about the same time
 
-/// The manifest goes along, because the output's format may not hold what it knows (kinds of patches, periodic sides, options).
+/// Writes the manifest too, because the output's format may not hold its data (kinds of patches, periodic sides, options).
 std::string convert_volume(const InputPath& input, const MeshValue& value, const std::filesystem::path& output, const ConvertSettings& settings,
                            const RunContext& context) {
   const HybridMesh& mesh = value.mesh;
@@ -38,7 +38,7 @@ std::string convert_surface(const InputPath& input, const std::filesystem::path&
   return fmt::format("surface, {} triangles, {} patches", count_text(static_cast<std::int64_t>(mesh.n_triangles())), mesh.patches.size());
 }
 
-/// Whether the output's format has that use; the format must exist.
+/// Returns true if the output's format supports that use; the format must exist.
 bool can_write(const std::filesystem::path& output, io::FormatUse use, const std::string& format) {
   try {
     io::format_to_write(output, use, format);
@@ -54,7 +54,7 @@ bool can_write(const std::filesystem::path& output, io::FormatUse use, const std
 std::string convert(const InputPath& input, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context) {
   const io::Format& from = io::format_of(input.path);
   const bool has_volume = can_write(output, io::FormatUse::write_volume, settings.format);
-  if (!has_volume && !can_write(output, io::FormatUse::write_surface, settings.format))  // says which formats there are for what the input most likely is
+  if (!has_volume && !can_write(output, io::FormatUse::write_surface, settings.format))  // lists the formats for the most likely type of input
     io::format_to_write(output, from.read_volume && !settings.as_surface ? io::FormatUse::write_volume : io::FormatUse::write_surface, settings.format);
   const auto require_no_numbering = [&](const std::string& why) {
     if (settings.is_numbering_given)

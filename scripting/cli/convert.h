@@ -1,4 +1,4 @@
-// `sterna convert`: a surface or a volume mesh from one format into another, nothing added, nothing repaired.
+// `sterna convert`: converts a surface or a volume mesh from one format to another; nothing is added, nothing is repaired.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,15 @@ namespace sterna::scripting {
 
 struct ConvertSettings {
   std::string format;               ///< name of the output's format; empty: by the extension
-  bool as_surface = false;          ///< of a volume mesh take the boundary
-  WriteOptions writing;             ///< of a volume mesh
-  bool is_numbering_given = false;  ///< which is refused where there are no cells
+  bool as_surface = false;          ///< take the boundary of a volume mesh
+  WriteOptions writing;             ///< for volume meshes
+  bool is_numbering_given = false;  ///< --numbering is given; it is refused if there are no cells
 };
 
-/// Volume meshes stay volume meshes where the output's format has them, else it is an error unless the boundary is asked for. Connectivity, coordinates and,
-/// unless `writing` asks for another, order are kept; what the format cannot hold (names, digits) is told in the log. \returns what was written: "surface, 12
-/// triangles, 2 patches" \throws Error of io; unsupported_format when the output's format cannot hold what the input is, before anything is written.
+/// Converts the file. Volume meshes stay volume meshes if the output's format supports them, else it is an error unless the boundary is requested.
+/// Connectivity, coordinates and, unless `writing` requests another, order are kept. Data that the format cannot hold (names, digits) are reported in the log.
+/// \returns what was written: "surface, 12 triangles, 2 patches"
+/// \throws Error of io; unsupported_format if the output's format cannot hold the type of the input, before anything is written.
 std::string convert(const InputPath& input, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -28,27 +28,27 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds k_pause{5};         ///< between two looks at a run
-constexpr std::chrono::milliseconds k_stop_grace{800};  ///< a run that was asked to stop gets so long; Ctrl-C shall be over in a second
-constexpr std::size_t k_quoted = 2000;                  ///< bytes of a run's output for a message
-constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes that are compared at a time
+constexpr std::chrono::milliseconds k_pause{5};         ///< polling interval for a run
+constexpr std::chrono::milliseconds k_stop_grace{800};  ///< time given to a run after a stop request; Ctrl-C must take effect within a second
+constexpr std::size_t k_quoted = 2000;                  ///< bytes of a run's output quoted in a message
+constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes compared at a time
 
 std::string threads_text(int threads) { return std::to_string(threads) + (threads == 1 ? " thread" : " threads"); }
 
-/// "1, 2 and 7 threads"
+/// Returns "1, 2 and 7 threads".
 std::string threads_text(const std::vector<int>& threads) {
   std::string text;
   for (std::size_t i = 0; i < threads.size(); ++i) text += (i == 0 ? "" : i + 1 == threads.size() ? " and " : ", ") + std::to_string(threads[i]);
   return text + (threads == std::vector{1} ? " thread" : " threads");
 }
 
-/// Why a file says nothing about determinism: it holds times. Empty: it does.
+/// Returns true if a file contains times, so that it is excluded from the comparison.
 bool holds_times(const fs::path& file) {
   const std::string name = file.filename().string();
   return file.extension() == ".html" || name == k_measure_file || name == k_log_file;
 }
 
-/// Files below the folder by name, those that hold times apart.
+/// Returns the files below the folder by name; those that contain times go to `left_out`.
 std::set<std::string> files_in(const fs::path& folder, std::set<std::string>& left_out) {
   std::set<std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -59,7 +59,7 @@ std::set<std::string> files_in(const fs::path& folder, std::set<std::string>& le
   return files;
 }
 
-/// The first byte that differs.
+/// Returns the position of the first byte that differs.
 std::uint64_t first_difference(const fs::path& a, const fs::path& b) {
   std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
   std::vector<char> of_first(k_block), of_second(k_block);
@@ -82,7 +82,8 @@ std::string end_of(const fs::path& file) {
   return text;
 }
 
-/// A run in its own folder: input files are looked for there first (what it wrote itself), then in the folder of the user, then beside the script.
+/// Returns the command line of a run in its own folder: input files are searched there first (files it wrote itself), then in the folder of the user, then
+/// beside the script.
 std::vector<std::string> words_of(const DeterminismCommand& command, int threads, const RunContext& run) {
   std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string(), "run", fs::absolute(command.script).string()};
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
@@ -103,7 +104,7 @@ std::vector<std::string> words_of(const DeterminismCommand& command, int threads
                        "` does the same"});
 }
 
-/// Waits for its end. \throws Error(cancelled) once the run is gone
+/// Waits for the end of the process. \throws Error(cancelled) once the process has ended
 int finish(ChildProcess& process, const RunContext& run) {
   for (;;) {
     if (const std::optional<int> ended = process.ended()) return *ended;

@@ -30,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double k_gigabyte = 1e9;
-constexpr double k_bytes_of_cell = 250.0;                     ///< of whole runs on a few million cells, with room
-constexpr double k_little_memory = 2e9, k_little_room = 1e9;  ///< bytes: less is worth a word
+constexpr double k_bytes_of_cell = 250.0;                     ///< memory per cell in complete runs on a few million cells, with a margin
+constexpr double k_little_memory = 2e9, k_little_room = 1e9;  ///< bytes; a warning is given below
 constexpr std::array<const char*, 3> k_engines = {"sterna", "hxt", "tetgen"};
 
 enum class Health { good, poor, broken };
@@ -45,7 +45,7 @@ struct Finding {
 
 std::string gigabytes(double bytes) { return fmt::format("{:.1f} GB", bytes / k_gigabyte); }
 
-/// Names of the large libraries in this process, with their versions as files have them.
+/// Returns the names of the large libraries in this process, with their versions as in their file names.
 Finding libraries() {
   std::vector<std::string> names;
   dl_iterate_phdr(
@@ -113,7 +113,7 @@ Finding browser() {
   return {.what = "browser", .health = Health::poor, .text = "no xdg-open", .remedy = "sterna view then only says its address; xdg-utils has it"};
 }
 
-/// A box in a sphere: CAD, triangles, layers, tetrahedra, proof, file.
+/// Meshes a box in a sphere: CAD, triangles, layers, tetrahedra, certificate, file.
 Finding tiny_mesh(const std::string& engine, const CommandContext& context) {
   const std::string what = "engine " + engine;
   const bool is_needed = engine == k_engines.front();

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 Json xyz(const Point& p) { return {p.x, p.y, p.z}; }
 Json box_json(const Box& box) { return box.empty() ? Json(nullptr) : Json{{"min", xyz(box.min)}, {"max", xyz(box.max)}, {"longest_side", box.longest_side()}}; }
 
-/// Of one patch.
+/// Sums for one patch.
 struct PatchSum {
   std::int64_t n_triangles = 0, n_quads = 0;
   double area = 0.0;

@@ -20,7 +20,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Of reading, inspecting and the volume mesh; no first height is needed. The arguments must outlive the table.
+/// Returns the options of reading, inspecting and the volume mesh; no first height is needed. The arguments must outlive the table.
 OptionTable inspect_options(surfmesh::StitchOptions& surface, volmesh::InspectRequest& request) {
   OptionTable table = sterna::options_of(request.limits);
   for (Option& option : all_options(surface, request.volume)) table.push_back(std::move(option));
@@ -28,7 +28,7 @@ OptionTable inspect_options(surfmesh::StitchOptions& surface, volmesh::InspectRe
   return table;
 }
 
-/// The same of models: their faces are meshed first.
+/// Returns the same options for models, whose faces are meshed first.
 OptionTable inspect_options_of_models(SurfaceRecipe& recipe, ReadCadOptions& reading, volmesh::InspectRequest& request) {
   OptionTable table = sterna::options_of(request.limits);
   for (Option& option : volmesh::options_of(request.volume)) table.push_back(std::move(option));

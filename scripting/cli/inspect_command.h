@@ -23,19 +23,19 @@ inline constexpr std::string_view k_inspect_summary =
 struct InspectCommand {
   std::vector<std::string> inputs;
   OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
-  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
   std::vector<std::string> sources;                              ///< source_of_text
   std::string flow;                                              ///< "mach=0.78 altitude=11000 length=4.2"; empty: none
   std::filesystem::path output;
   bool is_json = false;
-  bool is_strict = false;  ///< warnings count, too
-  bool is_half = false;    ///< the half of the surface
+  bool is_strict = false;  ///< warnings are failures, too
+  bool is_half = false;    ///< the surface is cut to its half
 };
 
-/// Adds the arguments of the command, and calls `chosen` where it was chosen.
+/// Adds the arguments of the command, and calls `chosen` if the command is selected.
 void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std::function<void()>& chosen);
 
-/// Prints the report; status 1 where something is an error, with is_strict also for a warning.
+/// Prints the report; status 1 if there is an error, with is_strict also for a warning.
 int execute(const InspectCommand& command, const CommandContext& context);
 
 }  // namespace sterna::scripting

@@ -1,5 +1,4 @@
-// The one file that knows GNU readline, whose functions take what they work on from globals; so does its completion, which is why there is one editor at a
-// time.
+// The only file that uses GNU readline, whose functions take their data from globals, as does its completion: therefore only one editor may exist at a time.
 #include "scripting/cli/line_editor.h"
 
 #include <poll.h>
@@ -17,10 +16,10 @@ namespace sterna::scripting {
 namespace {
 
 constexpr int k_kept_lines = 2000;
-/// Between two looks at the stop token while the user types.
+/// Polling interval for the stop token while the user types.
 constexpr int k_poll_ms = 50;
 
-/// What readline's callbacks, which get no context, have to know of the editor.
+/// Data of the editor for readline's callbacks, which receive no context.
 struct Callbacks {
   std::function<Completion(const std::string&)> complete;
   std::string before;
@@ -34,13 +33,13 @@ Callbacks& callbacks() {
 
 char* copy_of(const std::string& text) { return ::strdup(text.c_str()); }
 
-/// readline's list of candidates: first what they have in common. Null: names of files.
+/// Returns readline's list of candidates: first their common prefix. Null: names of files.
 char** candidates_of(const char* word, int start, int) {
   const Completion found = callbacks().complete(callbacks().before + std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
   rl_attempted_completion_over = found.is_text ? 0 : 1;
   rl_completion_append_character = '\0';
   if (found.candidates.empty()) return nullptr;
-  // The word that readline sees may begin later than ours ("wall:wr" is one word here).
+  // The word that readline sees may begin later than the completed one ("wall:wr" is one word here).
   const std::size_t skipped = callbacks().before.size() + static_cast<std::size_t>(start) - found.start;
   std::string common = found.candidates.front();
   for (const std::string& candidate : found.candidates) {
@@ -75,10 +74,10 @@ LineEditor::LineEditor(std::function<Completion(const std::string& text)> comple
   rl_completer_quote_characters = "\"'";
   using_history();
   stifle_history(k_kept_lines);
-  history_comment_char = '#';  // statements of several lines: in the file a time stamp parts one from the next
+  history_comment_char = '#';  // statements of several lines: in the file, time stamps separate statements
   history_write_timestamps = 1;
   history_multiline_entries = 1;
-  if (!history_file_.empty()) read_history(history_file_.c_str());  // the first time there is none
+  if (!history_file_.empty()) read_history(history_file_.c_str());  // there is none at the first start
 }
 
 LineEditor::~LineEditor() {

@@ -1,4 +1,4 @@
-// Lines from the user: with GNU readline where stdin is a terminal (editing, history in a file, completion), else as they come.
+// Input lines of the user: with GNU readline if stdin is a terminal (editing, history in a file, completion), else unprocessed.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +13,17 @@ namespace sterna::scripting {
 
 class LineEditor {
  public:
-  /// `complete` is asked with everything of the statement up to the cursor; one editor at a time (readline has one state for a process).
-  /// The history is that of `history_file`, kept there when the editor goes; empty: none is kept.
+  /// `complete` receives the statement up to the cursor. Only one editor may exist at a time (readline has one state per process). The history is read from
+  /// `history_file` and saved by the destructor; empty: no history is kept.
   LineEditor(std::function<Completion(const std::string& text)> complete, std::filesystem::path history_file);
   ~LineEditor();
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;
 
-  /// The next line without its end; `before`: earlier lines of the statement. Nothing at the end of the input. A stop request gives an empty line and clears
-  /// what was typed.
+  /// Returns the next line without its end; `before`: earlier lines of the statement. Returns nothing at the end of the input. A stop request gives an empty
+  /// line and clears the typed characters.
   std::optional<std::string> read(const std::string& prompt, const std::string& before, const std::stop_token& stop);
-  /// A whole statement for the history.
+  /// Adds a whole statement to the history.
   void remember(const std::string& statement);
   bool is_terminal() const { return is_terminal_; }
 
@@ -32,7 +32,7 @@ class LineEditor {
   std::filesystem::path history_file_;
 };
 
-/// Where the history of the prompt is kept: $XDG_STATE_HOME/sterna/history, else ~/.local/state/sterna/history; empty without a home.
+/// Returns the history file of the prompt: $XDG_STATE_HOME/sterna/history, else ~/.local/state/sterna/history; empty without a home.
 std::filesystem::path default_history_file();
 
 }  // namespace sterna::scripting

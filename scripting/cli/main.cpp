@@ -8,7 +8,7 @@
 
 namespace {
 
-/// The last words of a process that crashes, in this program or in a library of it; it still ends by the signal, so that whoever waits for it sees that.
+/// Prints a last message for a crash in this program or in a library. The process still ends by the signal, so that the parent process can detect it.
 extern "C" void say_that_it_crashed(int signal) {
   const char* words =
       "\nerror: sterna crashed; what it was writing does not appear under its name\n"
@@ -19,7 +19,7 @@ extern "C" void say_that_it_crashed(int signal) {
   ::raise(signal);
 }
 
-/// On a stack of its own, because the stack may be what ran out. Left alone where something else looks after crashes (sanitizers).
+/// Uses a separate stack, because the stack may be exhausted. Does nothing if crashes are handled elsewhere (sanitizers).
 void watch_for_crashes() {
   static std::array<char, 65536> stack;
   stack_t other{};

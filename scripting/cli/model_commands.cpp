@@ -1,4 +1,4 @@
-// The commands on files of models: STEP, IGES, BREP, sumo, CPACS.
+// The commands for model files: STEP, IGES, BREP, sumo, CPACS.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_model_read_end = 0.4;
-/// Open edges that `sterna info` lists; `sterna check` lists all.
+/// Number of open edges listed by `sterna info`; `sterna check` lists all.
 constexpr std::size_t k_listed_edges = 10;
 
 InputPath input_of(const std::string& name) { return {name, name}; }
@@ -32,7 +32,7 @@ int print_model_info(const InfoCommand& command, const CommandContext& context) 
   const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_model_read_end));
   const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
   context.console.end_progress();
-  if (!value.report.empty() && !value.description) context.console.print(command.input + ": " + value.report);  // descriptions' findings are in the log
+  if (!value.report.empty() && !value.description) context.console.print(command.input + ": " + value.report);  // the findings on descriptions are in the log
   context.console.print(describe(value));
   context.console.print(measures_text(measures));
   context.console.print("  closed   " + closedness_text(value.model, k_listed_edges));
@@ -67,7 +67,7 @@ OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCad
 
 namespace {
 
-/// With --auto the command takes triangulations, too, whose triangles stay or are wrapped: sizes of faces have no effect on them.
+/// With --auto the command also accepts triangulations, whose triangles are kept or wrapped: sizes of faces have no effect on them.
 void refuse_on_triangulations(const SurfaceCommand& command) {
   const auto input = std::ranges::find_if(command.inputs, [](const std::string& name) { return !is_model_file(name); });
   if (input == command.inputs.end() || !command.is_auto) return;  // without --auto a triangulation is refused
@@ -94,7 +94,7 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
   AutoSurface asked;
-  // Options of the stages that --auto may start have their stage's name before them: --set remesh.max_triangles=1e6
+  // Options of the stages that --auto may start have the name of their stage as prefix: --set remesh.max_triangles=1e6
   const auto stage_of = [&](const std::string& name) -> OptionTable {
     if (name.starts_with("remesh.")) return sterna::options_of(asked.remesh);
     if (name.starts_with("repair.")) return sterna::options_of(asked.repair);
@@ -150,7 +150,7 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
         read_model(input_of(name), reading, context.run.part("read", k_model_read_end * i / n, k_model_read_end * (i + 1) / n))));
   }
   ModelValue united = unite_solids(models, options, context.run.part("union", k_model_read_end, 0.95));
-  united.description.reset();  // the file has the union, not what went into it
+  united.description.reset();  // the file contains the union, not its inputs
   write_model(united, command.output, {}, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(united));

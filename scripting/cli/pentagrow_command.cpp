@@ -23,7 +23,7 @@
 namespace sterna::scripting {
 namespace {
 
-// Shares of progress, as of `sterna mesh`.
+// Fractions of the progress, as in `sterna mesh`.
 constexpr double k_pentagrow_read_end = 0.05, k_pentagrow_mesh_end = 0.9;
 constexpr std::size_t k_skew_classes = 15;
 constexpr double k_class_degrees = 90.0 / k_skew_classes;
@@ -51,7 +51,8 @@ SurfaceValue read_surface(const PentagrowCommand& command, const PentagrowCase& 
   return half_surface(wall, half, context);
 }
 
-/// The tops of the layer with the patches of its columns' wall triangles, where they are boundary faces in the same order.
+/// Returns the top faces of the layer with the patches of the wall triangles below.
+/// \pre the wall triangles of the columns are the first boundary triangles, in the same order
 TriMesh envelope_of(const HybridMesh& mesh) {
   TriMesh envelope;
   const LayerBlock& layers = mesh.layers;
@@ -64,7 +65,7 @@ TriMesh envelope_of(const HybridMesh& mesh) {
   return envelope;
 }
 
-/// What bounds the tetrahedra: the envelope, and all boundary triangles behind the wall's.
+/// Returns the boundary of the tetrahedra: the envelope, and all boundary triangles after those of the wall.
 TriMesh tetrahedra_boundary(const HybridMesh& mesh) {
   TriMesh boundary = envelope_of(mesh);
   std::vector<std::int64_t> vertex_of(mesh.points.size(), -1);
@@ -79,7 +80,7 @@ TriMesh tetrahedra_boundary(const HybridMesh& mesh) {
       }
       corners[k] = VertexId(static_cast<std::uint64_t>(vertex_of[node.index()]));
     }
-    boundary.triangles.push_back({corners[0], corners[2], corners[1]});  // boundary faces look out of the fluid, surfaces into it
+    boundary.triangles.push_back({corners[0], corners[2], corners[1]});  // boundary faces have normals out of the fluid, surfaces into it
     boundary.triangle_patch.push_back(mesh.boundary_triangles[t].patch);
   }
   return boundary;

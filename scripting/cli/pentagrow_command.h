@@ -1,4 +1,4 @@
-// `sterna pentagrow wall.stl case.cfg`, and the program called pentagrow.
+// `sterna pentagrow wall.stl case.cfg`, also started under the program name pentagrow.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ struct PentagrowCommand {
   std::string config;  ///< empty: pentagrow's defaults
 };
 
-/// Writes into the current folder what pentagrow does: hybrid.bmsh .cgns .taumesh .su2 as OutputFormat says (each with its manifest), outermost.vtu (the
-/// envelope), boundaries.smesh (envelope and outer boundary, with the farfield), sumcos.txt (skew of the prisms in 15 classes) and diagnose.txt (tangled
+/// Writes the same files as pentagrow into the current folder: hybrid.bmsh .cgns .taumesh .su2 as OutputFormat requests (each with its manifest), outermost.vtu
+/// (the envelope), boundaries.smesh (envelope and outer boundary, with the farfield), sumcos.txt (skew of the prisms in 15 classes) and diagnose.txt (tangled
 /// elements: none, or there is no mesh).
 int execute(const PentagrowCommand& command, const CommandContext& context);
 

@@ -19,15 +19,15 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_degree = std::numbers::pi / 180.0;
-const double k_icosahedron_edge = 2.0 / std::sqrt(1.0 + std::pow(0.5 * (1.0 + std::sqrt(5.0)), 2.0));  ///< over the radius of its sphere
-constexpr double k_sharp_degrees = 120.0;                                                              ///< what is sharp here, and pentagrow's default
+const double k_icosahedron_edge = 2.0 / std::sqrt(1.0 + std::pow(0.5 * (1.0 + std::sqrt(5.0)), 2.0));  ///< divided by the radius of its sphere
+constexpr double k_sharp_degrees = 120.0;                                                              ///< angle of sharp edges here, and pentagrow's default
 
 std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
 }
 
-/// One configuration: entries by key, and what is wrong with them, by line.
+/// One configuration: entries by key, and the problems of the entries, by line.
 class Entries {
  public:
   Entries(const std::string& text, std::string file) : file_(std::move(file)) {
@@ -55,7 +55,7 @@ class Entries {
     return entries_.contains(key);
   }
 
-  /// The value where the key is there and right; else `otherwise`.
+  /// Returns the value if the key is present and valid; else `otherwise`.
   double number(const std::string& key, double otherwise, double min = -k_unbounded, double max = k_unbounded) {
     const std::vector<double> values = numbers(key);
     if (values.empty()) return otherwise;
@@ -74,7 +74,7 @@ class Entries {
     add_problem(line_of(key), key + " = " + entries_.at(key).value + ": expected a whole number");
     return otherwise;
   }
-  /// A multiple of `n` numbers; empty where the key is not there or wrong.
+  /// Returns a multiple of `n` numbers; empty if the key is missing or invalid.
   std::vector<double> vectors(const std::string& key, std::size_t n, bool is_one = false) {
     const std::vector<double> values = numbers(key);
     if (values.size() % n == 0 && (!is_one || values.size() <= n)) return values;
@@ -92,7 +92,7 @@ class Entries {
   }
   std::string text(const std::string& key, const std::string& otherwise) { return has(key) ? entries_.at(key).value : otherwise; }
 
-  /// Tells that a key works differently here. \pre has(key)
+  /// Notes that a key works differently here. \pre has(key)
   void note(const std::string& key, const std::string& what) { notes.push_back(place(line_of(key)) + key + ": " + what); }
   void refuse(const std::string& key, const std::string& what) { add_problem(line_of(key), key + " = " + entries_.at(key).value + ": " + what); }
 
@@ -148,7 +148,7 @@ class Entries {
   std::vector<Problem> problems_;
 };
 
-// ---- Groups of keys, as sumo's documentation has them ---------------------------------------------------------------------------------------
+// ---- Groups of keys, as in sumo's documentation ---------------------------------------------------------------------------------------------
 
 void read_formats(Entries& in, PentagrowCase& out) {
   if (const std::string format = in.text("InputFormat", ""); !format.empty()) {
@@ -173,7 +173,7 @@ void read_formats(Entries& in, PentagrowCase& out) {
 
 void read_layers(Entries& in, volmesh::EnvelopeOptions& layer) {
   layer.layers = in.whole("NLayers", 21, 1, 1000);
-  layer.growth = "local";  // eq. (1), as the file means it
+  layer.growth = "local";  // eq. (1), as meant by the file
   layer.first_height = in.number("InitialHeight", 1e-5, 1e-12);
   layer.max_thickness = in.number("MaxLayerThickness", 1.0, 1e-12);
   layer.max_relative_height = in.number("MaxRelativeHeight", 5.0, 0.01, 1e6);
@@ -204,7 +204,7 @@ void read_farfield(Entries& in, PentagrowCase& out) {
   farfield.farfield_radius = in.number("FarfieldRadius", 100.0, 1e-9);
   farfield.farfield_edge = k_icosahedron_edge * farfield.farfield_radius / std::exp2(in.whole("FarfieldSubdivision", 3, 0, 9));
   std::vector<double> center = in.vectors("FarfieldCenter", 3, true);
-  const std::vector<double> holes = in.vectors("HolePosition", 3);  // cavities are found here
+  const std::vector<double> holes = in.vectors("HolePosition", 3);  // cavities are found automatically
   if (center.empty() && !holes.empty()) center.assign(holes.begin(), holes.begin() + 3);
   out.is_half = in.boolean("Symmetry", false);
   out.cut = in.number("YPlaneCut", 0.0);
@@ -214,7 +214,7 @@ void read_farfield(Entries& in, PentagrowCase& out) {
   farfield.farfield_center_z = center[2];
 }
 
-/// "-pq1.2a0.1VY": letters with numbers behind some.
+/// Parses "-pq1.2a0.1VY": letters, some followed by numbers.
 void read_tetgen_switches(Entries& in, const std::string& text, volmesh::MeshCase& options) {
   for (std::size_t i = text.find_first_not_of("- ") == std::string::npos ? text.size() : 0; i < text.size();) {
     const char letter = text[i++];

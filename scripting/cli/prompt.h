@@ -1,4 +1,4 @@
-// The interactive prompt: Lua with the verbs, a statement at a time.
+// The interactive prompt: Lua with the verbs, one statement at a time.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 namespace sterna::scripting {
 
 struct PromptSettings {
-  ScriptSettings script;  ///< `script.script`: a name whose folder is where files are looked for second
-  RunSettings run;        ///< of each statement; its stop is the guard's
+  ScriptSettings script;  ///< `script.script`: a name whose folder is the second search location of files
+  RunSettings run;        ///< settings of each statement; its stop is that of the guard
   std::filesystem::path history_file;
 };
 
-/// Reads statements until the input ends or "exit" or "quit": an expression is printed, what is not finished is asked for, an error is printed and the prompt
-/// goes on. Ctrl-C ends the statement that runs, or the line that is typed, not the prompt. Returns the exit status: 0, or where stdin is no terminal that of
-/// the last error.
+/// Reads statements until the input ends or "exit" or "quit". An expression is printed, an incomplete statement is continued on the next line, an error is
+/// printed and the prompt continues. Ctrl-C ends the running statement, or the typed line, not the prompt. Returns the exit status: 0, or that of the last
+/// error if stdin is no terminal.
 int run_prompt(const PromptSettings& settings, Console& console, InterruptGuard& interrupt);
 
 }  // namespace sterna::scripting

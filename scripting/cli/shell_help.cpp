@@ -12,7 +12,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Options that have a name and are not hidden.
+/// Returns the options that have a name and are listed in the help.
 std::vector<const CLI::Option*> named_options(const CLI::App& app) {
   std::vector<const CLI::Option*> options;
   for (const CLI::Option* option : app.get_options())
@@ -34,7 +34,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// Up to the first full stop: for one line of a menu.
+/// Returns the text up to the first full stop: for one line of a menu.
 std::string first_sentence(const std::string& text) {
   const std::size_t end = text.find(". ");
   return replaced(text.substr(0, end), "\n", " ");
@@ -76,7 +76,7 @@ std::string bash_completion(const CLI::App& app) {
          "complete -F _sterna sterna\n";
 }
 
-/// Within single quotes; zsh's menus take colons and brackets for their own.
+/// Returns the text within single quotes; zsh's menus use colons and brackets as separators.
 std::string zsh_quoted(const std::string& text) {
   return replaced(replaced(replaced(replaced(replaced(text, "\\", "\\\\"), "'", "'\\''"), ":", "\\:"), "[", "\\["), "]", "\\]");
 }
@@ -131,7 +131,7 @@ std::string fish_completion(const CLI::App& app) {
   return text;
 }
 
-/// Text of a page: hyphens are hyphens, and no line begins with a request.
+/// Returns the text of a page: hyphens are hyphens, and no line begins with a roff request.
 std::string roff(const std::string& text) {
   const std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   std::string lines = replaced(replaced(escaped, "\n.", "\n\\&."), "\n'", "\n\\&'");
@@ -141,7 +141,7 @@ std::string roff(const std::string& text) {
 std::string roff_options(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // hidden
+    if (option->get_group().empty()) continue;  // not listed
     text += ".TP\n.B " + roff(option->get_name(option->get_positional(), true)) + "\n";
     const std::string type = option->get_type_name();
     text += (type.empty() ? "" : roff(type) + ". ") + (option->get_description().empty() ? "\\&" : roff(option->get_description())) + "\n";
@@ -149,14 +149,14 @@ std::string roff_options(const CLI::App& app) {
   return text;
 }
 
-/// "max-memory" and "envelope.max_growth" as scripts have them.
+/// Returns "max-memory" and "envelope.max_growth" in the form used by scripts.
 std::string script_name(std::string name) {
   if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && !find_verb(name)) name.erase(0, dot + 1);
   std::ranges::replace(name, '-', '_');
   return name;
 }
 
-/// The commands that have an option of that name, a line each; empty: none.
+/// Returns the commands that have an option of that name, a line each; empty: none.
 std::string help_on_option(const CLI::App& app, const std::string& name) {
   std::string text;
   for (const CLI::App* command : shown_commands(app))
@@ -204,9 +204,9 @@ void add_shell_commands(CLI::App& app, const std::function<void(std::function<in
       const auto name = about->count() > 0 ? about->as<std::string>() : std::string();
       const auto commands = app.get_subcommands([&](const CLI::App* known) { return known->check_name(name); });
       const CLI::App* command = name.empty() ? &app : commands.empty() ? nullptr : commands.front();
-      // app.help() would be that of the command that runs.
+      // app.help() would be the help of the running command.
       std::string text = command == &app ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal) : command ? command->help() : "";
-      // A word may be both: a command and a verb of scripts; an option of a command, and one of scripts.
+      // A name may have two meanings: a command and a verb of scripts; an option of a command, and one of scripts.
       if (name.empty() || (command && !find_verb(name))) return context.console.print(text), k_exit_success;
       if (!command) text = help_on_option(app, name);
       const std::string in_script = script_name(name), of_scripts = text.empty() ? help_on_name(in_script, "help " + name) : help_if_known(in_script);

@@ -1,4 +1,4 @@
-// What shells and man make of the commands and their options: from the same tables as --help.
+// Shell completions and the man page of the commands and their options: from the same tables as --help.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@ class App;
 
 namespace sterna::scripting {
 
-/// A script that completes commands, options and file names in a shell.
+/// Returns a script that completes commands, options and file names in a shell.
 /// \p shell: bash, zsh or fish
-/// \throws Error(bad_argument) for another one
+/// \throws Error(bad_argument) for another shell
 std::string completion_script(const CLI::App& app, const std::string& shell);
 
-/// The page sterna(1) in roff.
+/// Returns the page sterna(1) in roff.
 std::string man_page(const CLI::App& app);
 
-/// The commands `completion` and `man`. \p choose: what is to be executed. The app must outlive it.
+/// Adds the commands `completion` and `man`. \p choose: receives the command to execute. The app must outlive it.
 void add_shell_commands(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose);
 
 }  // namespace sterna::scripting

@@ -15,7 +15,7 @@ std::string kebab(std::string_view name) {
   return text;
 }
 
-/// "NUMBER[deg]": with the unit of a number that is given without one.
+/// Returns "NUMBER[deg]": with the unit of a number that is given without a unit.
 std::string type_name(const Option& option) {
   if (option.kind == OptionKind::boolean) return "[true|false]";
   if (option.kind == OptionKind::text) return "TEXT";
@@ -23,7 +23,7 @@ std::string type_name(const Option& option) {
   return "NUMBER[" + std::string(option.unit == Unit::radian ? "deg" : to_string(option.unit)) + "]";
 }
 
-/// "stage.option=value" as name and value.
+/// Splits "stage.option=value" into name and value.
 std::pair<std::string, std::string> split_assignment(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
@@ -50,7 +50,7 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
     const std::string name(option.name);
     std::string help = std::string(option.help) + "; " + option.default_text();
     if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
-    // Given twice, both are kept: set_options refuses them where they differ.
+    // If given twice, both values are kept: set_options refuses them if they differ.
     CLI::Option* added = command.add_option_function<std::vector<std::string>>(
         "--" + kebab(name),
         [&overrides, name](const std::vector<std::string>& texts) {

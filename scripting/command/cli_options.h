@@ -1,4 +1,4 @@
-// Options that several commands have: any option of any stage, one --kebab-name for each option of a schema, rules for patches.
+// Options common to several commands: any option of any stage, one --kebab-name for each option of a schema, rules for patches.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ class App;
 
 namespace sterna::scripting {
 
-/// --set stage.option=value
+/// Adds --set stage.option=value.
 void add_set_option(CLI::App& command, OptionOverrides& overrides);
-/// One --kebab-name for each option of the schema, grouped by stage. \param note behind the group's name, such as "of triangulations only"
+/// Adds one --kebab-name for each option of the schema, grouped by stage. \param note appended to the group's name, such as "of triangulations only"
 void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides, const std::string& note = {});
-/// Names of the options that the command line gives to this command: "--json".
+/// Returns the names of the options given to this command on the command line: "--json".
 std::vector<std::string> given_options(const CLI::App& command);
-/// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-/// \param name of the option, where it is another one of the same form
+/// Adds --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match, the one with more letters applies.
+/// \param name of the option, if it is another one of the same form
 void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help,
                       const std::string& name = "--patch");
 

@@ -1,4 +1,4 @@
-// What every subcommand gets, and how its options are set.
+// The common context of all subcommands, and the setting of their options.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace sterna::scripting {
 
-/// What every command gets: where to print, and the run.
+/// The common context of all commands: output and run.
 struct CommandContext {
   Console& console;
   const RunContext& run;
@@ -22,23 +22,23 @@ struct CommandContext {
   std::function<void(bool)> stops_itself = {};  ///< see SeriesSettings
 };
 
-/// Thrown with --show-options once all options of a command are set. No error.
+/// Thrown with --show-options once all options of a command are set. Not an error.
 struct OptionsShown {
   std::string json;
 };
 
-/// Options that the command has for other inputs, or with another flag; whoever gives one of them here is told why it has no effect.
+/// Options that the command has for other inputs, or with another flag; if one of them is given, the reason why it has no effect is reported.
 struct OptionsElsewhere {
   OptionTable table;
-  std::string why;  ///< "is for models (STEP ...), and wall.stl is a triangulation"
+  std::string why;  ///< reason: "is for models (STEP ...), and wall.stl is a triangulation"
 };
 
-/// Sets every option; all problems are reported together, also options that are given twice with different values.
+/// Sets every option. All problems are reported together, including options given twice with different values.
 /// \throws Error(bad_argument); OptionsShown
 void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context, const std::vector<OptionsElsewhere>& elsewhere = {});
 
-/// \param given as given_options has it. \throws Error(bad_argument) that names those of `without_effect` that were given: "--strict has no effect: a.step is a
-/// model"
+/// \param given as returned by given_options. \throws Error(bad_argument) that names the given options of `without_effect`: "--strict has no effect: a.step is
+/// a model"
 void refuse_without_effect(const std::vector<std::string>& given, std::initializer_list<std::string_view> without_effect, const std::string& attempted,
                            const std::string& why, const std::string& hint = {});
 

@@ -1,5 +1,5 @@
-// Steps: where the end of the text is (which tables are open, of which verb; in a text or not); the word there; what that place takes; what begins with the
-// word.
+// Steps: context at the end of the text (open tables and their verbs; inside a string or not); the word there; the possible candidates in this context; those
+// that begin with the word.
 #include "scripting/interpreter/completion.h"
 
 #include <lua.hpp>
@@ -23,7 +23,7 @@ constexpr std::array k_keywords = {"and",   "break", "do",  "else", "elseif", "e
 
 bool is_word_letter(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); }
 
-/// A brace or bracket that is still open, with the name in front of it.
+/// A brace or bracket that is still open, with the name before it.
 struct Opening {
   char bracket;
   std::string name;
@@ -34,7 +34,7 @@ struct Place {
   bool is_text = false;
 };
 
-/// The name that ends at `end`: "volume_mesh", "mesh:check", or "farfield" of `farfield = {`.
+/// Returns the name that ends at `end`: "volume_mesh", "mesh:check", or "farfield" of `farfield = {`.
 std::string name_before(std::string_view text, std::size_t end) {
   const auto skip_blanks = [&] {
     while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1]))) --end;
@@ -71,9 +71,9 @@ Place place_at_end(std::string_view text) {
   return place;
 }
 
-// ---- Values of the script: raw looks only, so nothing of the script runs -----------------------------------------------------------------------------------
+// ---- Values of the script: only raw access, so no code of the script runs ----------------------------------------------------------------------------------
 
-/// Pushes the value of a path of names, "design.wing"; nil where there is none. Fields of objects are not followed.
+/// Pushes the value of a path of names, "design.wing"; nil if there is none. Fields of objects are not followed.
 void push_path(lua_State* state, std::string_view path) {
   lua_pushglobaltable(state);
   while (!path.empty() && lua_type(state, -1) == LUA_TTABLE) {
@@ -85,7 +85,7 @@ void push_path(lua_State* state, std::string_view path) {
   }
 }
 
-/// The keys of the table on top of the stack that are names, `of` in front.
+/// Adds the keys of the table on top of the stack that are names, with the prefix `of`.
 void add_keys(lua_State* state, const std::string& of, std::vector<std::string>& names) {
   lua_pushnil(state);
   while (lua_next(state, -2) != 0) {
@@ -114,7 +114,7 @@ std::vector<std::string> globals(lua_State* state) {
   return names;
 }
 
-/// What follows "wall." or "wall:".
+/// Returns the candidates after "wall." or "wall:".
 std::vector<std::string> members(lua_State* state, const std::string& path, char separator) {
   std::vector<std::string> names;
   push_path(state, path);
@@ -131,10 +131,10 @@ std::vector<std::string> members(lua_State* state, const std::string& path, char
   return names;
 }
 
-/// Entries whose texts are names of patches.
+/// Entries whose strings are names of patches.
 constexpr std::array k_patch_entries = {"patches", "boundaries", "kinds", "monitor", "wing", "farfield_sides"};
 
-/// Whether a text begins there that names patches: `patches = { ["` or `monitor = "`.
+/// Returns true if a string that names patches begins there: `patches = { ["` or `monitor = "`.
 bool wants_patches(const Place& place, std::string_view text) {
   const auto is_one = [](std::string_view name) {
     return std::ranges::any_of(k_patch_entries, [&](const char* entry) { return name == entry || name.ends_with(std::string(":") + entry); });
@@ -144,7 +144,7 @@ bool wants_patches(const Place& place, std::string_view text) {
   return is_one(before) || (!place.open.empty() && is_one(place.open.back().name));
 }
 
-/// Names of patches of what the script's globals hold.
+/// Returns the names of patches of the objects in the script's globals.
 std::vector<std::string> patch_names(lua_State* state) {
   std::vector<std::string> names;
   const auto add = [&](const auto& patches) {
@@ -167,7 +167,7 @@ std::vector<std::string> patch_names(lua_State* state) {
 
 // ---- Options -------------------------------------------------------------------------------------------------------------------------------
 
-/// The verb that is called "mesh:check" or "volume_mesh" at the prompt.
+/// Returns the verb that is called "mesh:check" or "volume_mesh" at the prompt.
 const ScriptVerb* verb_called(std::string_view name) {
   for (const ScriptVerb& verb : script_verbs())
     if (verb.name == name) return &verb;
@@ -175,7 +175,7 @@ const ScriptVerb* verb_called(std::string_view name) {
   return colon == std::string_view::npos ? nullptr : find_verb(name.substr(colon + 1));
 }
 
-/// The options that the innermost open table takes: all of its verb, or in `farfield = {` those of that name without it.
+/// Returns the options of the innermost open table: all options of its verb, or in `farfield = {` those with this prefix, without the prefix.
 std::vector<std::string> options_at(const Place& place) {
   std::string stage;
   for (auto it = place.open.rbegin(); it != place.open.rend(); ++it) {
@@ -195,7 +195,7 @@ std::vector<std::string> options_at(const Place& place) {
   return {};
 }
 
-/// Those that begin with the word, sorted, each once.
+/// Keeps the candidates that begin with the word, sorted, each once.
 void keep_those_of(const std::string& word, std::vector<std::string>& candidates) {
   std::erase_if(candidates, [&](const std::string& candidate) { return !candidate.starts_with(word); });
   std::sort(candidates.begin(), candidates.end());

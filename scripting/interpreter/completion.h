@@ -1,4 +1,4 @@
-// What may follow at the prompt: verbs, methods and fields of objects, options inside a verb's table.
+// Completion at the prompt: verbs, methods and fields of objects, options inside a verb's table.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@
 namespace sterna::scripting {
 
 struct Completion {
-  std::size_t start = 0;                ///< where the word begins that is completed
-  std::vector<std::string> candidates;  ///< whole words, sorted; in a text names of patches where those are wanted, else none: names of files
+  std::size_t start = 0;                ///< start of the completed word
+  std::vector<std::string> candidates;  ///< whole words, sorted; within a string the names of patches if patches are expected, else none: names of files
   bool is_text = false;                 ///< within quotes
 };
 
-/// What can stand at the end of `text`, which may begin with earlier lines of the same statement. Looks at values, calls nothing of the script.
+/// Returns the possible continuations at the end of `text`, which may begin with earlier lines of the same statement. Inspects values, calls nothing of the
+/// script.
 Completion complete(std::string_view text, ScriptState& state);
 
 }  // namespace sterna::scripting

@@ -13,23 +13,23 @@
 namespace sterna::scripting {
 namespace {
 
-/// The sources of the run by the name that messages have: "case.lua", "parts.lua".
+/// Returns the sources of the run by their name in messages: "case.lua", "parts.lua".
 std::vector<std::pair<std::string, const std::string*>> sources_of(const ScriptSession& session) {
   std::vector<std::pair<std::string, const std::string*>> sources = {{session.script.string(), &session.series.script_text}};
   for (const auto& [name, text] : session.series.modules) sources.emplace_back(name + ".lua", &text);
   return sources;
 }
 
-/// "case.lua:5: " -> "case.lua:5"
+/// Converts "case.lua:5: " to "case.lua:5".
 std::string place_of(const std::string& where) { return where.substr(0, where.rfind(": ")); }
 
-/// Where the source has the name as a key or as a text of the args{} that begins at this place; npos where it has not.
+/// Returns the position in the source of the name as a key or as a string of the args{} that begins at this location; npos if there is none.
 std::size_t position_of(const std::string& source, std::size_t begin, const std::string& name) {
   const std::size_t as_key = find_word(source, begin, name);
   return std::min({as_key, source.find('"' + name + '"', begin), source.find('\'' + name + '\'', begin)});
 }
 
-/// Lua's tables have no order, the source has.
+/// Sorts the parameters in the order of the source, because Lua's tables have no order.
 void sort_as_written(std::vector<ScriptParameter>& parameters, const ScriptSession& session, const std::string& place) {
   for (const auto& [file, source] : sources_of(session))
     for (const TableCall& call : table_calls(*source, "args"))
@@ -52,7 +52,7 @@ bool is_same_declaration(const ScriptParameter& a, const ScriptParameter& b) {
   return is_same_value(a.initial, b.initial) && a.min == b.min && a.max == b.max && a.step == b.step && a.unit_value == b.unit_value;
 }
 
-/// Whether the source has `require` of a module that is there and not loaded yet.
+/// Returns true if the source has `require` of a module that exists and is not loaded yet.
 bool has_unloaded_module(const ScriptSession& session, const std::string& source) {
   for (std::size_t at = find_word(source, 0, "require"); at != std::string::npos; at = find_word(source, at + 1, "require")) {
     const std::size_t quote = source.find_first_of("\"'", at);
@@ -70,7 +70,7 @@ bool has_args_to_come(const DeclaredArguments& declared, const std::string& file
   });
 }
 
-/// Whether a source reads args.NAME.
+/// Returns true if a source reads args.NAME.
 bool is_read_alone(const std::string& source, const std::string& name) {
   for (std::size_t at = find_word(source, 0, "args"); at != std::string::npos; at = find_word(source, at + 1, "args"))
     if (source.compare(at + 4, name.size() + 1, "." + name) == 0 && (at + 5 + name.size() >= source.size() || !is_word(source[at + 5 + name.size()])))

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view k_script_args_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
 constexpr std::string_view k_number_usage =
     "args{ span = number{ 10, min = 6, max = 20, unit = m }, alpha = number{ 4, min = -5, max = 15, step = 0.5, unit = deg } }";
-/// Field of the table that number{} gives: what tells it from tables of the script's own.
+/// Field of the table returned by number{}: distinguishes it from tables of the script.
 constexpr const char* k_number_mark = "argument";
 
 bool is_name(std::string_view text) {
@@ -29,19 +29,19 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
 }
 
-/// "4", "2.5mm", "10*deg", "288K": a number in SI; without a unit as it is, because only the script can say what it is of (number{}).
+/// Parses "4", "2.5mm", "10*deg", "288K" to a number in SI. A number without a unit is unchanged, because only the script defines its unit (number{}).
 std::optional<double> number_of_text(const std::string& text) {
   for (const Unit unit : {Unit::metre, Unit::radian, k_kelvin}) {
     try {
-      return parse_number_with_unit(text, unit, BareAngle::radians);  // a number alone is taken as a length: as it is
+      return parse_number_with_unit(text, unit, BareAngle::radians);  // a plain number is parsed as a length: unchanged
     } catch (const Error&) {
-      continue;  // of another dimension, or no number: the caller decides what else it may be
+      continue;  // a unit of another dimension, or no number: the caller decides on other interpretations
     }
   }
   return std::nullopt;
 }
 
-/// A text as the value that it looks like.
+/// Converts a string to the value that it represents.
 ScriptValue value_of(const std::string& text) {
   if (text == "true" || text == "false") return text == "true";
   if (const auto number = number_of_text(text)) {
@@ -52,7 +52,7 @@ ScriptValue value_of(const std::string& text) {
   return text;
 }
 
-/// The text as a value of the same type as `like`; notes a problem where it is none.
+/// Converts the string to a value of the same type as `like`; notes a problem if this is impossible.
 ScriptValue value_like(const std::string& name, const std::string& text, const ScriptValue& like, TableReader& reader) {
   if (std::holds_alternative<std::string>(like)) return text;
   ScriptValue value = value_of(text);
@@ -68,7 +68,7 @@ bool is_value(const ScriptValue& value) {
          std::holds_alternative<std::string>(value);
 }
 
-/// "deg" of a unit's value.
+/// Returns "deg" for the value of a unit.
 std::string unit_name(double value) {
   for (const ScriptUnit& unit : script_units())
     if (unit.value == value) return unit.name;
@@ -81,7 +81,7 @@ const std::string* given(const ScriptCall& call, std::string_view name) {
   return nullptr;
 }
 
-/// What number{} gave, read back; nothing for other values.
+/// Returns the parameter from a value of number{}; nothing for other values.
 std::optional<ScriptParameter> number_parameter(const std::string& name, const ScriptValue& value) {
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table || !*table || !(*table)->fields.contains(k_number_mark)) return std::nullopt;
@@ -97,7 +97,7 @@ std::optional<ScriptParameter> number_parameter(const std::string& name, const S
   return parameter;
 }
 
-/// The text as a value within the limits: a bare number counts in the parameter's unit. Notes a problem otherwise.
+/// Sets the parameter from a string to a value within the limits: a plain number is in the parameter's unit. Notes a problem otherwise.
 void set_number_parameter(ScriptParameter& parameter, const std::string& text, TableReader& reader) {
   const ScriptValue value = value_like(parameter.name, text, parameter.initial, reader);
   const auto number = number_of(value);
@@ -105,7 +105,7 @@ void set_number_parameter(ScriptParameter& parameter, const std::string& text, T
   const bool is_bare = text.find_first_not_of("+-0123456789.eE") == std::string::npos;
   const double in_unit = is_bare ? *number : *number / parameter.unit_value;
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg is 20 only to rounding
+  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg equals 20 only up to rounding
   if (parameter.min && in_unit < *parameter.min - slack)
     reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is below the least value, " +
                        number_text(*parameter.min, 6) + unit);
@@ -115,7 +115,7 @@ void set_number_parameter(ScriptParameter& parameter, const std::string& text, T
   parameter.value = in_unit * parameter.unit_value;
 }
 
-/// number{ 10, min = 6, max = 20, unit = m }: a default with limits, for args{}.
+/// Makes number{ 10, min = 6, max = 20, unit = m }: a default with limits, for args{}.
 ScriptValue declare_number(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_number_usage);
   TableReader reader(table, call.attempted());
@@ -143,10 +143,10 @@ ScriptValue declare_number(const ScriptCall& call) {
   return TableHandle(std::move(result));
 }
 
-/// args{ alpha = 0, "name" }: defaults by name; texts without names must be given.
+/// Declares args{ alpha = 0, "name" }: defaults by name; strings without a key are required arguments.
 ScriptValue declare(const ScriptCall& of_table) {
   ScriptCall call = of_table;
-  call.arguments.erase(call.arguments.begin());  // the table that was called
+  call.arguments.erase(call.arguments.begin());  // the called table
   const ScriptTable table = table_argument(call, 0, k_script_args_usage);
   TableReader reader(table, call.attempted());
   ScriptTable result;
@@ -171,7 +171,7 @@ ScriptValue declare(const ScriptCall& of_table) {
       continue;
     }
     if (const std::string* text = given(call, *name)) result.fields[*name] = value_of(*text);
-    else if (call.session.check) result.fields[*name] = std::int64_t{1};  // any value will do
+    else if (call.session.check) result.fields[*name] = std::int64_t{1};  // any value is valid
     else reader.add_problem("argument " + *name + " is missing: sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE");
     declared.push_back({.name = *name, .initial = {}, .value = result.fields[*name], .min = {}, .max = {}, .step = {}});
   }
@@ -184,7 +184,7 @@ ScriptValue declare(const ScriptCall& of_table) {
   return std::make_shared<const ScriptTable>(std::move(result));
 }
 
-/// args.alpha
+/// Reads args.alpha.
 ScriptValue read_argument(const ScriptCall& call) {
   const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
   if (!name) reject(call, "arguments are named", std::string(k_script_args_usage));

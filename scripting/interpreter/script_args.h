@@ -1,4 +1,4 @@
-// args: what `sterna run case.lua alpha=4 half=true` gives to a script.
+// args: the values that `sterna run case.lua alpha=4 half=true` passes to a script.
 #pragma once
 
 #include <span>
@@ -7,14 +7,14 @@
 
 namespace sterna::scripting {
 
-/// args.
+/// The verb args.
 std::span<const ScriptVerb> argument_verbs();
 /// The verb itself, which is also a table: args.alpha.
 const ScriptVerb& arguments_verb();
 extern const ScriptVerb k_argument_field;
 
-/// "alpha=4" as name and value.
-/// \throws Error(bad_argument) for what is no NAME=VALUE
+/// Splits "alpha=4" into name and value.
+/// \throws Error(bad_argument) if the string is not NAME=VALUE
 std::pair<std::string, std::string> split_argument(const std::string& text);
 
 }  // namespace sterna::scripting

@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// "  layers = 30  (1 .. 1000)", as options_help() writes it; false: another line.
+/// Parses "  layers = 30  (1 .. 1000)", as written by options_help(); returns false for another line.
 bool read_option_line(const std::string& line, OptionDoc& option) {
   if (!line.starts_with("  ") || line.starts_with("   ")) return false;
   const std::size_t end = line.find(" = ");
@@ -27,7 +27,7 @@ bool read_option_line(const std::string& line, OptionDoc& option) {
 
 std::string short_name(const ScriptVerb& verb) { return std::string(verb.name.substr(verb.name.find(':') + 1)); }
 
-/// The verbs that have an option of that name, a line each.
+/// Returns the verbs that have an option of that name, a line each.
 std::string verbs_with_option(const std::string& name) {
   std::string text;
   for (const ScriptVerb* verb : all_verbs())

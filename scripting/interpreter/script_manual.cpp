@@ -48,7 +48,7 @@ mesh:write "mesh.su2"; env:write "case.sterna"
 finer = volume_mesh{ surface_mesh{ model, max_edge = 0.3 }, layers = 5, first_height = 0.006, farfield = sphere{ radius = 6 } }
 )";
 
-/// Cells of a table in Markdown must not hold bars.
+/// Escapes bars, which cells of a Markdown table must not contain.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   return text;

@@ -1,4 +1,4 @@
-// The reference manual, docs/lua.md, made of the tables of verbs, objects and options.
+// The reference manual, docs/lua.md, generated from the tables of verbs, objects and options.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace sterna::scripting {
 
-/// Markdown. `commands`: what is said of the command line's commands, in Markdown too.
+/// Returns the manual in Markdown. `commands`: description of the command line's commands, also in Markdown.
 std::string manual_text(std::string_view commands);
 
-/// Lua that makes the objects and files that the examples of the manual name; in an empty folder it takes a second.
+/// Returns Lua code that creates the objects and files used by the examples of the manual; it takes a second in an empty folder.
 std::string_view manual_setup();
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// The kinds of objects that scripts hold: one table of their names, methods and fields, from which metatables, help(), the manual and completion are made.
+// The kinds of objects in scripts: one table of their names, methods and fields, from which metatables, help(), the manual and completion are generated.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 namespace sterna::scripting {
 
 std::span<const ObjectKind> object_kinds();
-/// The kind of that name, or null.
+/// Returns the kind of that name, or null.
 const ObjectKind* object_kind(std::string_view name);
-/// The kind of a value, or null where it is a number, a text, a table or a function.
+/// Returns the kind of a value, or null for a number, a string, a table or a function.
 const ObjectKind* kind_of(const ScriptValue& value);
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// Frames between Lua and its C functions own no C++ object (see script_call.h); what does is marked noexcept and called from them.
+// Frames between Lua and its C functions own no C++ object (see script_call.h); functions that own one are marked noexcept and called from them.
 #include "scripting/interpreter/script_state.h"
 
 #include <lua.hpp>
@@ -27,7 +27,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Calls that a traceback lists, and how deep it looks for them: Lua counts from the innermost call each time, and a recursion without end is 200 000 deep.
+/// Number of calls in a traceback, and search depth: Lua counts from the innermost call each time, and an endless recursion is 200 000 deep.
 constexpr int k_max_traced = 12;
 constexpr int k_max_looked_at = 100;
 
@@ -40,7 +40,7 @@ struct Memory {
 
 void* allocate(void* data, void* block, std::size_t old_size, std::size_t new_size) {
   auto& memory = *static_cast<Memory*>(data);
-  if (!block) old_size = 0;  // then Lua passes the kind of the object there
+  if (!block) old_size = 0;  // in this case Lua passes the kind of the object there
   if (new_size == 0) {
     std::free(block);
     memory.used -= old_size;
@@ -54,13 +54,13 @@ void* allocate(void* data, void* block, std::size_t old_size, std::size_t new_si
 
 // ---- Verbs ---------------------------------------------------------------------------------------------------------------------------------
 
-/// "envelope.smoth": a function that the table of that name does not have.
+/// Reports "envelope.smoth": a function that the table of that name does not have.
 int unknown_member(lua_State* state) {
   if (lua_type(state, 2) != LUA_TSTRING) return 0;
   return luaL_error(state, "unknown name ('%s.%s')", lua_tostring(state, lua_upvalueindex(1)), lua_tostring(state, 2));
 }
 
-/// Pushes the global table of that name, made where there is none: envelope of envelope.smooth. Its functions cannot be replaced.
+/// Pushes the global table of that name, created if missing: envelope of envelope.smooth. Its functions cannot be replaced.
 void push_group(lua_State* state, const char* verb, std::size_t size) {
   lua_pushglobaltable(state);
   lua_pushlstring(state, verb, size);
@@ -132,7 +132,7 @@ int run_source(lua_State* state) {
   return 0;
 }
 
-/// The functions of the script that were running, innermost first; nothing where only the script itself was.
+/// Collects the functions of the script that were running, innermost first; nothing if only the script itself was running.
 void take_traceback(lua_State* state, std::string& traceback) noexcept {
   try {
     traceback.clear();
@@ -151,11 +151,11 @@ void take_traceback(lua_State* state, std::string& traceback) noexcept {
     if (n_found > k_max_traced) traceback += "\n  ... and more";
     if (n_found < 2) traceback.clear();
   } catch (const std::exception&) {
-    traceback.clear();  // no memory for it: the error itself is what counts
+    traceback.clear();  // not enough memory for the traceback: the error itself is more important
   }
 }
 
-/// Lua's own message, with a suggestion where a verb or unit is misspelt.
+/// Returns Lua's own message, with a suggestion if a verb or unit is misspelt.
 Error with_suggestion(const Error& error) {
   if (error.code() != ErrorCode::script_failed) return error;
   ErrorInfo info = error.info();
@@ -197,7 +197,7 @@ namespace {
 
 ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
   if (verb.is_heavy) refuse_unknown_arguments(call.session, false);
-  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call)) return verb.run(call);  // no union: neither kept nor the origin of what is
+  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call)) return verb.run(call);  // no union: not cached, nor an origin of cached results
   return with_provenance(cached_model(verb, call), call);
 }
 
@@ -219,7 +219,7 @@ struct ScriptState::Parts {
 
 namespace {
 
-/// Notes where an error came from; the error itself stays as it is. Upvalue 1: the text to fill.
+/// Notes the origin of an error; the error itself is unchanged. Upvalue 1: the string to fill.
 int note_traceback(lua_State* state) {
   if (session_of(state).watch) note_all_locals(state);
   take_traceback(state, *static_cast<std::string*>(lua_touserdata(state, lua_upvalueindex(1))));
@@ -273,7 +273,7 @@ void run_protected(lua_State* state, Source source, std::string& traceback, std:
   lua_pushcfunction(state, run_source);
   lua_pushlightuserdata(state, &source);
   const int status = lua_pcall(state, 1, 0, 1);
-  if (status == LUA_OK || session_of(state).series.is_case_over) return;  // in a worker whose case is over, a stop is what ends the script
+  if (status == LUA_OK || session_of(state).series.is_case_over) return;  // in a worker whose case is over, the script ends by a stop
   if (status == LUA_ERRMEM)
     throw Error({.code = ErrorCode::script_failed,
                  .attempted = session_of(state).script.string(),
@@ -286,7 +286,7 @@ void run_protected(lua_State* state, Source source, std::string& traceback, std:
 }  // namespace
 
 void ScriptState::run(const std::string& text, const std::string& name) {
-  session().declared = {};  // each text is a script of its own
+  session().declared = {};  // each text is a separate script
   run_protected(lua(), {.text = &text, .chunk_name = &name}, parts_->traceback, parts_->memory.limit);
 }
 

@@ -1,4 +1,4 @@
-// A Lua state with the sandbox, the verbs and a session; runs pieces of Lua, one after the other.
+// A Lua state with the sandbox, the verbs and a session; runs chunks of Lua, one after the other.
 #pragma once
 
 #include <memory>
@@ -17,15 +17,15 @@ class ScriptState {
   ScriptState(const ScriptState&) = delete;
   ScriptState& operator=(const ScriptState&) = delete;
 
-  /// Runs a chunk of Lua that messages call `name`. The traceback of an error that comes out of functions of the script is in its text.
+  /// Runs a chunk of Lua, called `name` in messages. If an error comes from functions of the script, its text contains the traceback.
   /// \throws Error as run_script
   void run(const std::string& text, const std::string& name);
-  /// The same; prints what the chunk returns, as an interactive prompt does.
+  /// As above; prints the results of the chunk, as an interactive prompt does.
   void run_and_print(const std::string& text, const std::string& name);
-  /// Whether the text is the beginning of something longer, as far as Lua can tell.
+  /// Returns true if the text is the beginning of a longer statement, as far as Lua can detect this.
   bool is_incomplete(const std::string& text);
 
-  /// Whether Lua can read the text.
+  /// Returns true if Lua can parse the text.
   bool is_correct(const std::string& text);
 
   ScriptSession& session();

@@ -75,14 +75,14 @@ ScriptValue read_surface(const ScriptCall& call) {
 
 constexpr std::string_view k_union_usage = "union{ wall, \"sting.stl\", strip_width = 4 }  or, of models,  union{ model, \"sting.step\", tolerance = 1e-6 }";
 
-/// "unit" of reading a surface, for files that union reads.
+/// Returns "unit" of reading a surface, for files read by union.
 OptionTable unit_option(surfmesh::StitchOptions& options) {
   OptionTable schema = sterna::options_of(options);
   std::erase_if(schema, [](const Option& option) { return option.name != "unit"; });
   return schema;
 }
 
-/// Models, components and files of either make union one of exact geometry.
+/// Returns true if there are models, components or files of either: then union uses exact geometry.
 bool has_model(const ScriptTable& table) {
   return std::any_of(table.items.begin(), table.items.end(), [](const ScriptValue& item) {
     const auto* name = std::get_if<std::string>(&item);
@@ -160,7 +160,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   choose_boundary_layer(options, reader, call);
   choose_family_wake(options, reader, call);
   volmesh::MeshCase known = options;
-  if (wall) known.patches.insert(known.patches.end(), (*wall)->layers.begin(), (*wall)->layers.end());  // the surface's own may give the first height
+  if (wall) known.patches.insert(known.patches.end(), (*wall)->layers.begin(), (*wall)->layers.end());  // the rules of the surface may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
   SurfaceValue given = **wall;
@@ -242,7 +242,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
   }
   reader.finish();
   if (wall) require_model_wall(*wall, call.attempted());
-  // A mesh made here was checked with the default options when it was made, and cannot have changed.
+  // A mesh made in this run was checked with the default options at that time, and cannot have changed.
   const bool is_known = mesh->check && n_options == 0 && !has_limits;
   const RunContext context = call.session.context.part("check", 0.0, 1.0);
   CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(limits), context.part("mesh", 0.0, wall ? 0.5 : 1.0));
@@ -251,7 +251,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
   if (is_detailed) {
     call.session.print(check_text(report, mesh->mesh));
   } else {
-    call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has told the worst of what is known
+    call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has reported the worst known values
     call.session.context.debug(to_text(report));
   }
   if (report.quality_measured && report.intersections_checked) mesh->check = report;

@@ -1,4 +1,4 @@
-// The verbs that a script can call, and the methods and fields of its objects.
+// The verbs available to scripts, and the methods and fields of their objects.
 #pragma once
 
 #include <span>
@@ -12,9 +12,9 @@ std::span<const ScriptVerb> script_verbs();
 std::span<const ScriptVerb> surface_methods();
 std::span<const ScriptVerb> mesh_methods();
 
-/// tostring() of any object of ours.
+/// tostring() of all objects of sterna.
 extern const ScriptVerb k_describe_object;
-/// object.name for names that are no method.
+/// Verbs that read object.name for names that are no method.
 extern const ScriptVerb k_surface_field;
 extern const ScriptVerb k_mesh_field;
 extern const ScriptVerb k_error_field;
@@ -23,11 +23,11 @@ struct ScriptUnit {
   const char* name;
   double value;  ///< SI
 };
-/// m, mm, um, cm, inch, ft, deg: global numbers.
+/// The global numbers m, mm, um, cm, inch, ft, deg.
 std::span<const ScriptUnit> script_units();
 
-/// What to try instead of a global name that there is not: the verb or unit whose name is nearest, or what scripts have instead of Lua's libraries that
-/// are left out. Empty: nothing is near.
+/// Returns a suggestion for an unknown global name: the verb or unit with the nearest name, or the replacement for one of Lua's omitted libraries. Empty: no
+/// name is near.
 std::string hint_for_global(std::string_view name);
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// What stands for results where a script is only checked.
+// Placeholders for results when a script is only checked.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace sterna::scripting {
 
-/// As stand_in() of script_check.h: made when first asked for, and kept in the session's check.
+/// As stand_in() of script_check.h: created on first use, and kept in the session's check.
 /// \pre the run only checks
 ScriptValue make_stand_in(const ScriptCall& call, std::string_view gives);
 

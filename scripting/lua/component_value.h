@@ -1,5 +1,5 @@
-// A component of an aircraft that a script describes: wing{}, fuselage{} and so on. Unlike all other values it can be changed in place, because
-// scripts deflect and move it in statements: wing:deflect{...}.
+// A component of an aircraft that a script describes: wing{}, fuselage{} and so on. Unlike all other values it can be changed in place, because scripts deflect
+// and move components in statements: wing:deflect{...}.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct ComponentValue {
   ComponentKind kind = ComponentKind::body;
   std::variant<Body, Wing> shape;
   std::string intake, exhaust;          ///< patch names of a nacelle's fan face and nozzle; empty: its own name
-  std::vector<Deflection> deflections;  ///< of a wing, also those of no angle, in the order of the script
+  std::vector<Deflection> deflections;  ///< deflections of a wing, including those of zero angle, in the order of the script
 
   const std::string& name() const {
     return std::visit([](const auto& s) -> const std::string& { return s.name; }, shape);
@@ -30,7 +30,7 @@ struct ComponentValue {
   bool has_mirror_image() const {
     return std::visit([](const auto& s) { return s.has_mirror_image; }, shape);
   }
-  /// "a wing", "a nacelle": for messages.
+  /// Returns "a wing", "a nacelle": for messages.
   std::string_view type_text() const {
     switch (kind) {
       case ComponentKind::wing: return "a wing";

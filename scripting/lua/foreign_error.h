@@ -1,4 +1,4 @@
-// Exceptions of the standard library, as errors for the user: memory or threads that ran out, else a fault of ours.
+// Conversion of exceptions of the standard library to errors for the user: lack of memory or threads, else an internal error.
 #pragma once
 
 #include <exception>
@@ -11,7 +11,8 @@
 
 namespace sterna::scripting {
 
-/// Of std::bad_alloc and of a thread that the system does not start: code overflow and what to try; of all others code internal, to be reported.
+/// Returns, for std::bad_alloc and for a thread that the system cannot start, code overflow and a remedy; for all others code internal, to be reported to the
+/// developers.
 inline ErrorInfo foreign_error(const std::exception& error, std::string attempted) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
     return {.code = ErrorCode::overflow,

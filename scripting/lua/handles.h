@@ -1,4 +1,4 @@
-// The objects that scripts hold, by pointers: what they are is said by folders above this one.
+// The objects held by scripts, as pointers: their types are defined in the folders above this one.
 #pragma once
 
 #include <memory>

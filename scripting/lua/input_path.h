@@ -1,4 +1,4 @@
-// A file that a script or a command names.
+// A file named by a script or a command.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace sterna::scripting {
 
-/// A file as the user wrote it and where it was found.
+/// A file name as the user wrote it, and the location where the file was found.
 struct InputPath {
   std::string name;
   std::filesystem::path path;

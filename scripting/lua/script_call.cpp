@@ -16,17 +16,17 @@
 namespace sterna::scripting {
 namespace {
 
-/// Nested tables deeper than this are a loop of references.
+/// Tables nested deeper than this are a cycle of references.
 constexpr int k_max_depth = 16;
-/// Lua stack slots that reading one level of a table needs.
+/// Lua stack slots needed to read one level of a table.
 constexpr int k_slots_per_level = 8;
 
-/// The contents of every userdata of ours; the key of the same address marks our metatables.
+/// The content of every userdata of sterna; the key of the same address marks the metatables of sterna.
 struct ObjectBox {
   ScriptValue value;
 };
 const char k_box_tag = 0;
-/// Key in the metatable of a table that can be called as a verb: that verb.
+/// Key in the metatable of a table that can be called as a verb: the verb.
 const char k_verb_tag = 0;
 constexpr const char* k_shape_type = "sterna.shape";
 
@@ -44,7 +44,7 @@ int call_verb(lua_State* state);
 
 ScriptValue read_value(lua_State* state, int index, int depth);
 
-/// Whether a table stands for what a script that is only checked does not know (script_unknowns.h).
+/// Returns true if a table is an unknown value of a script that is only checked (script_unknowns.h).
 bool is_unknown_table(lua_State* state, int index) {
   if (!lua_getmetatable(state, index)) return false;
   luaL_getmetatable(state, k_unknown_type);
@@ -121,14 +121,14 @@ ScriptValue read_value(lua_State* state, int index, int depth) {
 
 ErrorHandle make_error(ErrorInfo info) { return std::make_shared<const Error>(std::move(info)); }
 
-/// The verb's own error, with the user's file:line in front.
+/// Returns the verb's own error, with the user's file:line in front.
 ErrorHandle placed(const Error& error, const ScriptCall& call) {
   ErrorInfo info = error.info();
   if (!info.attempted.starts_with(call.where)) info.attempted = call.where + info.attempted;
   return make_error(std::move(info));
 }
 
-/// Of a script that is only checked: notes what is wrong and goes on with something that stands for the result, unless the script wants to know.
+/// For a script that is only checked: notes the problem and continues with a placeholder for the result, unless the script catches the error itself.
 bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, ErrorHandle error) {
   if (!call.session.check || error->code() == ErrorCode::cancelled || is_protected(state)) return false;
   call.session.check->problems.push_back(std::move(error));
@@ -136,7 +136,7 @@ bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, E
   return true;
 }
 
-/// Whether the verb is asked about something that a script that is only checked does not know: then there is nothing to check.
+/// Returns true if an argument is an unknown value of a script that is only checked: then there is nothing to check.
 bool is_about_unknown(const ScriptCall& call) {
   const auto has_unknown = [](const std::vector<ScriptValue>& values) { return std::ranges::any_of(values, is_unknown); };
   if (has_unknown(call.arguments)) return true;
@@ -210,7 +210,7 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else lua_pushnil(state);
 }
 
-/// In a worker whose case is over nothing runs any more, even where the script catches the error that ends it.
+/// In a worker whose case is over no further verb runs, even if the script catches the error that ends it.
 bool take_end_of_case(ScriptSession& session) noexcept {
   if (!session.series.is_case_over) return false;
   session.value = session.cancelled;
@@ -224,7 +224,7 @@ int call_verb(lua_State* state) {
   if (verb.is_heavy) lua_gc(state, LUA_GCCOLLECT);
   if (!run_verb(state, session, verb)) raise_failure(state);
   push_value(state, session.value);
-  session.value = std::monostate{};  // the script alone decides how long a mesh lives
+  session.value = std::monostate{};  // only the script determines the lifetime of a mesh
   return 1;
 }
 
@@ -248,7 +248,7 @@ void register_type(lua_State* state, const ObjectKind& kind) {
   luaL_newmetatable(state, kind.type);
   lua_pushboolean(state, 1);
   lua_rawsetp(state, -2, &k_box_tag);
-  lua_pushstring(state, "locked");  // getmetatable must not hand out __gc
+  lua_pushstring(state, "locked");  // getmetatable must not expose __gc
   lua_setfield(state, -2, "__metatable");
   lua_pushcfunction(state, collect_object);
   lua_setfield(state, -2, "__gc");
@@ -265,9 +265,9 @@ void register_type(lua_State* state, const ObjectKind& kind) {
   lua_pop(state, 1);
 }
 
-// ---- Arithmetic with lengths that know where they come from: 1.3 * boundary_layer{...} is a plain number ------------------------------------------
+// ---- Arithmetic with lengths that store their origin: 1.3 * boundary_layer{...} is a plain number ------------------------------------------------
 
-/// Pushes the operand as a number; others as they are, so that Lua complains about them. May raise.
+/// Pushes the operand as a number; others unchanged, so that Lua reports an error for them. May raise.
 void push_operand(lua_State* state, int index) {
   const ObjectBox* box = box_at(state, index);
   const QuantityHandle* quantity = box ? std::get_if<QuantityHandle>(&box->value) : nullptr;

@@ -1,7 +1,7 @@
 // The bridge between Lua's C API and C++ verbs. Lua raises errors with longjmp, C++ with exceptions, and neither may cross the other's frames:
 //   1. call_verb (no object with a destructor in its frame) calls run_verb, which is noexcept;
 //   2. run_verb copies the arguments out with Lua functions that never raise, runs the verb, and leaves its value or its Error in the session;
-//   3. back in call_verb, every C++ object of the call is gone: now the value is pushed, or the error raised.
+//   3. back in call_verb, every C++ object of the call is destroyed: then the value is pushed, or the error raised.
 #pragma once
 
 #include <filesystem>
@@ -27,34 +27,34 @@ struct ScriptCheck;  // script_check.h
 struct ScriptHooks;  // script_hooks.h
 struct ScriptWatch;  // script_watch.h
 
-/// Everything a running script shares with its verbs.
+/// State shared by a running script and its verbs.
 struct ScriptSession {
   RunContext context;
-  std::filesystem::path script;                   ///< its folder is where input files are looked for second
-  OptionOverrides overrides;                      ///< of the command line; they win over the script
+  std::filesystem::path script;                   ///< its folder is the second search location of input files
+  OptionOverrides overrides;                      ///< options of the command line; they win over the script
   std::function<void(std::string_view)> print;    ///< results
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
-  const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: all is made anew
-  std::vector<std::string> reused = {};  ///< a line for each stage that came from the cache: "surface_mesh of body"; and for what started from a reference
-  ErrorHandle cancelled;                 ///< prepared, because the hook that raises it must not allocate
-  OptionOverrides arguments = {};        ///< NAME=VALUE of the command line, for args
-  ScriptCheck* check = nullptr;          ///< not null: nothing is meshed or written, see script_check.h
+  const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: everything is recomputed
+  std::vector<std::string> reused = {};           ///< a line for each stage taken from the cache: "surface_mesh of body"; or started from a reference
+  ErrorHandle cancelled;                          ///< allocated in advance, because the hook that raises it must not allocate
+  OptionOverrides arguments = {};                 ///< NAME=VALUE of the command line, for args
+  ScriptCheck* check = nullptr;                   ///< not null: nothing is meshed or written, see script_check.h
 
   std::filesystem::path input_folder = {};   ///< see ScriptSettings
   std::filesystem::path output_folder = {};  ///< relative output names go there; empty = current folder
   SeriesSession series = {};
 
-  const ScriptHooks* hooks = nullptr;  ///< never null where a script runs
-  const ScriptWatch* watch = nullptr;  ///< who looks on; null: nobody
+  const ScriptHooks* hooks = nullptr;  ///< never null while a script runs
+  const ScriptWatch* watch = nullptr;  ///< observer; null: none
 
-  ScriptValue value;  ///< what a verb leaves for call_verb: its result or its error
+  ScriptValue value;  ///< result or error of a verb, for call_verb
 
-  DeclaredArguments declared = {};  ///< of all args{} that have run
+  DeclaredArguments declared = {};  ///< arguments of all args{} that have run
 
   Reuse reuse() { return {cache, &reused, series.reference ? series.reference->use.get() : nullptr}; }
 };
 
-/// "case.lua:5: volume_mesh", the start of a message; the reader of the verb's table sees in it whether the verb is over when all is checked.
+/// "case.lua:5: volume_mesh", the start of a message. The reader of the verb's table finds here if the verb ends after all checks.
 struct Attempt : std::string {
   Attempt(std::string text, ScriptCheck* of_check, bool ends) : std::string(std::move(text)), check(of_check), ends_with_checks(ends) {}
   ScriptCheck* check;
@@ -66,41 +66,41 @@ struct ScriptCall {
   ScriptSession& session;
   std::string where;                   ///< "case.lua:5: ", or empty
   std::string_view verb;               ///< "volume_mesh"
-  std::vector<ScriptValue> arguments;  ///< of a method: the object first
-  bool is_heavy = false;               ///< ScriptVerb::is_heavy, unless the run only checks and makes its geometry all the same (ScriptCheck::makes_geometry)
-  bool is_geometry = false;            ///< the other way round: heavy, but done
+  std::vector<ScriptValue> arguments;  ///< for a method: the object first
+  bool is_heavy = false;               ///< ScriptVerb::is_heavy, except if the run only checks but makes this geometry (ScriptCheck::makes_geometry)
+  bool is_geometry = false;            ///< the reverse: heavy, but executed
 
   Attempt attempted() const { return {where + std::string(verb), session.check, session.check != nullptr && is_heavy}; }
 };
 
 struct ScriptVerb {
-  std::string_view name;     ///< "volume_mesh"; of a method "mesh:check"; "envelope.smooth" is a function of the table envelope
+  std::string_view name;     ///< "volume_mesh"; for a method "mesh:check"; "envelope.smooth" is a function of the table envelope
   std::string_view usage;    ///< one line of Lua
   std::string_view summary;  ///< one sentence
   ScriptValue (*run)(const ScriptCall&);
   std::string (*options_help)() = nullptr;
   bool is_heavy =
-      false;  ///< works long or writes: left out when a script is only checked; dead meshes are collected first, as Lua does not see how large they are
-  std::string_view gives = {};  ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: something else
-  bool is_kept = false;         ///< a model that it gives is taken from the cache where it is there (values/cached_model.h)
+      false;  ///< long-running or writing: omitted when a script is only checked; unused meshes are collected first, as Lua does not know their size
+  std::string_view gives = {};  ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: other
+  bool is_kept = false;         ///< a model returned by it is taken from the cache if present (values/cached_model.h)
 };
 
 /// Pushes a verb as a Lua function. May raise.
 void push_verb(lua_State* state, const ScriptVerb& verb);
-/// Pushes a table that can be called as `verb` and whose fields `field` reads. May raise.
+/// Pushes a table that can be called as `verb`, with fields that are read by `field`. May raise.
 void push_verb_table(lua_State* state, const ScriptVerb& verb, const ScriptVerb& field);
 /// Makes the metatables of all kinds of objects (script_objects.h), with their methods. May raise.
 void register_objects(lua_State* state);
-/// The session of a state that was made by run_script.
+/// Returns the session of a state that was made by run_script.
 ScriptSession& session_of(lua_State* state) noexcept;
 void set_session(lua_State* state, ScriptSession& session) noexcept;
-/// For functions of scripts that are called from C++: pushes a value, may raise; copies one out, never raises.
-/// \throws Error(bad_argument) of tables nested too deep
+/// For functions of scripts that are called from C++: the first pushes a value and may raise; the second copies a value out and never raises.
+/// \throws Error(bad_argument) for tables nested too deep
 void push_script_value(lua_State* state, const ScriptValue& value);
 ScriptValue script_value_at(lua_State* state, int index);
 /// Raises the error in session.value as a Lua error. Never returns.
 [[noreturn]] void raise_failure(lua_State* state);
-/// The Error of the error value on top of the stack, if a verb raised it; else a script_failed with Lua's message.
+/// Returns the Error of the error value on top of the stack, if a verb raised it; else a script_failed with Lua's message.
 Error error_on_top(lua_State* state);
 
 }  // namespace sterna::scripting

@@ -39,7 +39,7 @@ void note_output(const ScriptCall& call, const std::filesystem::path& path) {
 
 void check_input(const ScriptCall& call, const InputPath& file) {
   if (!call.session.check || !call.is_heavy || call.session.check->outputs.contains(file.path.lexically_normal())) return;
-  std::error_code ignored;  // what cannot be looked up is not there
+  std::error_code ignored;  // a path that cannot be accessed counts as missing
   if (std::filesystem::exists(file.path, ignored)) return;
   throw Error({.code = ErrorCode::file_not_found,
                .attempted = call.attempted(),

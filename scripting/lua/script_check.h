@@ -1,5 +1,5 @@
-// Checking a script without meshing: every verb reads its table, the heavy ones end there and give an object that stands for what they would have made. A
-// mistake is noted, and the script goes on with such an object, so that one check finds many.
+// Checking of a script without meshing: every verb reads its table; heavy verbs end there and return a placeholder for their result. A mistake is noted, and
+// the script continues with a placeholder, so that one check finds many mistakes.
 #pragma once
 
 #include <filesystem>
@@ -25,29 +25,29 @@ struct OptionSet {
 struct ScriptCheck {
   std::vector<ErrorHandle> problems;  ///< in the order of the script
   std::vector<OptionSet> options;
-  std::set<std::filesystem::path> outputs;                    ///< that the script would have written: later verbs may read them
-  std::map<std::string, ScriptValue, std::less<>> stand_ins;  ///< by kind of object; made when first asked for
+  std::set<std::filesystem::path> outputs;                    ///< files that the script would have written: later verbs may read them
+  std::map<std::string, ScriptValue, std::less<>> stand_ins;  ///< placeholders by kind of object; created on first use
   bool makes_geometry = false;                                ///< models and surfaces of files are made, as in a run; meshes are not, nothing is written
 };
 
-/// Whether a heavy verb is done although the run only checks: it makes geometry, and of nothing that only stands for something.
+/// Returns true if a heavy verb is executed although the run only checks: the run makes geometry, and no argument is a placeholder.
 bool is_geometry_made(const ScriptCall& call, const ScriptVerb& verb);
 
-/// Thrown where a verb has checked everything and the run only checks. No error.
+/// Thrown when a verb has completed its checks and the run only checks. Not an error.
 struct ChecksDone {};
 
-/// Ends a verb that has nothing more to check, where the run only checks: before work, before writing. Verbs with is_heavy end in TableReader::finish().
+/// Ends a verb that has nothing more to check if the run only checks: before work, before writing. Verbs with is_heavy end in TableReader::finish().
 void finish_checks(const ScriptCall& call);
 
-/// What the verb would have given, as ScriptVerb::gives says; nil where it says nothing.
+/// Returns a placeholder for the result of the verb, of the kind ScriptVerb::gives; nil if that is empty.
 ScriptValue stand_in(const ScriptCall& call, std::string_view gives);
-/// Whether the value stands for another one, so that its names and numbers say nothing.
+/// Returns true if the value is a placeholder, so that its names and numbers are meaningless.
 bool is_stand_in(const ScriptCall& call, const ScriptValue& value);
 
 /// Notes a file that is written; a later verb may read it.
 void note_output(const ScriptCall& call, const std::filesystem::path& path);
-/// Of a heavy verb, where the run only checks (light ones read their files):
-/// \throws Error(file_not_found) for a file that is not there and would not have been written before.
+/// Checks an input file of a heavy verb if the run only checks (light verbs read their files).
+/// \throws Error(file_not_found) for a missing file that would not have been written before.
 void check_input(const ScriptCall& call, const InputPath& file);
 
 }  // namespace sterna::scripting

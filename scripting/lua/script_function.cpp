@@ -1,4 +1,4 @@
-// Everything that may raise runs inside lua_pcall, in frames that own no C++ object (see script_call.h).
+// All functions that may raise run inside lua_pcall, in frames that own no C++ object (see script_call.h).
 #include "scripting/lua/script_function.h"
 
 #include <lua.hpp>
@@ -51,7 +51,7 @@ int call_kept_with_value(lua_State* state) {
   return 1;
 }
 
-/// Takes the top value off the stack at the end of a scope.
+/// Removes the top value of the stack at the end of a scope.
 struct PopAtEnd {
   lua_State* state;
   ~PopAtEnd() { lua_pop(state, 1); }

@@ -1,4 +1,4 @@
-// A Lua function that a script hands to a verb, callable from C++ while that verb runs.
+// A Lua function that a script passes to a verb, callable from C++ while that verb runs.
 #pragma once
 
 #include <span>
@@ -11,34 +11,34 @@ struct lua_State;
 
 namespace sterna::scripting {
 
-/// Lives as long as the call whose argument it is; only the thread that runs the script may call it.
-/// What was attempted where an error of a function says nothing of it.
+/// Attempted action for an error of a function that names none.
 inline constexpr std::string_view k_calling_function = "calling a function of the script";
 
+/// Reference to a Lua function. Lives as long as the call whose argument it is; only the thread that runs the script may call it.
 class ScriptFunction {
  public:
-  /// Of the function at `index` of the stack, which stays as it is.
+  /// Refers to the function at `index` of the stack; the stack is unchanged.
   /// \throws Error(overflow) without memory
   ScriptFunction(lua_State* state, int index);
   ~ScriptFunction();
   ScriptFunction(const ScriptFunction&) = delete;
   ScriptFunction& operator=(const ScriptFunction&) = delete;
 
-  /// The first results.size() values that the function returns for these numbers.
-  /// \throws Error(script_failed) with file:line where it fails or returns something else than numbers, Error(cancelled), or the Error of a verb that it calls
+  /// Calls the function with these numbers and takes its first results.size() values.
+  /// \throws Error(script_failed) with file:line if it fails or returns values that are no numbers, Error(cancelled), or the Error of a verb that it calls
   void call(std::span<const double> arguments, std::span<double> results) const;
-  /// What it returns for this value.
-  /// \throws Error(script_failed) with file:line where it fails, Error(cancelled), or the Error of a verb that it calls
+  /// Returns the result of the function for this value.
+  /// \throws Error(script_failed) with file:line if it fails, Error(cancelled), or the Error of a verb that it calls
   ScriptValue call(const ScriptValue& argument) const;
 
-  /// Of all arguments that it was called with through this object, and all that it returned.
+  /// Returns the key of all arguments and results of calls through this object.
   ContentKey key() const;
 
  private:
   [[noreturn]] void fail() const;
   lua_State* state_;
   int reference_;
-  mutable std::vector<double> answers_;  ///< with their arguments; empty unless results are cached
+  mutable std::vector<double> answers_;  ///< results with their arguments; empty unless results are cached
 };
 
 }  // namespace sterna::scripting

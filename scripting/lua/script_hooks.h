@@ -1,4 +1,4 @@
-// What the bridge to Lua needs of the folders above it: a session holds it, and the interpreter fills it in.
+// Functions that the bridge to Lua needs from the folders above it: stored in a session, and set by the interpreter.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@ namespace sterna::scripting {
 
 struct FieldDoc {
   std::string_view name;
-  std::string_view help;  ///< with its unit; "if ..." where it is not always there
+  std::string_view help;  ///< description with unit; "if ..." if the field is not always present
 };
 
 struct ObjectKind {
-  std::string_view name;     ///< "surface", in front of the names of its methods
+  std::string_view name;     ///< "surface", the prefix of the names of its methods
   const char* type;          ///< key of its metatable
   std::string_view summary;  ///< one sentence
   const ScriptVerb* field;   ///< object.name for names that are no method
@@ -25,12 +25,12 @@ struct ObjectKind {
 };
 
 struct ScriptHooks {
-  std::span<const ObjectKind> (*kinds)();                                   ///< of all objects
-  const ScriptVerb* describe;                                               ///< tostring() of any object of ours
-  ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);       ///< the verb, or the same result from the cache; models know what they were made of
+  std::span<const ObjectKind> (*kinds)();                                   ///< kinds of all objects
+  const ScriptVerb* describe;                                               ///< tostring() of all objects of sterna
+  ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);       ///< runs the verb, or takes its result from the cache; models get their key
   ScriptValue (*stand_in)(const ScriptCall& call, std::string_view gives);  ///< see stand_in() of script_check.h
   void (*set_option)(const Option& option, std::string_view text);          ///< as users type it on the command line
-  std::string (*hint_for_global)(std::string_view name);                    ///< what to try instead of a global that is not there; empty: nothing is near
+  std::string (*hint_for_global)(std::string_view name);                    ///< suggestion for an unknown global; empty: no name is near
 };
 
 }  // namespace sterna::scripting

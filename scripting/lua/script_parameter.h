@@ -14,19 +14,19 @@ namespace sterna::scripting {
 /// An argument that a script declares with args{}.
 struct ScriptParameter {
   std::string name;
-  ScriptValue initial;             ///< SI; nil: it must be given
-  ScriptValue value;               ///< SI, what the script goes on with
-  std::optional<double> min, max;  ///< in `unit`
-  std::optional<double> step;      ///< the same
-  std::string unit = {};           ///< "deg"; empty: a plain number, text or flag
-  double unit_value = 1.0;         ///< SI value of the unit: a bare number on the command line counts in it
+  ScriptValue initial;             ///< SI; nil: the argument is required
+  ScriptValue value;               ///< SI, the current value
+  std::optional<double> min, max;  ///< limits in `unit`
+  std::optional<double> step;      ///< step in `unit`
+  std::string unit = {};           ///< "deg"; empty: a plain number, string or flag
+  double unit_value = 1.0;         ///< SI value of the unit: a plain number on the command line is in this unit
 };
 
 /// All arguments that a run has declared so far, in script and modules.
 struct DeclaredArguments {
   std::vector<ScriptParameter> list = {};          ///< in the order of declaration
-  std::map<std::string, std::string> places = {};  ///< name -> "case.lua:5"
-  std::set<std::string> calls = {};                ///< places of the args{} that have run
+  std::map<std::string, std::string> places = {};  ///< name -> location of the declaration, "case.lua:5"
+  std::set<std::string> calls = {};                ///< locations of the args{} that have run
   bool is_refused = false;                         ///< the error of an unknown argument was raised
 };
 

@@ -1,4 +1,4 @@
-// Frames between Lua and its C functions own no C++ object (see script_call.h); what does is marked noexcept and called from them.
+// Frames between Lua and its C functions own no C++ object (see script_call.h); functions that own one are marked noexcept and called from them.
 #include "scripting/lua/script_sandbox.h"
 
 #include <lua.hpp>
@@ -19,7 +19,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Lua instructions between two looks at the stop token: about 0.1 ms.
+/// Lua instructions between two checks of the stop token: about 0.1 ms.
 constexpr int k_instructions_per_check = 10000;
 
 // ---- Stop ----------------------------------------------------------------------------------------------------------------------------------
@@ -33,7 +33,7 @@ bool take_stop(ScriptSession& session) noexcept {
 void check_stop_hook(lua_State* state, lua_Debug* record) {
   if (record->event == LUA_HOOKRET) return note_locals(state, record);
   if (!take_stop(session_of(state))) return;
-  // From now on every instruction stops, so that a script's own pcall cannot go on.
+  // From this point every instruction stops, so that a pcall of the script cannot continue.
   lua_sethook(state, check_stop_hook, LUA_MASKCOUNT, 1);
   raise_failure(state);
 }
@@ -58,7 +58,7 @@ int print(lua_State* state) {
   return 0;
 }
 
-/// Leaves the module's source in session.value; false: its error. \p where: "case.lua:5: "
+/// Stores the module's source in session.value; returns false if it stored an error. \p where: "case.lua:5: "
 bool read_module(ScriptSession& session, const char* name, const char* where) noexcept {
   try {
     const std::string module = name;
@@ -100,7 +100,7 @@ int require(lua_State* state) {
   return 1;
 }
 
-/// math.randomseed() without a number would seed from the clock; here it starts the run's own sequence again.
+/// math.randomseed() without a number would use a seed from the clock; here it restarts the run's own sequence.
 int random_seed(lua_State* state) {
   const int n = lua_gettop(state);
   lua_pushvalue(state, lua_upvalueindex(1));
@@ -110,8 +110,8 @@ int random_seed(lua_State* state) {
   return 0;
 }
 
-/// Lua seeds the order of its tables from addresses and the clock, so two runs of one script could differ. Here pairs() goes through numbers, then texts, in
-/// ascending order; keys of other kinds come last, in Lua's order. Entries that are removed on the way are left out.
+/// Lua seeds the order of its tables from addresses and the clock, so two runs of one script could differ. Here pairs() iterates over numbers, then strings, in
+/// ascending order; keys of other types come last, in Lua's order. Entries that are removed during the iteration are skipped.
 constexpr std::string_view k_ordered_pairs = R"lua(
 local next, type, rawget, sort, getmetatable, unordered = next, type, rawget, table.sort, getmetatable, pairs
 local rank = { number = 1, string = 2 }
@@ -150,7 +150,7 @@ end
 
 // ---- The sandbox ---------------------------------------------------------------------------------------------------------------------------
 
-/// pcall and xpcall by Lua's own (upvalue 1), but for a stop: that is raised again.
+/// Calls Lua's own pcall or xpcall (upvalue 1); a stop is raised again.
 int protected_call(lua_State* state) {
   const int n = lua_gettop(state);
   lua_pushvalue(state, lua_upvalueindex(1));
@@ -160,7 +160,7 @@ int protected_call(lua_State* state) {
   return lua_gettop(state);
 }
 
-/// A script's message handler (upvalue 1): not called for a stop, because it would run where no hook is called and so without end.
+/// Calls the script's message handler (upvalue 1), except for a stop, because the handler would run where no hook is called and could run endlessly.
 int handle_message(lua_State* state) {
   if (take_stop(session_of(state))) return 1;
   lua_settop(state, 1);
@@ -178,7 +178,7 @@ int protected_call_with_handler(lua_State* state) {
   return protected_call(state);
 }
 
-/// Lua runs __gc where no hook is called: a loop there could not be stopped.
+/// Replaces setmetatable: Lua runs __gc where no hook is called, and a loop there could not be stopped.
 int set_metatable(lua_State* state) {
   if (lua_type(state, 2) == LUA_TTABLE) {
     lua_pushliteral(state, "__gc");
@@ -192,7 +192,7 @@ int set_metatable(lua_State* state) {
   return 1;
 }
 
-/// Puts `ours` in place of the global function `name`, which it gets as its upvalue.
+/// Replaces the global function `name` by `ours`, which receives the original as its upvalue.
 void wrap_global(lua_State* state, const char* name, lua_CFunction ours) {
   lua_getglobal(state, name);
   lua_pushcclosure(state, ours, 1);
@@ -262,7 +262,7 @@ void open_sandbox(lua_State* state) {
 
 namespace {
 
-/// Of a script that is only checked: the problem is noted, and the script goes on with something that is not known.
+/// For a script that is only checked: notes the problem; the script continues with an unknown value.
 bool note_unknown_name(lua_State* state, const char* name) noexcept {
   ScriptSession& session = session_of(state);
   if (!session.check || is_protected(state)) return false;
@@ -272,11 +272,11 @@ bool note_unknown_name(lua_State* state, const char* name) noexcept {
     session.check->problems.push_back(std::make_shared<const Error>(std::move(info)));
     return true;
   } catch (const std::exception&) {
-    return false;  // no memory for it: Lua's own message has to do
+    return false;  // not enough memory: Lua's own message is used
   }
 }
 
-/// A name that nothing has would be nil, and a table drops what is nil: unit = parsec would silently be no unit at all.
+/// An undefined name would be nil, and a table drops nil: unit = parsec would silently set no unit at all.
 int unknown_global(lua_State* state) {
   if (lua_type(state, 2) != LUA_TSTRING) return 0;
   const char* name = lua_tostring(state, 2);
@@ -284,7 +284,7 @@ int unknown_global(lua_State* state) {
   push_unknown(state);
   lua_pushvalue(state, 2);
   lua_pushvalue(state, -2);
-  lua_rawset(state, 1);  // told once
+  lua_rawset(state, 1);  // reported once
   return 1;
 }
 

@@ -1,4 +1,4 @@
-// What a script that is only checked does not know: a value that takes part in everything (arithmetic, fields, calls, comparisons) and decides nothing.
+// Unknown values in a script that is only checked: such a value can be used everywhere (arithmetic, fields, calls, comparisons) and decides nothing.
 #pragma once
 
 struct lua_State;
@@ -7,10 +7,10 @@ namespace sterna::scripting {
 
 inline constexpr const char* k_unknown_type = "sterna.unknown";
 
-/// Makes its metatable and lets the functions of Lua's libraries take it. `assert` is passed over once anything stands for what was not made.
-/// After open_sandbox(). May raise.
+/// Makes the metatable of unknown values and lets the functions of Lua's libraries accept them. `assert` has no effect once a placeholder exists. After
+/// open_sandbox(). May raise.
 void open_unknowns(lua_State* state);
-/// Pushes such a value.
+/// Pushes an unknown value.
 /// \pre open_unknowns() May raise.
 void push_unknown(lua_State* state);
 

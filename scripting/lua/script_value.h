@@ -1,4 +1,4 @@
-// A Lua value as C++ sees it: copied out before a verb starts, so that no verb ever touches the Lua stack.
+// A Lua value in C++: copied before a verb starts, so that no verb ever accesses the Lua stack.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace sterna::scripting {
 
 struct ScriptTable;
 struct ScriptVerb;  // script_call.h
-/// A value that no verb takes (coroutine); known by its type's name only.
+/// A value that no verb accepts (coroutine); only the name of its type is known.
 struct OpaqueValue {
   std::string_view type_name;
 };
-/// Of what a script that is only checked does not know: its type's name.
+/// Type name of an unknown value in a script that is only checked.
 inline constexpr std::string_view k_unknown_value = "something that is not made when a script is only checked";
 
 using ErrorHandle = std::shared_ptr<const Error>;
@@ -31,19 +31,19 @@ using ScriptValue =
 struct ScriptTable {
   std::vector<ScriptValue> items;             ///< entries 1, 2, ... n
   std::map<std::string, ScriptValue> fields;  ///< named entries, by name: Lua's own order differs between runs
-  std::vector<std::string> unknown_fields;    ///< names of entries whose values are not known (is_unknown); they are not among `fields`
-  std::vector<std::string> other_keys;        ///< keys that are neither, e.g. "[true]"
+  std::vector<std::string> unknown_fields;    ///< names of entries with unknown values (is_unknown); they are not among `fields`
+  std::vector<std::string> other_keys;        ///< keys of other types, e.g. "[true]"
 };
 
-/// Whether it is k_unknown_value.
+/// Returns true if the value is k_unknown_value.
 bool is_unknown(const ScriptValue& value);
 
-/// Whether both are the same object, not only equal ones.
+/// Returns true if both are the same object, not only equal objects.
 bool is_same_object(const ScriptValue& a, const ScriptValue& b);
 
-/// "a number", "a surface", "a table": the type for messages.
+/// Returns "a number", "a surface", "a table": the type for messages.
 std::string_view type_text(const ScriptValue& value);
-/// "surface" and so on of an object (script_objects.h); empty where it is a number, a text, a table or a function.
+/// Returns "surface" and so on for an object (script_objects.h); empty for a number, a string, a table or a function.
 std::string_view object_name(const ScriptValue& value);
 
 }  // namespace sterna::scripting

@@ -7,9 +7,9 @@
 namespace sterna::scripting {
 namespace {
 
-/// Entries of a table that are looked at; longer ones are lists of numbers.
+/// Maximum number of entries inspected in a table; longer tables are lists of numbers.
 constexpr int k_most_entries = 200;
-/// Depth of the stack up to which functions are looked at after an error: a recursion without end is deeper.
+/// Depth of the stack up to which functions are inspected after an error: an endless recursion is deeper.
 constexpr int k_most_levels = 50;
 
 void tell_object(lua_State* state, const std::string& name, bool is_of_script, int index) {
@@ -17,7 +17,7 @@ void tell_object(lua_State* state, const std::string& name, bool is_of_script, i
   if (!object_name(value).empty()) session_of(state).watch->named(name, is_of_script, value);
 }
 
-/// The value on top of the stack, which a local variable holds.
+/// Reports the value on top of the stack, which a local variable holds.
 void look_at_local(lua_State* state, const std::string& name, bool is_of_script) {
   const int top = lua_gettop(state);
   if (lua_type(state, top) == LUA_TUSERDATA) return tell_object(state, name, is_of_script, top);
@@ -51,7 +51,7 @@ void note_locals(lua_State* state, lua_Debug* record) noexcept {
       lua_settop(state, top);
     }
   } catch (const std::exception&) {
-    lua_settop(state, top);  // a name that cannot be told is no reason to end a run
+    lua_settop(state, top);  // a name that cannot be reported must not end a run
   }
 }
 

@@ -1,4 +1,4 @@
-// The one reader of a verb's table: collects every problem (unknown keys with a suggestion, wrong types, ranges, missing values) before it complains.
+// The only reader of verbs' tables: collects every problem (unknown keys with a suggestion, wrong types, ranges, missing values) before it throws.
 #pragma once
 
 #include <map>
@@ -13,38 +13,37 @@
 
 namespace sterna::scripting {
 
-/// Reads one table of one call. Every entry must be asked for by one of the members; finish() complains about the rest.
+/// Reads one table of one call. Every entry must be read by one of the members; finish() reports the others as problems.
 class TableReader {
  public:
-  /// \p attempted starts the message: "case.lua:5: volume_mesh".
+  /// \p attempted is the start of the message: "case.lua:5: volume_mesh".
   TableReader(const ScriptTable& table, std::string attempted);
-  /// Of a verb's own table: where the run only checks (script_check.h), the options are noted and finish() ends a heavy verb.
+  /// For a verb's own table: if the run only checks (script_check.h), the options are noted and finish() ends a heavy verb.
   TableReader(const ScriptTable& table, const Attempt& attempted);
 
-  /// Sets the options that the table names, flat ("layers = 30") or in a table by stage ("envelope = { layers = 30 }"; there the stage's
-  /// name may be left off: "farfield = { radius = 50 }" for farfield_radius).
-  /// Returns how many were named.
+  /// Sets the options named in the table, flat ("layers = 30") or in a table by stage ("envelope = { layers = 30 }"; there the prefix of the stage's name may
+  /// be omitted: "farfield = { radius = 50 }" for farfield_radius). Returns the number of named options.
   std::size_t read_options(const OptionTable& options);
-  /// The function that the table has for this option, alone or in its stage's table; from now on the option counts as given. Null: there is none. Call before
-  /// read_options.
+  /// Returns the function that the table has for this option, alone or in its stage's table; the option is then marked as given. Null: there is none. To be
+  /// called before read_options.
   const FunctionHandle* option_function(std::string_view stage, std::string_view name);
-  /// Whether the table names the option, alone or in its stage's table.
+  /// Returns true if the table names the option, alone or in its stage's table.
   /// \pre read_options
   bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
-  /// The length of flow conditions that the table has for this option; null: none.
+  /// Returns the length from flow conditions that the table has for this option; null: none.
   /// \pre read_options
   const QuantityValue* quantity_of(std::string_view stage, std::string_view name) const;
   bool has_problems() const { return !problems_.empty(); }
-  /// Number of unnamed entries; from now on they count as asked for.
+  /// Returns the unnamed entries, and marks them as read.
   const std::vector<ScriptValue>& items();
-  /// A named entry that is no option, or nullptr; from now on it counts as asked for.
+  /// Returns a named entry that is no option, or nullptr, and marks it as read.
   const ScriptValue* field(const std::string& name);
-  /// Notes the required options that still have no value; one whose value was rejected is a problem already.
+  /// Notes the required options that still have no value; an option with a rejected value is already a problem.
   void require(const OptionTable& options);
-  /// Notes a problem of the caller's own.
+  /// Notes a problem found by the caller.
   void add_problem(std::string problem);
 
-  /// \throws Error(bad_argument; unknown_option when all problems are unknown keys) with every problem of the table; ChecksDone where it ends the verb.
+  /// \throws Error(bad_argument; unknown_option if all problems are unknown keys) with every problem of the table; ChecksDone if it ends the verb.
   void finish();
 
  private:
@@ -56,11 +55,11 @@ class TableReader {
   std::string attempted_;
   ScriptCheck* check_ = nullptr;
   bool ends_with_checks_ = false;
-  std::vector<std::string> known_;                    ///< keys that the verb takes, for suggestions
+  std::vector<std::string> known_;                    ///< keys that the verb accepts, for suggestions
   std::set<std::string> asked_;                       ///< keys that were read
   std::set<std::string> functions_;                   ///< options that have a function instead of a value
-  std::map<std::string, QuantityHandle> quantities_;  ///< options that were given as such
-  std::set<std::string> given_;                       ///< options that have a value already, to find contradictions
+  std::map<std::string, QuantityHandle> quantities_;  ///< options given as flow quantities
+  std::set<std::string> given_;                       ///< options that have a value already, to detect contradictions
   bool are_items_asked_ = false;
   std::vector<std::string> problems_;
   std::size_t n_unknown_ = 0;

@@ -22,7 +22,7 @@ ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::strin
 InputPath find_input(const ScriptCall& call, const std::string& name) {
   const std::filesystem::path path = name;
   if (const std::filesystem::path own = (call.session.output_folder / path).lexically_normal(); call.session.series.written.contains(own)) return {name, own};
-  std::error_code ignored;  // a name that cannot even be looked up is reported by the reader, with its reason
+  std::error_code ignored;  // a name that cannot be accessed is reported by the reader, with the reason
   if (path.is_relative() && !std::filesystem::exists(path, ignored))
     for (const std::filesystem::path& folder : {call.session.input_folder, call.session.script.parent_path()})
       if (!folder.empty() && std::filesystem::exists(folder / path, ignored)) {
@@ -39,7 +39,7 @@ std::filesystem::path output_path(const ScriptCall& call, const std::string& nam
   if (folder.empty()) return name;
   const std::filesystem::path path = (folder / name).lexically_normal();
   if (std::filesystem::path(name).is_relative()) {
-    std::error_code failure;  // the writer says why there is no such folder
+    std::error_code failure;  // the writer reports why the folder does not exist
     std::filesystem::create_directories(path.parent_path(), failure);
     call.session.series.written.insert(path);
   }

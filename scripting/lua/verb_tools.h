@@ -1,4 +1,4 @@
-// What the bodies of verbs share: reading their arguments, file names, fields of objects.
+// Functions shared by the bodies of verbs: reading their arguments, file names, fields of objects.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,13 @@
 
 namespace sterna::scripting {
 
-/// Throws Error(bad_argument) at the call's place.
+/// \throws Error(bad_argument) with the location of the call
 [[noreturn]] void reject(const ScriptCall& call, std::string problem, std::string hint = {});
 
-/// The table of a call of the form verb{...}; a single text, as in read_surface "a.stl", counts as its first entry.
+/// Returns the table of a call of the form verb{...}; a single string, as in read_surface "a.stl", becomes its first entry.
 ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::string_view usage);
 
-/// The object of a method or field.
+/// Returns the object of a method or field.
 template <class Handle>
 const Handle& self(const ScriptCall& call) {
   if (!call.arguments.empty())
@@ -30,21 +30,21 @@ const Handle& self(const ScriptCall& call) {
   reject(call, "is a method", "call it with a colon: object:" + std::string(call.verb.substr(call.verb.find(':') + 1)) + "(...)");
 }
 
-/// Relative names are looked for in the current folder first, then beside the script.
+/// Finds an input file: relative names are searched in the current folder first, then beside the script.
 InputPath find_input(const ScriptCall& call, const std::string& name);
-/// Where a file of this name is written: relative names go to the session's output folder, below which missing folders are made. What a case has written it can
-/// read back by the same name.
+/// Returns the path to write a file of this name: relative names go to the session's output folder, where missing subfolders are created. A case can read back
+/// its own files by the same name.
 std::filesystem::path output_path(const ScriptCall& call, const std::string& name);
-/// The unnamed entries of a table as names of input files; notes problems.
+/// Returns the unnamed entries of a table as names of input files; notes problems.
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader);
-/// mesh:write("a.su2", "b.vtu") or mesh:write{...}: the names after the object; in a table also the options of the schema.
+/// Returns the names after the object in mesh:write("a.su2", "b.vtu") or mesh:write{...}; a table may also contain the options of the schema.
 std::vector<std::filesystem::path> output_names(const ScriptCall& call, const OptionTable& schema = {});
 
-/// The command line's --set values for these options; they win over the script.
+/// Applies the command line's --set values to these options; they win over the script.
 void apply_overrides(const ScriptCall& call, const OptionTable& options);
 
 using Fields = std::vector<std::pair<std::string, ScriptValue>>;
-/// The value of object.name among the fields; a wrong name is an error with a suggestion.
+/// Returns the value of object.name among the fields; a wrong name is an error with a suggestion.
 ScriptValue select_field(const ScriptCall& call, Fields fields, std::span<const ScriptVerb> methods);
 
 }  // namespace sterna::scripting

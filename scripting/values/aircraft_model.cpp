@@ -1,4 +1,4 @@
-// Steps: components -> description; description -> components side by side; patch names that only scripts know put on; union where wanted.
+// Steps: components -> description; description -> components side by side; patch names known only to scripts are set; union if requested.
 #include "scripting/values/aircraft_model.h"
 
 #include <fmt/format.h>
@@ -16,13 +16,13 @@
 namespace sterna::scripting {
 namespace {
 
-/// Names of fan face and nozzle of a component or its mirror image.
+/// Sets the names of fan face and nozzle of a component or its mirror image.
 void finish_component(Model& model, const ComponentValue& component, const std::string& name, bool is_image) {
   for (const ComponentId c : model.components.ids()) {
     if (model.components[c].name != name) continue;
     for (ModelFace& face : model.faces) {
       if (face.component != c) continue;
-      // An engine that is told to be there takes in the fluid at its fan face: flow out of the domain.
+      // An engine that is present takes in the fluid at its fan face: flow out of the domain.
       const auto rename = [&](const std::string& patch, PatchKind kind) {
         if (patch.empty()) return;
         face.name = is_image ? image_name(patch) : patch;
@@ -89,7 +89,7 @@ ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context) 
 
 ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptions& options, const RunContext& context) {
   ModelValue value = assemble(models, context);
-  refit_for_cad(value.model, context);  // the kernel that unites knows splines only
+  refit_for_cad(value.model, context);  // the kernel of the union supports splines only
   UniteResult united = cad::unite_aircraft(value.model, options, context);
   value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes,
                              united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");

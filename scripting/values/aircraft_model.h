@@ -1,4 +1,4 @@
-// Components that scripts describe, put together: the aircraft as data, and as a model.
+// Components that scripts describe, combined: the aircraft as data, and as a model.
 #pragma once
 
 #include <string>
@@ -14,22 +14,23 @@ namespace sterna::scripting {
 struct AircraftParts {
   std::string name = "aircraft";
   std::vector<ComponentHandle> components;
-  std::vector<ModelHandle> models;  ///< solids beside them, from files or other verbs
+  std::vector<ModelHandle> models;  ///< additional solids, from files or other verbs
 };
 
-/// The components as data: deflections, controls and engines included.
-/// \throws Error(bad_argument) for two components of one name
+/// Returns the components as data: deflections, controls and engines included.
+/// \throws Error(bad_argument) if two components have the same name
 Aircraft aircraft_of(const AircraftParts& parts);
 
-/// All components side by side, mirror images included, with their kinds and the patch names of engines; deflected where the script says so.
+/// Returns all components side by side, mirror images included, with their kinds and the patch names of engines. Control surfaces are deflected as set in the
+/// script.
 /// \throws Error of make_components
 ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context);
 
-/// The union of all solids of these models, with a report of its tries and doubts in `report`; contacts that look hard are warnings of the log.
+/// Returns the union of all solids of these models. `report` lists the attempts and doubtful results; contacts that look difficult are warnings in the log.
 /// \throws Error of cad::unite
 ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptions& options, const RunContext& context);
 
-/// All models side by side; names of components that would be there twice get a number behind, which is told in the log.
+/// Returns all models side by side. Duplicate component names get a number appended, which is reported in the log.
 ModelValue assemble(const std::vector<ModelHandle>& models, const RunContext& context);
 
 }  // namespace sterna::scripting

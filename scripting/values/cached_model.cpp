@@ -20,7 +20,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::size_t k_listed_names = 4;  ///< of inputs, in the log
+constexpr std::size_t k_listed_names = 4;  ///< number of input names in the log
 
 class MemorySink final : public ByteSink {
  public:
@@ -36,7 +36,7 @@ class MemorySource final : public ByteSource {
   explicit MemorySource(const std::string& bytes) : bytes_(bytes) {}
   void take(void* bytes, std::size_t n) override {
     if (n > n_left()) refuse();
-    if (n > 0) std::memcpy(bytes, bytes_.data() + at_, n);  // an empty vector has no place to write to
+    if (n > 0) std::memcpy(bytes, bytes_.data() + at_, n);  // an empty vector has no memory to write to
     at_ += n;
   }
   std::uint64_t n_left() const override { return bytes_.size() - at_; }
@@ -54,7 +54,7 @@ using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
 /// \throws NotKept
 void write_model_value(ByteSink& sink, const ModelValue& value) {
   const auto& [model, description, without_description, is_as_described, inputs, report, sizes, layers, parts, through, provenance] =
-      value;  // all of them: a new one does not compile
+      value;  // all members: a new one does not compile
   ModelWriter writer(sink);
   writer.model(model);
   write_value(sink, description);
@@ -73,7 +73,7 @@ void write_model_value(ByteSink& sink, const ModelValue& value) {
     write_value(sink, key.has_value());
     if (key) write_value(sink, key->bytes);
   }
-  static_cast<void>(provenance);  // known to whoever reads this
+  static_cast<void>(provenance);  // known to the reader of the entry
 }
 
 ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
@@ -101,7 +101,7 @@ ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
   return value;
 }
 
-/// The bytes of a model that comes back as it is; empty: it does not, for a reason that the log tells.
+/// Returns the bytes of a model that is unchanged after reading back. Empty: it would change; the log reports the reason.
 std::string bytes_of(const ModelValue& value, std::string_view verb, const RunContext& context) {
   const auto written = [](const ModelValue& v) {
     MemorySink sink;
@@ -120,8 +120,8 @@ std::string bytes_of(const ModelValue& value, std::string_view verb, const RunCo
   return {};
 }
 
-/// What a key by content leaves out, but the value of the model or its messages hold. False: there is a function, whose answers are not known before it is
-/// asked.
+/// Adds the data that a key by content omits, but that are part of the model's value or messages. Returns false if there is a function, because its results are
+/// unknown before it is called.
 bool add_names(const ScriptValue& value, KeyMaker& maker) {
   const auto add_inputs = [&](const std::vector<InputFile>& inputs) {
     for (const InputFile& file : inputs) maker.add(file.name);
@@ -144,7 +144,7 @@ std::optional<ContentKey> key_of_model(const ScriptCall& call) {
   return key ? std::optional(maker.add(*key).key()) : std::nullopt;
 }
 
-/// Components change in place: what is run later needs them as they are now.
+/// Copies components, because they change in place: a later call needs their current state.
 ScriptValue frozen(const ScriptValue& value) {
   if (const auto* component = std::get_if<ComponentHandle>(&value)) return std::make_shared<ComponentValue>(**component);
   const auto* table = std::get_if<TableHandle>(&value);
@@ -155,13 +155,13 @@ ScriptValue frozen(const ScriptValue& value) {
   return TableHandle(std::move(copy));
 }
 
-/// The verb's model, made when something is asked for that is not kept.
+/// The verb's model, computed when data are needed that are not stored.
 class MadeLater {
  public:
   MadeLater(const ScriptVerb& verb, const ScriptCall& call, const ContentKey& bytes_key) : verb_(verb), call_(call), bytes_key_(bytes_key) {
     for (ScriptValue& argument : call_.arguments) argument = frozen(argument);
   }
-  /// Of the n-th model that was written: the whole, then the different models of parts.
+  /// Returns the shape of the n-th model that was written: the whole, then the different models of parts.
   std::shared_ptr<const CadShape> shape(std::size_t n) {
     std::call_once(is_made_, [&] { made_ = make(); });
     if (n == 0) return made_->model.shape;
@@ -191,7 +191,7 @@ class MadeLater {
   ModelHandle made_;
 };
 
-/// "of a.step, b.step"
+/// Returns "of a.step, b.step".
 std::string inputs_text(const ModelValue& value) {
   std::string text;
   for (std::size_t i = 0; i < std::min(k_listed_names, value.inputs.size()); ++i) text += (i == 0 ? "of " : ", ") + value.inputs[i].name;

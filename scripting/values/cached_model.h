@@ -1,13 +1,13 @@
-// Models of verbs that read or unite them, taken from a cache where they are there.
+// Models of verbs that read or unite models, taken from a cache if present.
 #pragma once
 
 #include "scripting/lua/script_call.h"
 
 namespace sterna::scripting {
 
-/// What the verb gives, or, of a verb whose models are kept, the model that the same call gave before: same arguments by content, same names of inputs. Its
-/// shape for OpenCASCADE is not kept: whoever needs it has the verb run again then, which is seldom. Calls with functions, and models of deformed or foreign
-/// surfaces, are made anew.
+/// Returns the result of the verb. For verbs whose models are cached, this is the model of an earlier identical call: same arguments by content, same names of
+/// inputs. The OpenCASCADE shape of the model is not cached: code that needs the shape runs the verb again, which is rare. Calls with functions, and models of
+/// deformed or foreign surfaces, are always recomputed.
 /// \throws what the verb throws
 ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call);
 

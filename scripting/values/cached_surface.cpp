@@ -16,7 +16,7 @@ namespace {
 constexpr const char* k_stage = "surface_mesh";
 constexpr std::size_t k_listed_parts = 4;
 
-/// Of all that the surface is made from; nothing where a model does not say what it was made of.
+/// Returns the key of all inputs of the surface; nothing if the inputs of a model are unknown.
 std::optional<ContentKey> surface_key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, bool has_function, const RunContext& context) {
   KeyMaker maker(k_stage);
   for (const ModelHandle& model : models) {
@@ -26,7 +26,7 @@ std::optional<ContentKey> surface_key_of(const std::vector<ModelHandle>& models,
   return maker.add(scripting::key_of(asked)).add(has_function).add(context.seed()).key();
 }
 
-/// Of a part; nothing where it is not known what it was made of, or sizes depend on its place.
+/// Returns the key of a part; nothing if its inputs are unknown, or sizes depend on its location.
 std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext& context) {
   if (!task.model_key || task.has_sizes_by_place) return std::nullopt;
   surfmesh::SurfaceMeshOptions options = task.options;
@@ -39,10 +39,10 @@ std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext&
   return maker.key();
 }
 
-/// Without inputs, which are the models', and without the model.
+/// Writes the surface without inputs, which are those of the models, and without the model.
 void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
-               model_wall, parts, model_wall_key, changes, changed] = surface;  // all of them: a new one does not compile
+               model_wall, parts, model_wall_key, changes, changed] = surface;  // all members: a new one does not compile
   write_value(sink, mesh);
   write_value(sink, report);
   write_value(sink, recipe);
@@ -55,7 +55,7 @@ void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   write_value(sink, model_wall->places());
   static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options),
       static_cast<void>(remesh_options);                         // surface_mesh has none
-  static_cast<void>(inputs), static_cast<void>(model_wall_key);  // known to whoever reads this
+  static_cast<void>(inputs), static_cast<void>(model_wall_key);  // known to the reader of the entry
 }
 
 SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& models, const std::function<Model()>& all) {
@@ -105,7 +105,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
   std::optional<ContentKey> key =
       reuse.cache ? beside_reference(surface_key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
   if (key && reference && !reference->is_this())
-    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts start from those of the same call first
+    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts preferably start from those of the same call
   if (!reuse.cache || !key)
     return cached<SurfaceValue>(
         reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
@@ -122,7 +122,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
     return surface;
   };
   const auto make_here = [&](const SizeFunction& asked_size) {
-    found.reset();  // of an entry that was not this one after all
+    found.reset();  // data of an entry that was not valid after all
     return make(asked_size);
   };
   SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)

@@ -1,4 +1,4 @@
-// The surface mesh of models, taken from a cache where it is there.
+// The surface mesh of models, taken from a cache if present.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@
 
 namespace sterna::scripting {
 
-/// "of body, wing, tail": names of components.
+/// Returns "of body, wing, tail": names of components.
 std::string names_of(const std::vector<ModelHandle>& models);
 
-/// mesh_part(), or what it made of the same part before: the same model, its names and kinds, options and rules, wherever it is. Parts whose sizes depend on
-/// their place, or of which it is not known what they were made of, are made anew.
+/// Returns a mesher that calls mesh_part() or returns its cached mesh of the same part: the same model, names, kinds, options and rules, at any location. Parts
+/// whose sizes depend on their location, or whose inputs are unknown, are always meshed again.
 PartMesher cached_part_mesher(const Reuse& reuse);
 
-/// What `make` makes of the models, or what it made of the same before. A surface from the cache knows its models, too: what its model wall needs of them is
-/// made by `all` when a vertex has to go there, which is seldom.
+/// Returns the surface that `make` makes of the models, or the cached result of the same call. A surface from the cache also refers to its models: `all` builds
+/// the geometry for its model wall when a vertex has to be moved to the model, which is rare.
 /// \throws what make() throws
 SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
                             const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,

@@ -12,19 +12,19 @@
 namespace sterna::scripting {
 namespace {
 
-/// The engines' programs are built apart from this one.
+/// The engines' programs are built separately from this one.
 void add_engines(KeyMaker& maker, const volmesh::TetraOptions& options) {
   for (const char* name : {"sterna-tet-tetgen", "sterna-tet-hxt"}) {
     try {
       maker.add(hash_file(volmesh::find_helper(name, options.helper_folder)));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::tetra_engine_missing) throw;
-      maker.add("none");  // the other one may do
+      maker.add("none");  // the other engine may be usable
     }
   }
 }
 
-/// A time or memory limit decided on it: another run may make another mesh, so nobody else may get this one.
+/// If a time or memory limit affected the result, another run may produce another mesh, so the result must not be shared.
 bool is_same_everywhere(const volmesh::FilledStage& filled) { return filled.tets.is_reproducible; }
 bool is_same_mesh_everywhere(const volmesh::VolumeMeshResult& result) { return result.is_reproducible; }
 
@@ -39,7 +39,7 @@ ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunCon
   return KeyMaker("envelope of a part").add(task.wall).add(sterna::options_of(named)).add(task.rules).add(task.smooth_angle).add(context.seed()).key();
 }
 
-/// Where the wall really is, and makers of envelopes that take from the cache what it has, and start from a reference where there is one.
+/// Returns makers with the true position of the wall, and with envelopes from the cache where present, or started from a reference if there is one.
 volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::MeshCase& options, const Reuse& reuse) {
   volmesh::Makers makers;
   if (wall.model_wall)
@@ -56,7 +56,7 @@ volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::MeshCase& opt
   return makers;
 }
 
-/// Stands for a wall's true surface in keys; nothing where it is not known what that was made of.
+/// Returns a key for the true surface of a wall; nothing if the inputs of that surface are unknown.
 std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wall.model_wall ? wall.model_wall_key : ContentKey{}; }
 
 }  // namespace
@@ -101,7 +101,7 @@ volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh:
   auto result = cached<volmesh::VolumeMeshResult>(
       reuse, "prisms", triangles_text(wall.mesh), key, context, [&] { return volmesh::finish_mesh(wall.mesh, filled, options, context); },
       is_same_mesh_everywhere);
-  result.tetra_engine_seconds = filled.tets.engine_seconds;  // whoever joined the parts
+  result.tetra_engine_seconds = filled.tets.engine_seconds;  // independent of the run that joined the parts
   result.tetra_engine_peak_bytes = filled.tets.engine_peak_bytes;
   return result;
 }

@@ -1,4 +1,4 @@
-// The options of mesh:check{} and `sterna check` that users see.
+// The user options of mesh:check{} and `sterna check`.
 #pragma once
 
 #include "geom/base/schema.h"
@@ -15,7 +15,7 @@ struct CheckSettings {
   bool strict = false;
   std::string solvers = "automatic";
 
-  /// `limits`: gate_limits.h; `usual`: consumers where the solvers are automatic.
+  /// `limits`: gate_limits.h; `usual`: consumers if the solvers are automatic.
   CheckOptions to_options(const GateTable& limits = {}, Consumers usual = {}, std::string_view option = "solvers") const {
     CheckOptions options;
     options.consumers = consumers_of_solvers(solvers, usual, option);
@@ -27,7 +27,7 @@ struct CheckSettings {
     options.limits = limits;
     return options;
   }
-  /// Whether the mesh passes: VALID, and with `strict` no QUALITY gate FAILs for the solvers that were asked about.
+  /// Returns true if the mesh passes: VALID and, with `strict`, no QUALITY gate FAILs for the requested solvers.
   bool accepts(const CheckReport& report) const { return report.is_valid() && (!strict || report.quality_state() != GateState::fail); }
 };
 

@@ -1,4 +1,4 @@
-// Which kinds of solvers a verdict is for: by names of solvers, or by the formats of files.
+// Kinds of solvers that a verdict applies to: by names of solvers, or by the formats of files.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace sterna::scripting {
 
-/// The consumers of a list such as "su2,openfoam"; `usual` where the list is "automatic".
+/// Returns the consumers of a list such as "su2,openfoam"; `usual` if the list is "automatic".
 /// \param option its name, for messages: "--for"
 /// \throws Error(bad_argument) with the known names
 Consumers consumers_of_solvers(std::string_view list, Consumers usual, std::string_view option);
-/// "su2, tau, edge, fun3d, node-centred, openfoam, ...": what such a list may hold.
+/// Returns the names that such a list may contain: "su2, tau, edge, fun3d, node-centred, openfoam, ...".
 std::string known_solvers();
 
-/// The consumers of the formats of these files, all of them together; both kinds where there is no file.
+/// Returns the consumers of the formats of these files, combined; both kinds if there is no file.
 Consumers consumers_of_files(std::span<const std::filesystem::path> files);
 
 }  // namespace sterna::scripting

@@ -11,7 +11,7 @@
 
 namespace sterna::scripting {
 
-/// What of a disc is no vector.
+/// Scalar options of an actuator disc.
 struct DiscNumbers {
   std::string name = "disc";
   double radius = k_automatic;

@@ -1,4 +1,4 @@
-// The verb actuator_disc{...}, and reading discs back from a verb's table, from the command line and from the files of stages.
+// The verb actuator_disc{...}, and reading of discs from a verb's table, from the command line and from the files of stages.
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@
 
 namespace sterna::scripting {
 
-/// actuator_disc. The value is a table with the field "shape".
+/// The verb actuator_disc. Its value is a table with the field "shape".
 std::span<const ScriptVerb> disc_verbs();
 
-/// The entry "interfaces" of a table: a list of what actuator_disc{...} made, or one. Notes problems with the reader.
+/// Reads the entry "interfaces" of a table: one value of actuator_disc{...} or a list of them. Notes problems with the reader.
 std::vector<volmesh::ActuatorDisc> read_interfaces(TableReader& reader, const ScriptCall& call);
 
-/// A disc of the command line, "prop center=0,0,0 axis=1,0,0 radius=1.2 inner_radius=0.3 edge=5cm": its name, then named numbers. Numbers take units.
+/// Parses a disc of the command line, "prop center=0,0,0 axis=1,0,0 radius=1.2 inner_radius=0.3 edge=5cm": its name, then named numbers. Numbers take units.
 /// \throws Error(bad_argument, unknown_option)
 volmesh::ActuatorDisc disc_of_text(const std::string& text);
 
-/// Discs as a JSON list, for manifests and the files of stages; and back.
-/// \throws Error(bad_argument) for text that is none
+/// Returns discs as a JSON list, for manifests and the files of stages; and the reverse.
+/// \throws Error(bad_argument) if the text is no such list
 std::string discs_json(const std::vector<volmesh::ActuatorDisc>& discs);
 std::vector<volmesh::ActuatorDisc> discs_of_json(const std::string& text);
 

@@ -1,4 +1,4 @@
-// An envelope whose steps are made one by one, on the wall where it stands.
+// An envelope whose steps are performed one at a time, on its wall.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace sterna::scripting {
 
-/// The site of a value; the feature angle is the one that it was classified with.
+/// Returns the layer domain of a value; the feature angle is the one used for its classification.
 std::unique_ptr<volmesh::MeshingSite> envelope_site(const EnvelopeValue& value, const RunContext& context);
 
-/// \throws Error(bad_argument) with the places, and the steps that are missing, where an envelope is not valid and clear yet. Nothing to do for a finished one,
-/// which is proved later.
+/// Does nothing for a finished envelope, which is verified later.
+/// \throws Error(bad_argument) with the locations and the missing steps if an envelope is not valid and clear yet
 void require_ready(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -52,7 +52,7 @@ ScriptValue as_value(QuantityValue value, const ScriptCall& call) {
   return std::make_shared<const QuantityValue>(std::move(value));
 }
 
-/// Errors of the physics, at the user's file:line.
+/// Reports errors of the flow relations with the user's file:line.
 template <class F>
 auto at_call(const ScriptCall& call, const F& work) {
   try {

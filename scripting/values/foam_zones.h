@@ -1,4 +1,4 @@
-// cellZones of OpenFOAM for the regions in which a mesh was asked to be fine.
+// cellZones of OpenFOAM for the refinement regions of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@
 
 namespace sterna::scripting {
 
-/// Of each source with a volume the cells whose middle lies in it, "source_N_KIND" with N from 1 on: as sources of momentum and for pictures.
+/// Returns, for each source with a volume, the cells whose centre lies in the source, "source_N_KIND" with N from 1 on: for momentum sources and for pictures.
 std::vector<io::FoamZone> zones_of_sources(const HybridMesh& mesh, const std::vector<volmesh::SizeSource>& sources);
 
-/// write_mesh_alone() of OpenFOAM, with the zones of the sources that the mesh was made with.
+/// write_mesh_alone() for OpenFOAM, with the zones of the sources that the mesh was made with.
 /// \throws as io::write_numbered_foam
 void write_zoned_foam(const MeshValue& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// Comparisons of surfaces with what they were made of: noted in SurfaceValue::changed for manifests, and warned of.
+// Comparisons of surfaces with their inputs: noted in SurfaceValue::changed for manifests, and reported as warnings.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace sterna::scripting {
 
-/// Notes the comparison in surface.changed and logs a warning for each loss. The figures are logged as well where something differs.
+/// Notes the comparison in surface.changed and logs a warning for each loss. If something differs, the figures are logged as well.
 void note_change(SurfaceValue& surface, const GeometryChange& change, const RunContext& context, GeometryChangeUse use = GeometryChangeUse::keeps_shape);
 
-/// Compares a surface that was stitched from soups with them where facets were dropped, and notes and warns of what is missing.
+/// Compares a surface stitched from soups with these soups if facets were dropped. Notes the missing parts and warns about them.
 void note_reading(SurfaceValue& surface, const std::vector<SurfaceSoup>& soups, const RunContext& context);
 
-/// Compares half of a surface with the part of the whole on that side of the plane.
+/// Compares half of a surface with the part of the whole surface on that side of the plane.
 void note_half(SurfaceValue& half, const TriMesh& whole, const HalfOptions& options, const RunContext& context);
 
-/// The JSON array of manifests.
+/// Returns the JSON array of manifests.
 std::string changed_json(const std::vector<std::string>& changed);
-/// Its entries; those that are no objects are left out.
+/// Returns the entries of the array; those that are no objects are left out.
 /// \pre `text` is JSON
 std::vector<std::string> changed_of_json(const std::string& text);
 

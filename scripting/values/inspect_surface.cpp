@@ -33,11 +33,11 @@ using volmesh::InspectRequest;
 using volmesh::Severity;
 using PlainJson = nlohmann::json;
 
-constexpr double k_joined = 0.3;     ///< of the progress: files read and joined
-constexpr double k_inspected = 0.9;  ///< the rest is what has to be done to it
+constexpr double k_joined = 0.3;     ///< progress after files are read and joined
+constexpr double k_inspected = 0.9;  ///< progress after the inspection; the rest is the required preparation
 constexpr double k_percent = 100.0;
-constexpr double k_many_triangles = 1e6;          ///< above it the cause is reported
-constexpr double k_read = 0.3, k_foretold = 0.4;  ///< of the progress of models: files read, triangles predicted
+constexpr double k_many_triangles = 1e6;          ///< above this number the cause is reported
+constexpr double k_read = 0.3, k_foretold = 0.4;  ///< progress for models: files read, triangles predicted
 
 FindingKind kind_of(ErrorCode code) {
   switch (code) {
@@ -61,7 +61,7 @@ Finding finding_of(const Error& error, const InspectRequest& request) {
   return finding;
 }
 
-/// In the report's place of the same kind where it has one, whose triangles are marked already.
+/// Replaces the finding of the same kind in the report, if there is one, whose triangles are marked already.
 void replace_finding(InspectReport& report, Finding finding) {
   const auto same = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& other) { return other.kind == finding.kind; });
   if (same != report.findings.end()) *same = std::move(finding);
@@ -74,18 +74,18 @@ std::vector<std::string> names_of(std::span<const InputPath> files) {
   return names;
 }
 
-/// The corner below which volume_mesh takes a triangle for a needle, or would if it looked.
+/// Returns the corner angle below which volume_mesh treats a triangle as a sliver, or would if this were enabled.
 double needle_limit_of(const InspectRequest& request) {
   const double asked = request.volume.needles.split_needles;
   return asked > 0.0 ? asked : volmesh::NeedleOptions{}.split_needles;
 }
 
-/// All triangles as the files have them, in metres; nothing is joined but corners of STL at one place.
+/// Returns all triangles as given in the files, in metres; only coincident corners of STL are joined.
 TriMesh triangles_of(const WallFiles& files) {
   TriMesh all;
   for (const SurfaceSoup& soup : files.soups) {
     const auto is_wrong = [&](const auto& t) { return std::ranges::any_of(t, [&](std::uint32_t v) { return v >= soup.points.size(); }); };
-    if (std::ranges::any_of(soup.triangles, is_wrong)) continue;  // its finding says so
+    if (std::ranges::any_of(soup.triangles, is_wrong)) continue;  // reported by its finding
     TriMesh mesh = io::to_tri_mesh(soup);
     for (Point& p : mesh.points) p *= files.wall.options.unit;
     append(all, mesh);
@@ -93,7 +93,7 @@ TriMesh triangles_of(const WallFiles& files) {
   return all;
 }
 
-/// Triangles that the reader turned over, where its triangles are those of the files one by one.
+/// Returns the triangles that the reader turned over, if its triangles correspond one to one to those of the files.
 std::vector<TriangleId> turned_triangles(const WallFiles& files, const TriMesh& mesh) {
   std::vector<TriangleId> turned;
   std::size_t n = 0;
@@ -139,7 +139,7 @@ std::string count_text_of(double n) {
   return count_text(static_cast<std::int64_t>(n < 1e4 ? std::round(n) : n < 1e6 ? 100.0 * std::round(n / 100.0) : 1e4 * std::round(n / 1e4)));
 }
 
-/// Which faces take most of a model's triangles, which rule asks for them, and what helps. Nothing where there are not many.
+/// Reports the faces with most of a model's triangles, the rule responsible for them, and the remedy. Returns nothing if the number is not large.
 std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& forecast, const InspectRequest& request) {
   if (forecast.n_triangles <= k_many_triangles || forecast.largest.empty()) return std::nullopt;
   const surfmesh::FaceForecast& most = forecast.largest.front();
@@ -156,7 +156,7 @@ std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& foreca
   return finding;
 }
 
-/// What remesh would make, where it is advised.
+/// Predicts the result of remesh, if it is advised.
 void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspection& report, const RunContext& context) {
   if (!report.preparation.is_remesh_advised || report.find(FindingKind::crossing) != nullptr || report.find(FindingKind::non_manifold) != nullptr) return;
   surfmesh::RemeshForecast forecast;
@@ -291,7 +291,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
   return report;
 }
 
-// ---- Telling it ------------------------------------------------------------------------------------------------------------------------------
+// ---- Reports ---------------------------------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -387,12 +387,12 @@ void require_inspection_output(const std::filesystem::path& path) {
                  .attempted = "writing " + path.string(),
                  .problem = "the picture of an inspection is a .vtu or a .png file",
                  .hint = "such as " + path.stem().string() + ".vtu"});
-  io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
+  io::AtomicFile probe(path);  // reports why the file cannot be written; removed at once
 }
 
 namespace {
 
-/// The surface with a patch for each kind of finding that is the most severe one somewhere.
+/// Returns the surface with a patch for each kind of finding that is the most severe one at some triangle.
 TriMesh by_finding(const InspectReport& report) {
   TriMesh mesh = report.mesh;
   mesh.patches = {};

@@ -1,4 +1,4 @@
-// The inspection of files and surfaces, and how it is told: as text, as JSON, as a picture.
+// The inspection of files and surfaces, and its reports: as text, as JSON, as a picture.
 #pragma once
 
 #include <filesystem>
@@ -14,37 +14,38 @@
 
 namespace sterna::scripting {
 
-/// What volume_mesh will make of it, and what it needs before.
+/// The expected result of volume_mesh for a surface, and the steps required before.
 struct Inspection : volmesh::InspectReport {
   Preparation preparation;
-  std::optional<double> expected_triangles;  ///< of the model's surface, predicted before it was meshed
-  std::optional<double> remeshed_triangles;  ///< of the new triangles where remesh is advised, predicted
+  std::optional<double> expected_triangles;  ///< number for the model's surface, predicted before meshing
+  std::optional<double> remeshed_triangles;  ///< number of new triangles if remesh is advised, predicted
 };
 
 using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunContext&)>;
 
-/// Reads the files and joins them as read_surface does; what that refuses is a finding, and as much as can be is looked at all the same. The rules of manifests
-/// beside the files come before those of the request.
+/// Reads the files and joins them as read_surface does. Errors of reading or joining become findings, and as much as possible is still inspected. The rules of
+/// manifests beside the files come before those of the request.
 /// \throws Error of io (no such file, no such format), cancelled
-/// \param cut where it is given: what is done to the surface before (half)
+/// \param cut if given: change made to the surface before the inspection (half)
 Inspection inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request, const RunContext& context,
                          const SurfaceChange& cut = {});
-/// Meshes the models' faces as mesh_model_files does, and inspects that surface; where that refuses them, their triangles with what crosses.
-/// \throws Error of reading models and of options; of meshing them only where it is not about the surface; cancelled
+/// Meshes the models' faces as mesh_model_files does, and inspects that surface. If meshing fails, inspects their triangles including the crossings.
+/// \throws Error of reading models and of options; of meshing only if the error is not about the surface; cancelled
 Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, volmesh::InspectRequest request,
                           const RunContext& context, const SurfaceChange& cut = {});
 /// \throws Error(cancelled)
 Inspection inspect_surface(const SurfaceValue& surface, volmesh::InspectRequest request, const RunContext& context);
 
-/// Several lines: the surface, the verdict, the prediction, each finding with its places and its advice, what to do first.
+/// Returns several lines: the surface, the verdict, the prediction, each finding with its locations and its advice, and the recommended first step.
 std::string text_of(const Inspection& report, const std::string& name);
-/// The same, schema "sterna-inspect-1".
+/// Returns the same report as JSON, schema "sterna-inspect-1".
 std::string json_of(const Inspection& report, const std::string& name);
 
-/// "-o trouble.vtu": the surface with all fields; "-o trouble.png": a picture of it, by the most severe finding, with the worst place of each marked.
+/// Writes "-o trouble.vtu": the surface with all fields; "-o trouble.png": a picture of the surface, coloured by the most severe finding, with the worst
+/// location of each finding marked.
 /// \throws Error(unsupported_format) for another extension, Error(write_failed)
 void write_inspection(const volmesh::InspectReport& report, const std::filesystem::path& path, const RunContext& context);
-/// The same before the work.
+/// Checks the output path before the work starts.
 /// \throws as write_inspection
 void require_inspection_output(const std::filesystem::path& path);
 

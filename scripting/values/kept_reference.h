@@ -1,5 +1,5 @@
-// What the reference case of a series keeps for the other cases, in its folder, and what these take from it: triangles and envelopes of parts, never anything
-// from history.
+// Data that the reference case of a series stores in its folder for the other cases: triangles and envelopes of parts. No data depends on the order of earlier
+// runs.
 #pragma once
 
 #include <cstddef>
@@ -20,74 +20,75 @@
 
 namespace sterna::scripting {
 
-/// In the folder of the reference case.
+/// File in the folder of the reference case.
 inline constexpr const char* k_kept_file = "reference.kept";
 
-/// The surface of one part as the reference meshed it, in the part's own frame.
+/// The surface of one part as meshed by the reference, in the part's own frame.
 struct KeptPart {
-  std::uint64_t call = 0;  ///< which call of surface_mesh in the case, from 0
-  std::string name;        ///< of its first component
+  std::uint64_t call = 0;  ///< number of the call of surface_mesh in the case, from 0
+  std::string name;        ///< name of its first component
   surfmesh::StructuredMesh mesh;
-  ContentKey geometry;  ///< of its vertices' points as the model gives them (carried_points): equal where the geometry is
+  ContentKey geometry;  ///< key of the points of its vertices on the model (carried_points): equal if the geometry is equal
   surfmesh::SurfaceMeshOptions options;
   std::vector<surfmesh::PatchSurfaceOptions> patches;
-  bool has_sizes_by_place = false;  ///< sources or a size function
+  bool has_sizes_by_place = false;  ///< sources or a size function apply
 };
 
 /// The envelope of a part alone, or of a whole wall.
 struct KeptEnvelope {
   ContentKey wall;                   ///< connectivity_of() its wall
-  volmesh::EnvelopeOptions options;  ///< as they were asked for, without what was found for the wall
+  volmesh::EnvelopeOptions options;  ///< as given by the user, without values derived from the wall
   volmesh::StartingEnvelope start;
 };
 
-/// A part that took over the reference's triangles here.
+/// A part that took over the reference's triangles in this case.
 struct CarriedPart {
   ContentKey triangles;  ///< triangles_key()
   std::string name;
-  bool has_envelope = false;  ///< it was told what became of its envelope
+  bool has_envelope = false;  ///< the outcome for its envelope has been reported
 };
 
-/// Triangles by the numbers of their vertices.
+/// Returns the key of the triangles by the numbers of their vertices.
 ContentKey triangles_key(const TriMesh& mesh);
-/// The same with their patches, names and kinds.
+/// Returns the key of the triangles with their patches, names and kinds.
 ContentKey connectivity_of(const TriMesh& mesh);
 
-/// What a running case has to do with the reference of its series: in the reference itself it collects, in others it reads. Lives as long as the case; used by
-/// one thread.
+/// The link between a running case and the reference of its series: the reference itself collects data, other cases read them. Lives as long as the case; used
+/// by one thread.
 class ReferenceUse {
  public:
   ReferenceUse(std::string name, std::filesystem::path file, bool is_this) : name_(std::move(name)), file_(std::move(file)), is_this_(is_this) {}
 
-  const std::string& name() const { return name_; }  ///< of the reference case
-  bool is_this() const { return is_this_; }          ///< the case that runs is the reference
+  const std::string& name() const { return name_; }  ///< name of the reference case
+  bool is_this() const { return is_this_; }          ///< the running case is the reference
 
-  /// What the results of this case depend on beside their own inputs: the content of the kept file; in the reference itself a constant.
-  /// \throws Error(file_not_found, file_malformed) where there is none, or it is damaged
+  /// Returns the key of the reference data that the results of this case depend on, beside their own inputs: the content of the kept file. In the reference
+  /// itself the key is a constant.
+  /// \throws Error(file_not_found, file_malformed) if the file is missing or damaged
   ContentKey key(const RunContext& context);
   const std::vector<KeptPart>& parts(const RunContext& context);          ///< \throws as key()
   const std::vector<KeptEnvelope>& envelopes(const RunContext& context);  ///< \throws as key()
 
-  /// A call of surface_mesh begins.
+  /// Marks the begin of a call of surface_mesh.
   void begin_surface() { n_surfaces_ += 1; }
-  std::uint64_t surface() const { return n_surfaces_ - 1; }  ///< its number
+  std::uint64_t surface() const { return n_surfaces_ - 1; }  ///< number of the current call
 
   void keep(KeptPart part);
   void keep(KeptEnvelope envelope);  ///< once for each wall and options
   void note_carried(const TriMesh& mesh, const std::string& name);
-  /// The part with these triangles that took over the reference's, first one that nothing was told of yet; null: there is none.
+  /// Returns the part with these triangles that took over the reference's, preferably one without a reported envelope outcome; null: there is none.
   CarriedPart* carried(const ContentKey& triangles);
   std::vector<CarriedPart>& all_carried() { return carried_; }
 
-  /// To the log and to the lines of what the case reused.
+  /// Reports to the log and to the list of what the case reused.
   void tell(const std::string& line, const Reuse& reuse, const RunContext& context);
 
-  /// Writes the kept file, whole or not at all.
+  /// Writes the kept file, atomically.
   /// \pre is_this()
   /// \throws Error(write_failed)
   void save(const RunContext& context) const;
 
-  /// What a stage left here beside its result, so that one from the cache leaves the same.
+  /// Data that a stage stored here beside its result, so that a result from the cache restores the same data.
   struct Beside {
     std::vector<KeptPart> parts;
     std::vector<KeptEnvelope> envelopes;
@@ -107,8 +108,8 @@ class ReferenceUse {
   std::string name_;
   std::filesystem::path file_;
   bool is_this_;
-  std::optional<ContentKey> seal_;  ///< of the file that was read
-  std::vector<KeptPart> parts_;     ///< kept here, or read
+  std::optional<ContentKey> seal_;  ///< seal of the file that was read
+  std::vector<KeptPart> parts_;     ///< stored by this case, or read
   std::vector<KeptEnvelope> envelopes_;
   std::vector<CarriedPart> carried_;
   std::vector<std::string> lines_;

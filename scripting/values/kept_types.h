@@ -1,4 +1,4 @@
-// Members of what a reference case keeps, for archive.h: as stored_types.h.
+// Members of the data that a reference case stores, for archive.h: as stored_types.h.
 #pragma once
 
 #include "scripting/values/kept_reference.h"

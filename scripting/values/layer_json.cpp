@@ -47,7 +47,7 @@ Json first_node_json(const volmesh::LayerReport& layer) {
           {"worst_facet", {{"deviation", first.worst_facet}, {"at", at(first.worst_facet_place)}}}};
 }
 
-/// Shares of the wall's vertices by the angle at which they see their worst facet.
+/// Returns the fractions of the wall's vertices by the angle at which their worst facet is visible.
 Json visibility_json(const volmesh::VisibilityReport& visibility) {
   Json list = Json::array();
   for (std::size_t i = 0; i < visibility.share_above.size(); ++i)

@@ -1,5 +1,5 @@
-// What verbs and commands do with the options of layers once they are read: which of layers and max_growth was left out beside a total height, and the members
-// of a mesh family.
+// Completion of layer options after reading: derives the omitted option among layers and max_growth when a total height is given, and sets up the members of a
+// mesh family.
 #pragma once
 
 #include <functional>
@@ -14,34 +14,35 @@
 
 namespace sterna::scripting {
 
-/// Sets solve_for by what was given. \p is_given: of options of the stage "envelope", by name.
+/// Sets solve_for from the given options. \p is_given: returns true if an option of the stage "envelope", by name, is given.
 /// \throws Error(bad_argument) of volmesh::solved_for
 void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted);
-/// The same for a verb's table and the overrides of the command line; notes problems.
+/// As above, for a verb's table and the overrides of the command line; notes problems.
 /// \pre the options are read
 void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call);
 
-/// The boundary layer that the layers have to cover is that of the flow conditions that first_height is of, where neither it nor a total height is given.
-/// Nothing without a flow, or where its Reynolds number has no turbulent layer. \p text: what the command line gives as first_height; empty: nothing.
+/// Sets the boundary layer thickness that the layers have to cover from the flow conditions of first_height, if neither the thickness nor a total height is
+/// given. Does nothing without a flow, or if its Reynolds number has no turbulent layer. \p text: first_height as given on the command line; empty: nothing.
 void choose_boundary_layer(volmesh::MeshCase& options, std::string_view text);
-/// The same for a verb's table and the overrides of the command line.
+/// As above, for a verb's table and the overrides of the command line.
 /// \pre the options are read
 void choose_boundary_layer(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call);
 
-/// Members of a family have a wake, the medium one, too, whose refinement of 1 is given: sets family_wake to "on" where it is left to us.
+/// Members of a family have a wake, including the medium member, whose refinement of 1 is given explicitly: sets family_wake to "on" if it is automatic.
 void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given);
-/// The same for a verb's table and the overrides of the command line.
+/// As above, for a verb's table and the overrides of the command line.
 /// \pre the options are read
 void choose_family_wake(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call);
 
-/// The function that the table has as first_height, unless the command line gives a number; null: none.
+/// Returns the function that the table has as first_height, unless the command line gives a number; null: none.
 /// \pre the options are not read yet
 FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call);
-/// Asks the function, f(x, y, z) in metres, at every vertex of the wall, in their order: then first heights are by place. Nothing without a function.
-/// \throws Error(script_failed) of the function, Error(bad_argument) with places for what is no height
+/// Evaluates the function, f(x, y, z) in metres, at every vertex of the wall, in their order: first heights then vary by location. Does nothing without a
+/// function.
+/// \throws Error(script_failed) of the function, Error(bad_argument) with locations for values that are no valid height
 void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall, volmesh::MeshCase& options, const RunContext& context);
 
-/// Warns where surface and volume belong to different members of a family.
+/// Warns if surface and volume belong to different members of a family.
 void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context);
 
 /// family{}

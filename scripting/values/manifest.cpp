@@ -26,8 +26,8 @@ Json cells_json(const HybridMesh& mesh) {
       {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
 }
 
-/// Angles in degrees, as in reports; the whole report is what `sterna check --json` prints.
-/// Hard, target and usual in the unit of reports; empty where they are the usual ones.
+/// Returns the hard, target and usual limits that differ from the default limits, in the unit of reports (angles in degrees); empty if none differs. The whole
+/// report is the output of `sterna check --json`.
 Json own_limits_json(const MeasureInfo& info, const GateLimits& limits) {
   Json json = Json::object();
   for (const auto& [name, own, usual] : {std::tuple("hard", limits.hard, info.limits.hard), std::tuple("target", limits.target, info.limits.target),
@@ -64,7 +64,7 @@ Json quality_json(const CheckReport& report) {
   return json;
 }
 
-/// Sides of the mesh that match, and how well where that was checked.
+/// Returns the matching sides of the mesh, and the matching error if checked.
 Json periodic_sides_json(const MeshValue& mesh) {
   Json list = Json::array();
   for (const PeriodicSides& sides : mesh.mesh.periodic) {

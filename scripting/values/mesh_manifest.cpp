@@ -28,7 +28,7 @@ constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKi
       {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the mesh anew"});
 }
 
-/// A name as any format spells it: formats replace what they cannot hold by other letters.
+/// Returns a name in a spelling common to all formats: formats replace unsupported characters by other letters.
 std::string plain_name(std::string_view name) {
   std::string text;
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
@@ -59,7 +59,7 @@ class KnownPatches {
 
  private:
   std::map<std::string, PatchKind> exact_;
-  std::map<std::string, std::vector<PatchKind>> plain_;  ///< patches whose names become the same
+  std::map<std::string, std::vector<PatchKind>> plain_;  ///< patches whose names become identical
 };
 
 std::optional<PatchId> patch_named(const HybridMesh& mesh, const std::string& name) {
@@ -70,7 +70,7 @@ std::optional<PatchId> patch_named(const HybridMesh& mesh, const std::string& na
   return std::nullopt;
 }
 
-/// Kinds that stand in the second file of the format win, with a warning where the manifest says another.
+/// Sets the kinds of patches. Kinds in the second file of the format win, with a warning if the manifest differs.
 void add_kinds(HybridMesh& mesh, const KnownPatches& known, const InputPath& file, const RunContext& context) {
   const bool is_beside = !io::format_of(file.path).carries_patch_kinds && io::states_patch_kinds(file.path);
   for (Patch& patch : mesh.patches) {
@@ -84,10 +84,10 @@ void add_kinds(HybridMesh& mesh, const KnownPatches& known, const InputPath& fil
   }
 }
 
-/// Patches with faces that are walls for want of anything else.
+/// Returns the patches with faces that are walls only by default.
 std::set<std::string> unknown_kinds(const HybridMesh& mesh, const KnownPatches* known, const InputPath& file) {
   const io::Format& format = io::format_of(file.path);
-  // Numbers are all that other programs' VTK files have.
+  // VTK files of other programs identify patches only by numbers.
   const auto is_number = [](const std::string& name) { return name.starts_with("patch_") && name.find_first_not_of("0123456789", 6) == std::string::npos; };
   const bool states_all = io::states_patch_kinds(file.path), is_vtk = format.name.starts_with("VT");
   std::vector<std::uint8_t> has_faces(mesh.patches.size(), 0);
@@ -115,7 +115,7 @@ void add_periodic_sides(HybridMesh& mesh, const Json& json, const InputPath& fil
   }
 }
 
-/// The smallest first height and the largest growth that were requested, where they are numbers: of a member of a family h0/f and r^(1/f) (layer_choice.h).
+/// Sets the requested smallest first height and largest growth, if they are numbers: for a member of a family h0/f and r^(1/f) (layer_choice.h).
 void add_request(HybridMesh& mesh, const Json& json) {
   if (mesh.request.is_known() || json.contains("first_heights")) return;
   const auto number = [](const Json& from, const char* place) -> std::optional<double> {
@@ -152,7 +152,7 @@ bool is_ours(const Json& json) { return json.value("schema", Json()) == "sterna-
 
 std::optional<std::string> fitting_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {
   const std::optional<Json> json = read_json(manifest_path(file.path));
-  if (!json || !is_ours(*json)) return std::nullopt;  // none, or somebody else's file
+  if (!json || !is_ours(*json)) return std::nullopt;  // none, or a file of another program
   if (json->value("output_xxh3_128", Json()) == hash) return json->dump();
   context.warn(
       file.name + ".json is " +
@@ -162,7 +162,7 @@ std::optional<std::string> fitting_manifest(const InputPath& file, const std::st
 }
 
 void complete_from_manifest(MeshValue& value, const InputPath& file, const std::string& hash, const RunContext& context) {
-  if (io::format_of(file.path).name == "sterna") return;  // holds all of it itself
+  if (io::format_of(file.path).name == "sterna") return;  // contains all these data itself
   const std::optional<std::string> text = fitting_manifest(file, hash, context);
   const Json json = text ? Json::parse(*text) : Json();
   if (!text || json.value("schema", Json()) != "sterna-manifest-1") {  // none, or of a surface

@@ -1,4 +1,4 @@
-// The surface of a model part by part: each meshed in its own frame and moved to its place, so that a part has the same triangles at every attitude.
+// The surface of a model part by part: each part is meshed in its own frame and moved to its location, so that a part has the same triangles at every attitude.
 #pragma once
 
 #include <functional>
@@ -13,33 +13,33 @@
 
 namespace sterna::scripting {
 
-/// Everything that the mesh of a part depends on.
+/// All data that determine the mesh of a part.
 struct PartTask {
-  Model model;  ///< in its own frame, with its names
+  Model model;  ///< the part in its own frame, with its names
   surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< those that a face of it is named like
-  surfmesh::SpaceSizes sizes;                          ///< in its own frame
-  bool has_sizes_by_place = false;                     ///< sizes say something: they depend on the part's place
-  Transform placement;                                 ///< of the part; concerns its mesh only where has_sizes_by_place
-  std::optional<ContentKey> model_key;                 ///< of what the model was made of, but for its names and kinds; nothing: not known
+  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules that match the name of one of its faces
+  surfmesh::SpaceSizes sizes;                          ///< sizes in the part's own frame
+  bool has_sizes_by_place = false;                     ///< sizes are set: they depend on the part's location
+  Transform placement;                                 ///< placement of the part; affects its mesh only if has_sizes_by_place
+  std::optional<ContentKey> model_key;                 ///< key of the inputs of the model, except its names and kinds; nothing: unknown
 };
 
 /// Meshes one part.
 /// \throws Error of surfmesh::mesh_model
 surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context);
 
-/// Who makes the meshes of parts: mesh_part(), or one who knows some already.
+/// Mesher of parts: mesh_part(), or a mesher with cached parts.
 using PartMesher = std::function<surfmesh::SurfaceMesh(const PartTask&, const RunContext&)>;
 
 struct PartsMesh {
-  surfmesh::SurfaceMesh mesh;              ///< of value.model
-  std::vector<volmesh::PlacedPart> parts;  ///< empty where the model was meshed at once in its place
+  surfmesh::SurfaceMesh mesh;              ///< mesh of value.model
+  std::vector<volmesh::PlacedPart> parts;  ///< empty if the model was meshed at once at its location
 };
 
-/// Meshes the parts of a model and joins them. A model of one part that was never moved is meshed as it is. Sizes by place (sources, functions) are asked where
-/// the parts are. All is meshed at once, in its place, which the log tells: with gap_cells for several parts, since gaps between them ask for sizes; and where
-/// triangles of two parts cross that finer ones part. `sizes` are in space. \p in_place meshes what is meshed at once, as one part in its place; empty:
-/// mesh_part().
+/// Meshes the parts of a model and joins them. A model of one part that was never moved is meshed as it is. Sizes by location (sources, functions) are
+/// evaluated at the actual location of the parts. All parts are meshed at once, at their locations, which the log reports, in these cases: with gap_cells for
+/// several parts, because gaps between the parts impose sizes; if periodic sides belong to different parts; and if triangles of two parts cross that finer
+/// triangles would separate. `sizes` are in space. \p in_place meshes such a model, as one part at its location; empty: mesh_part().
 /// \throws Error of surfmesh::mesh_model, join_parts
 PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const surfmesh::SpaceSizes& sizes, const PartMesher& mesher,
                      const RunContext& context, const PartMesher& in_place = {});

@@ -14,7 +14,7 @@
 
 namespace sterna::scripting {
 
-// What curves and surfaces are made of.
+// Data of curves and surfaces.
 template <>
 inline constexpr std::size_t k_members<Frame> = 4;
 template <>
@@ -30,7 +30,7 @@ inline constexpr std::size_t k_members<ModelSolid> = 3;
 
 namespace {
 
-/// How an object is there: not at all, as one that was written before, or new.
+/// State of an object in the archive: absent, written before, or new.
 enum class Presence : std::uint8_t { none, known, written };
 enum class CurveKind : std::uint8_t { line, ellipse, view, nurbs, transformed, flattened };
 enum class ParameterCurveKind : std::uint8_t { line, arc, nurbs };
@@ -58,7 +58,7 @@ bool ModelWriter::is_known(const std::shared_ptr<const T>& object) {
   return !object || place != known_.end();
 }
 
-// An object gets its number when it is whole, among those of its class: that is the order in which it is read.
+// An object gets its number, among those of its class, after it is completely written: this is the order of reading.
 void ModelWriter::curve(const CurvePtr& curve) {
   if (is_known(curve)) return;
   content(*curve);
@@ -137,7 +137,7 @@ void ModelWriter::content(const Surface& of) {
 }
 
 void ModelWriter::model(const Model& model) {
-  const auto& [components, corners, edges, faces, solids, source_unit, shape] = model;  // all of them: a new one does not compile
+  const auto& [components, corners, edges, faces, solids, source_unit, shape] = model;  // all members: a new one does not compile
   write_all(sink_, components, corners, solids, source_unit, shape != nullptr);
   write_value(sink_, static_cast<std::uint64_t>(edges.size()));
   for (const ModelEdge& edge : edges) {

@@ -1,5 +1,5 @@
-// Exact geometry as bytes: a model's columns and the curves and surfaces behind them. What was shared is shared again, what is read back evaluates to the same
-// bits.
+// Exact geometry as bytes: a model's columns and the curves and surfaces behind them. Shared objects are shared again after reading, and geometry read back
+// evaluates to the same bits.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace sterna::scripting {
 
-/// A curve or surface of a kind that has no bytes: a deformed one, or a wrapper around OpenCASCADE's.
+/// Thrown for a curve or surface of a kind that cannot be serialised: a deformed one, or a wrapper around OpenCASCADE's.
 struct NotKept {
   std::string kind;
 };
@@ -23,13 +23,13 @@ struct NotKept {
 class ModelWriter {
  public:
   explicit ModelWriter(ByteSink& sink) : sink_(sink) {}
-  /// Of its shape only whether there is one.
+  /// Writes the model; of its CAD shape only a flag that it exists.
   /// \throws NotKept
   void model(const Model& model);
   void shared(const std::shared_ptr<const Model>& model);
 
  private:
-  /// True: known already, its number was written.
+  /// Returns true if the object was written before; then only its number is written.
   template <class T>
   bool is_known(const std::shared_ptr<const T>& object);
   void curve(const CurvePtr& curve);
@@ -40,14 +40,14 @@ class ModelWriter {
   void content(const Surface& surface);
 
   ByteSink& sink_;
-  std::map<const void*, std::uint64_t> known_;  ///< number among those of its class
+  std::map<const void*, std::uint64_t> known_;  ///< number among the objects of its class
   std::uint64_t n_curves_ = 0, n_parameter_curves_ = 0, n_surfaces_ = 0, n_models_ = 0;
 };
 
-/// Reads what a ModelWriter wrote, in the same order.
+/// Reads the data of a ModelWriter, in the same order.
 class ModelReader {
  public:
-  /// \p shape_of_next gives the shape of the n-th model (from 0, in the order of writing) that had one
+  /// \p shape_of_next returns the shape of the n-th model (from 0, in the order of writing) that had one
   ModelReader(ByteSource& source, std::function<std::shared_ptr<const CadShape>(std::size_t)> shape_of_next)
       : source_(source), shape_of_next_(std::move(shape_of_next)) {}
   /// \throws Error(file_malformed)

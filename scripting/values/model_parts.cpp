@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Where the columns of a part begin in those of its model.
+/// Start indices of a part's columns in those of its model.
 struct Begin {
   std::size_t components = 0, corners = 0, edges = 0, faces = 0, solids = 0;
   void add(const Model& model) {
@@ -34,7 +34,7 @@ IdType shifted(IdType id, std::size_t by) {
   return IdType(static_cast<std::uint64_t>(id.index() + by));
 }
 
-/// Whether two faces are the same piece of the same surface.
+/// Returns true if two faces are the same piece of the same surface.
 bool is_same_face(const Model& a, const ModelFace& of_a, const Model& b, const ModelFace& of_b) {
   if (of_a.surface != of_b.surface || of_a.is_reversed != of_b.is_reversed || of_a.borders.size() != of_b.borders.size()) return false;
   for (std::size_t i = 0; i < of_a.borders.size(); ++i) {
@@ -54,11 +54,11 @@ bool is_same_solid(const Model& a, const Model& b) {
                     [&](const ModelFace& x, const ModelFace& y) { return is_same_face(a, x, b, y); });
 }
 
-/// Part `i` where it is.
+/// Returns part `i` at its location.
 Model slice(const Model& model, const std::vector<ModelPart>& parts, std::size_t i) {
   Begin begin;
   for (std::size_t k = 0; k < i; ++k) begin.add(*parts[k].own);
-  Model part = *parts[i].own;  // its numbers, and what follows as it is now
+  Model part = *parts[i].own;  // its numbers; the following data are replaced by their current values
   for (const ComponentId c : part.components.ids()) part.components[c] = model.components[shifted(c, begin.components)];
   for (const CornerId c : part.corners.ids()) part.corners[c] = model.corners[shifted(c, begin.corners)];
   for (const EdgeId e : part.edges.ids()) {
@@ -165,7 +165,7 @@ void take_solids(const Model& looked_at, const Model& changed, ModelValue& value
     is_any_kept = true;
     i += found->size();
   }
-  if (!is_any_kept) {  // as the boolean made it, to the order of its faces
+  if (!is_any_kept) {  // as made by the boolean, including the order of its faces
     value.model = changed;
     value.parts.clear();
     return;

@@ -1,5 +1,5 @@
-// Parts of models: what was read or made together and has since been moved and turned only. Parts are meshed where they were made and then moved, so that the
-// same part has the same triangles, whatever its attitude is and whatever is around it.
+// Parts of models: geometry that was read or made together and has since been moved and turned only. Parts are meshed in their own frame and then moved, so
+// that the same part has the same triangles, whatever its attitude and its surroundings.
 #pragma once
 
 #include <cstddef>
@@ -17,27 +17,27 @@ namespace sterna::scripting {
 struct ModelValue;
 
 struct ModelPart {
-  std::shared_ptr<const Model> own;    ///< in its own frame; its names and kinds may be older than those of the model that it is part of
-  Transform placement;                 ///< rotation and shift, from there to where it is
-  std::optional<ContentKey> key = {};  ///< of what `own` was made of, for caches; nothing: not known
+  std::shared_ptr<const Model> own;    ///< geometry in its own frame; its names and kinds may be older than those of the model that contains the part
+  Transform placement;                 ///< rotation and shift, from its own frame to its location
+  std::optional<ContentKey> key = {};  ///< key of the inputs of `own`, for caches; nothing: unknown
   bool is_in_place() const { return placement == Transform{}; }
 };
 
-/// The parts of a model, in the order of its components, corners, edges, faces and solids; one, in its place, where nothing is known of others.
+/// Returns the parts of a model, in the order of its components, corners, edges, faces and solids; one part, at its location, if no parts are recorded.
 std::vector<ModelPart> parts_of(const ModelValue& value);
 
-/// Part `i` in its own frame, with the names, roles and kinds that the model's faces have now.
+/// Returns part `i` in its own frame, with the current names, roles and kinds of the model's faces.
 Model own_model(const ModelValue& value, const std::vector<ModelPart>& parts, std::size_t i);
 
-/// The model moved and turned: its parts stay what they are.
+/// Moves and turns the model; its parts are kept.
 /// \pre `motion` is a rotation and a shift
 void move_parts(const Transform& motion, ModelValue& value);
-/// The mirror image in the plane through `at`: parts become their own mirror images, in places that are the images of theirs.
+/// Mirrors the model in the plane through `at`: parts become their own mirror images, at the mirrored locations.
 void mirror_parts(const Point& at, const Vec3& normal, ModelValue& value);
 
-/// Makes `value` the solids of `changed`, which a boolean made of those of `looked_at` (the model of `value`, or what OpenCASCADE took instead of it). Solids
-/// that it left as they were stay the parts that they are, with the surfaces that `value` had; others that follow each other are one part, in their place;
-/// where all are such, nothing is known of parts any more. Order: that of `changed`.
+/// Replaces the model of `value` by the solids of `changed`, which a boolean made from those of `looked_at` (the model of `value`, or its replacement for
+/// OpenCASCADE). Solids that the boolean left unchanged stay the same parts, with the surfaces that `value` had. Consecutive changed solids form one part, at
+/// their location; if all solids are changed, no parts are recorded any more. Order: that of `changed`.
 /// \pre all faces of both are of solids
 void take_solids(const Model& looked_at, const Model& changed, ModelValue& value);
 

@@ -1,4 +1,4 @@
-// Boxes, areas and volumes of models by part, open borders, and the same as text.
+// Boxes, areas and volumes of models by part, open edges, and the same as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 /// Samples along each direction of a face, and along each edge, for boxes.
 constexpr int k_box_samples = 12;
 
-/// The parameters that the outer border of a face surrounds.
+/// Returns the parameter box of the outer border of a face.
 ParameterBox used_box(const Model& model, const ModelFace& face) {
   if (face.borders.empty() || face.borders.front().empty()) return face.surface->domain();
   Uv low{1e300, 1e300}, high{-1e300, -1e300};
@@ -29,10 +29,10 @@ ParameterBox used_box(const Model& model, const ModelFace& face) {
   return {{low.u, high.u}, {low.v, high.v}};
 }
 
-/// Whether the face is all of its box of parameters, however many edges its sides are made of: then points within the box are on it.
+/// Returns true if the face fills its parameter box, regardless of the number of edges of its sides: then points within the box are on the face.
 bool is_whole(const Model& model, const ModelFace& face, const ParameterBox& box) {
   if (face.borders.size() != 1) return false;
-  constexpr double k_on_side = 1e-6;  // of the box
+  constexpr double k_on_side = 1e-6;  // relative to the box
   const auto is_at_end = [](double x, const Interval& range) {
     return std::min(std::abs(x - range.from), std::abs(x - range.to)) <= k_on_side * range.length();
   };
@@ -135,7 +135,7 @@ std::vector<OpenEdge> open_edges(const Model& model) {
 }
 
 std::string open_plane_text(const std::vector<OpenEdge>& open) {
-  constexpr double k_in_plane = 1e-6;  // of the size of all open edges
+  constexpr double k_in_plane = 1e-6;  // relative to the size of all open edges
   Box box;
   double length = 0.0;
   for (const OpenEdge& edge : open) {
@@ -154,7 +154,7 @@ std::string open_plane_text(const std::vector<OpenEdge>& open) {
 
 std::string measures_text(const ModelReport& measures) {
   std::string text = "  total    " + part_text(measures.total);
-  // Where every component is a solid of its own, one line for both.
+  // If every component is a separate solid, one line describes both.
   const bool are_same = std::equal(measures.solids.begin(), measures.solids.end(), measures.components.begin(), measures.components.end(),
                                    [](const PartMeasures& a, const PartMeasures& b) { return a.name == b.name && a.is_closed == b.is_closed; });
   for (const PartMeasures& solid : measures.solids)
@@ -173,9 +173,9 @@ std::string measures_text(const ModelReport& measures) {
 
 namespace {
 
-/// All of it in one plane of constant x, y or z: then its rim says nothing of symmetry.
+/// Returns true if the whole model lies in one plane of constant x, y or z: then its boundary does not indicate symmetry.
 bool is_flat_model(const Model& model) {
-  constexpr double k_flat_share = 1e-6;  // of the longest side
+  constexpr double k_flat_share = 1e-6;  // relative to the longest side
   const Box box = box_of(model);
   const Vec3 side = box.max - box.min;
   return std::min({side.x, side.y, side.z}) <= k_flat_share * box.longest_side();

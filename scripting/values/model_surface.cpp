@@ -80,10 +80,10 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// Open edges and absorbed parts in the log; the report has all.
+/// Number of open edges and absorbed parts in the log; the report contains all.
 constexpr std::size_t k_listed = 10;
 
-/// Open edges that lie in one plane x, y or z = constant: the rim of a half model.
+/// Open edges that lie in one plane x, y or z = constant: the open boundary of a half model.
 struct OpenPlane {
   std::size_t axis = 0;
   double at = 0.0;      ///< m
@@ -91,9 +91,9 @@ struct OpenPlane {
   std::size_t n_edges = 0;
 };
 
-/// Planes with two open edges or more, the one with the longest rim first; takes their edges out of the list.
+/// Returns planes with two open edges or more, the one with the longest open boundary first; removes their edges from the list.
 std::vector<OpenPlane> open_planes(std::vector<OpenEdge>& open) {
-  constexpr double k_flat = 1e-6;  // of the longest side of all
+  constexpr double k_flat = 1e-6;  // relative to the longest side of the box of all open edges
   Box box;
   for (const OpenEdge& edge : open)
     for (const Point* p : {&edge.from, &edge.middle, &edge.to}) box.add(*p);
@@ -119,19 +119,19 @@ std::vector<OpenPlane> open_planes(std::vector<OpenEdge>& open) {
     planes.push_back(longest);
   }
 }
-// Shares of mesh_model_files's progress.
+// Fractions of the progress of mesh_model_files.
 constexpr double k_model_file_end = 0.3;
 constexpr double k_unite_end = 0.5;
-constexpr double k_first_try_end = 0.6;  ///< of meshing parts that have to be united
+constexpr double k_first_try_end = 0.6;  ///< for parts that have to be united
 constexpr double k_second_unite_end = 0.8;
 
 bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
 
-/// sumo's own normal angle: what files say that leave it alone.
+/// sumo's default normal angle: the value in files that do not change it.
 constexpr double k_sumo_angle = 30.0 * std::numbers::pi / 180.0;
 constexpr double k_same_angle = 1e-3;
 
-/// What an .smx file says of its components' triangles, unless sumo found it by itself; for those that have faces of their name.
+/// Returns the triangle settings of components in an .smx file, unless sumo derived them itself, for components with faces of their name.
 std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, const Model& model) {
   std::vector<surfmesh::PatchSurfaceOptions> rules;
   const auto add = [&](const std::string& name, const std::optional<MeshCriterion>& criterion) {
@@ -158,7 +158,7 @@ void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& 
   recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end());
 }
 
-/// Those that a face is named like: a boolean may have left nothing of others.
+/// Returns the rules that match the name of a face: a boolean may have removed all faces of other rules.
 std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSurfaceOptions> rules, const Model& model) {
   std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) {
     return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
@@ -184,7 +184,7 @@ std::string indented(std::string text) {
   return "  " + text;
 }
 
-/// Lengths that are no aircraft's, rotor's, car's or wind-tunnel model's: mostly millimetres taken for metres.
+/// Warns about lengths outside the range of aircraft, rotors, cars or wind-tunnel models: mostly millimetres taken as metres.
 void doubt_size(const Model& model, const RunContext& context) {
   constexpr double k_smallest = 1e-3, k_largest = 200.0;  // m
   const double size = box_of(model).longest_side();
@@ -195,7 +195,8 @@ void doubt_size(const Model& model, const RunContext& context) {
                   size));
 }
 
-/// Closed parts that stand in each other or touch, as CAD files of one aircraft have them: united where their triangles cross, and told.
+/// Meshes the models. Closed parts that intersect or touch each other, as in CAD files of one aircraft, are united where their triangles cross, which is
+/// reported.
 SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
   std::size_t n_solids = 0;
   bool is_closed = true;
@@ -228,7 +229,7 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
   }
 }
 
-/// What models and their descriptions say of sizes.
+/// Adds the size rules of models and their descriptions.
 void add_rules(const std::vector<ModelHandle>& models, const ModelValue& all, SurfaceRecipe& recipe) {
   put_first(present(all.sizes, all.model), recipe);
   for (const ModelHandle& model : models)
@@ -356,7 +357,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
                          const RunContext& context, const Reuse& reuse) {
   const StageTimer timer(context, "surface_mesh");
   const auto make = [&](const std::function<double(const Point&)>& asked_size) { return mesh_anew(models, asked, asked_size, context, reuse); };
-  // In whatever thread asks first, so with no threads of its own.
+  // Runs in the thread that first needs the model, therefore without additional threads.
   const auto all = [models, stop = context.stop_token(), seed = context.seed()] {
     const RunContext quiet({.threads = 1, .seed = seed, .stop = stop});
     return fluid_of(assemble(models, quiet), quiet).model;

@@ -36,7 +36,7 @@ ModelValue value_of(AircraftReading reading, const InputPath& file, const RunCon
     value.model = make_components(reading.aircraft, context);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_argument) throw;
-    ErrorInfo info = error.info();  // what is wrong with a component's description is wrong with the file
+    ErrorInfo info = error.info();  // a defect in a component's description is a defect of the file
     info.code = ErrorCode::file_malformed;
     info.attempted = file.name + ": " + info.attempted;
     throw Error(std::move(info));
@@ -48,7 +48,7 @@ ModelValue value_of(AircraftReading reading, const InputPath& file, const RunCon
   return value;
 }
 
-/// The lines of a report that the reader has not told yet: warnings went to the log when they were found.
+/// Returns the lines of a report that the reader has not logged yet: warnings were logged when they were found.
 std::string without_warnings(const std::string& report) {
   std::string text;
   std::istringstream lines(report);
@@ -88,7 +88,7 @@ ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSet
 
 namespace {
 
-/// Files of components (sumo, CPACS) are data in metres: nothing of reading CAD has an effect on them.
+/// Files of components (sumo, CPACS) are data in metres: options of reading CAD have no effect on them.
 void refuse_cad_options(const InputPath& file, ReadCadOptions options) {
   for (const Option& option : sterna::options_of(options)) {
     const OptionValue value = option.get();

@@ -15,12 +15,12 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_full_opening = 0.35;    ///< of the surface's longest side in the plane: less is a hole in a body
-constexpr double k_opening_at_zero = 0.1;  ///< the same in a plane through the origin
-constexpr double k_most_covered = 0.1;     ///< of the rim's box: a face with a hole in it is no opening
-constexpr double k_longest_section = 4.0;  ///< distance of two parallel planes over the opening: longer is a tube
-constexpr double k_sheet_vector = 0.6;     ///< of the area: area vectors of a sheet add up; those of half a sphere to 0.5
-constexpr double k_main_part = 0.5;        ///< of all area
+constexpr double k_full_opening = 0.35;    ///< fraction of the surface's longest side in the plane: a smaller opening is a hole in a body
+constexpr double k_opening_at_zero = 0.1;  ///< the same fraction for a plane through the origin
+constexpr double k_most_covered = 0.1;     ///< fraction of the box of the opening: a face with a hole in it is no opening
+constexpr double k_longest_section = 4.0;  ///< distance of two parallel planes divided by the opening: above it is a tube
+constexpr double k_sheet_vector = 0.6;     ///< fraction of the area: the area vectors of a sheet add up; those of half a sphere add up to 0.5
+constexpr double k_main_part = 0.5;        ///< fraction of the total area
 
 std::string plane_text(const volmesh::RimPlane& plane) { return fmt::format("{} = {:.6g} m", "xyz"[plane.axis], plane.at); }
 
@@ -36,7 +36,7 @@ bool is_opening(const volmesh::RimPlane& plane, const Box& box) {
   return widest >= (plane.at == 0.0 ? k_opening_at_zero : k_full_opening) * body && plane.covered <= k_most_covered * area;
 }
 
-/// Two parallel planes so far apart that the surface between them is a tube.
+/// Returns true if two parallel planes are so far apart that the surface between them is a tube.
 bool is_tube(const std::vector<volmesh::RimPlane>& planes) {
   for (const volmesh::RimPlane& a : planes)
     for (const volmesh::RimPlane& b : planes) {
@@ -121,7 +121,7 @@ SurfaceValue with_floor_upwards(const SurfaceValue& wall, const std::string& flo
   SurfaceValue turned = wall;
   for (const TriangleId t : wall.mesh.triangles.ids())
     if (is_open[components.component[t]] != 0) std::swap(turned.mesh.triangles[t][1], turned.mesh.triangles[t][2]);
-  turned.model_wall.reset();  // its triangles have another sense
+  turned.model_wall.reset();  // its triangles have another orientation
   turned.model_wall_key.reset();
   turned.parts.clear();
   const std::string text = "the floor \"" + floor + "\" had its normals downwards: it is turned, as the fluid is above it";
@@ -136,7 +136,7 @@ SurfaceValue as_body(const SurfaceValue& wall, bool has_farfield, const RunConte
   SurfaceValue turned = wall;
   const std::int64_t n = volmesh::turn_to_bodies(turned.mesh, context);
   if (n == 0) return wall;
-  turned.model_wall.reset();  // its triangles have another sense
+  turned.model_wall.reset();  // its triangles have another orientation
   turned.model_wall_key.reset();
   turned.parts.clear();
   const std::string text = fmt::format("{} open {} with normals inwards turned: a farfield is around bodies, so the normals point out of {}", count_text(n),

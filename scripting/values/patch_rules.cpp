@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One entry of `patches`; notes problems.
+/// Reads one entry of `patches`; notes problems.
 void read_rule(const std::string& names, const ScriptValue& value, std::string_view example, TableReader& reader, const AddRule& add) {
   const std::string where = "patches[\"" + names + "\"]";
   const auto* table = std::get_if<TableHandle>(&value);

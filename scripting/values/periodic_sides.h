@@ -1,4 +1,4 @@
-// periodic = { { "left", "right" } }: pairs of patches that match, from a verb's table, from the command line and from the files of stages.
+// periodic = { { "left", "right" } }: pairs of matching patches, from a verb's table, from the command line and from the files of stages.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace sterna::scripting {
 
-/// The entry "periodic" of a table: a list of pairs of names, or one pair. Notes problems with the reader.
+/// Reads the entry "periodic" of a table: a list of pairs of names, or one pair. Notes problems with the reader.
 std::vector<volmesh::PeriodicNames> read_periodic(TableReader& reader);
 
-/// Pairs as SurfaceMeshOptions::periodic has them, and back.
-/// \throws Error(bad_argument) for text that is none
+/// Returns pairs in the form of SurfaceMeshOptions::periodic; and the reverse.
+/// \throws Error(bad_argument) if the string is no such list
 std::string periodic_text(const std::vector<volmesh::PeriodicNames>& pairs);
 std::vector<volmesh::PeriodicNames> periodic_of_surface(const std::string& text);
 
-/// A pair of the command line, "left,right".
+/// Parses a pair of the command line, "left,right".
 /// \throws Error(bad_argument)
 volmesh::PeriodicNames periodic_of_text(const std::string& text);
 
-/// Pairs as a JSON list of lists, for manifests and the files of stages; and back.
-/// \throws Error(bad_argument) for text that is none
+/// Returns pairs as a JSON list of lists, for manifests and the files of stages; and the reverse.
+/// \throws Error(bad_argument) if the text is no such list
 std::string periodic_json(const std::vector<volmesh::PeriodicNames>& pairs);
 std::vector<volmesh::PeriodicNames> periodic_of_json(const std::string& text);
 

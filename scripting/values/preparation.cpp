@@ -21,20 +21,20 @@ namespace {
 using volmesh::FindingKind;
 using volmesh::InspectReport;
 
-// Seconds of one thread, fitted to all files of tests/data/shared; the program that fitted them is not kept.
-constexpr double k_start_seconds = 0.05;       ///< of any of them
+// Seconds of one thread, fitted to all files of tests/data/shared; the program for the fit is not kept.
+constexpr double k_start_seconds = 0.05;       ///< start of each step
 constexpr double k_repair_of_facet = 1e-5;     ///< welding, seams, distances
-constexpr double k_repair_of_hull = 0.15;      ///< where facets cross: mostly samples of distances
-constexpr double k_repair_of_crossing = 4e-4;  ///< of a pair: cutting, hull, mending what rounding left
-constexpr double k_repair_of_filling = 1e-4;   ///< of a facet that fills a hole
-constexpr double k_wrap_of_triangle = 2.5e-4;  ///< of the wrap
-constexpr double k_wrap_coarse = 2.0;          ///< factor where a coarser wrap closes openings first
-constexpr double k_wrap_leaking = 3.0;         ///< factor where openings are wider than any gap
+constexpr double k_repair_of_hull = 0.15;      ///< if facets cross: mostly samples of distances
+constexpr double k_repair_of_crossing = 4e-4;  ///< per pair: cutting, hull, repair of rounding errors
+constexpr double k_repair_of_filling = 1e-4;   ///< per facet that fills a hole
+constexpr double k_wrap_of_triangle = 2.5e-4;  ///< per triangle of the wrap
+constexpr double k_wrap_coarse = 2.0;          ///< factor if a coarser wrap closes openings first
+constexpr double k_wrap_leaking = 3.0;         ///< factor if openings are wider than the widest gap
 constexpr double k_remesh_of_facet = 3.5e-5;
-constexpr double k_remesh_of_first = 5e-4;  ///< of each of the first facets: coarse surfaces get many new triangles
+constexpr double k_remesh_of_first = 5e-4;  ///< per facet of the first ones: coarse surfaces are refined to many new triangles
 constexpr double k_remesh_first = 2000.0;
-constexpr double k_model_of_triangle = 4e-5;  ///< faces are meshed twice: once for what crosses
-constexpr double k_seconds_off = 3.0;         ///< factor
+constexpr double k_model_of_triangle = 4e-5;  ///< faces are meshed twice: once to find crossings
+constexpr double k_seconds_off = 3.0;         ///< error factor of the seconds
 
 std::int64_t count_needles(const InspectReport& report, double limit) {
   const auto field = std::ranges::find(report.fields, "smallest_angle", &TriMeshField::name);
@@ -50,7 +50,7 @@ bool is_torn(const InspectReport& report) {
   });
 }
 
-/// Open, but only in planes where the domain ends: --auto takes it as it is.
+/// Returns true if the surface is open only in planes where the domain ends: --auto accepts it unchanged.
 bool is_open_domain(const InspectReport& report, const AutoSurface& options, const RunContext& context) {
   if (report.is_closed || options.stitching.fluid == "inside") return false;
   for (const FindingKind kind : {FindingKind::non_manifold, FindingKind::not_orientable, FindingKind::crossing})
@@ -60,7 +60,7 @@ bool is_open_domain(const InspectReport& report, const AutoSurface& options, con
 
 std::string counted(std::int64_t n, const char* one, const char* many) { return count_text(n) + " " + (n == 1 ? one : many); }
 
-/// For a shell.
+/// Quotes the name for a shell.
 std::string quoted(const std::string& name) {
   if (name.find_first_of(" '\"$&()*;<>?[]\\`|!#~") == std::string::npos) return name;
   std::string text = "'";
@@ -74,7 +74,7 @@ std::string stem_of(const std::string& name) {
   return path.stem().string();
 }
 
-/// What repair will do, by its forecast.
+/// Returns the expected actions of repair, from its forecast.
 std::string to_do(const surfmesh::RepairForecast& forecast) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
@@ -117,7 +117,7 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
   } else {
     p.reason = forecast.problem + "; facets cross, and the outer hull is not taken (hull = false)";
   }
-  // Wrapped once; with a coarser wrap before, where openings are wider than the edge; with skin on both sides, where they are wider than any gap.
+  // Wraps once; preceded by a coarser wrap if openings are wider than the edge; with skin on both sides if they are wider than the widest gap.
   const double rounds = forecast.widest_open > wrap.widest_gap ? k_wrap_leaking : forecast.widest_open > 2.0 * wrap.edge ? k_wrap_coarse : 1.0;
   p.seconds =
       k_start_seconds + k_repair_of_facet * static_cast<double>(forecast.n_facets) + rounds * k_wrap_of_triangle * static_cast<double>(wrap.n_triangles);
@@ -140,7 +140,7 @@ void advise_remesh(Preparation& p, const InspectReport& report) {
   p.basis = counted(n, "triangle", "triangles");
 }
 
-/// What does it; nothing without names of files.
+/// Writes the commands for the preparation; none without names of files.
 void write_commands(Preparation& p, std::span<const std::string> inputs, double in_metres) {
   if (p.needed == Strength::none || p.needed == Strength::beyond || inputs.empty()) return;
   std::string words, names;

@@ -23,23 +23,25 @@
 namespace sterna::scripting {
 namespace {
 
-/// Of the share of needles before: with more left the lines of the surface force them, and layers there are no better for it.
+/// Maximum fraction of the previous share of slivers. If more slivers remain, the feature lines of the surface force them, and layers there do not improve.
 constexpr double k_fewer_needles = 0.5;
-/// Of the body's length and of the new triangles' edges: new triangles further from the given ones have lost something of the shape (a dent, a nose, a thin
-/// part).
+/// Limits relative to the body's length and to the new triangles' edges. New triangles further from the given ones have lost part of the shape (a dent, a nose,
+/// a thin part).
 constexpr double k_largest_distance = 1e-3, k_largest_of_edge = 0.2;
-/// Share of the area that may be turned from the smooth surface beyond what the given triangles are: places at lines where both are a matter of one triangle.
+/// Fraction of the area that may be turned from the smooth surface in addition to that of the given triangles: regions at feature lines, where both values
+/// depend on a single triangle.
 constexpr double k_more_turned = 0.005;
-/// without_needles() makes at most so many times the triangles, or so many where that is more: steps and slivers that look like curvature would ask for
+/// Limits of the triangles made by without_needles(), as a factor and as a number, whichever is more: steps and slivers that resemble curvature would lead to
 /// millions.
 constexpr std::size_t k_many_times = 20, k_few_triangles = 200'000;
 
-/// What is tried: sizes of a family, and vertices on the given triangles where those on the smooth surface are too far from them.
+/// An attempt: refinement of a family, and vertices on the given triangles if those on the smooth surface are too far from them.
 struct RemeshAttempt {
   double refinement;
   bool is_smooth;
 };
-/// First the sizes that were asked for. Where there would be too many triangles, larger ones; where the result is no likeness, or too thin, smaller ones.
+/// The first attempt uses the requested sizes. With too many triangles, larger sizes follow; with a result that is too far from the shape, or too thin, smaller
+/// ones.
 constexpr RemeshAttempt k_first{1.0, true};
 constexpr std::array<RemeshAttempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0, true}}};
 constexpr std::array<RemeshAttempt, 2> k_finer{{{1.0, false}, {1.5, true}}};
@@ -64,11 +66,11 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
     return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, demand, context);
   });
-  require_likeness(result.report, demand);  // a cached result was made without a demand, perhaps
+  require_likeness(result.report, demand);  // a cached result may have been made without a demand
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
   made.remesh_options = recipe.options;
-  made.mesh_report.reset();  // of the triangles before
+  made.mesh_report.reset();  // report of the triangles before
   made.model_wall.reset();
   made.model_wall_key.reset();
   made.parts.clear();
@@ -80,7 +82,7 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   return made;
 }
 
-/// The accepted surface, with warnings of what is missing or different.
+/// Returns the accepted surface, with warnings about missing or different parts.
 SurfaceValue with_change(SurfaceValue made, const SurfaceValue& wall, const RunContext& context) {
   note_change(made, compare_geometry(wall.mesh, made.mesh, "remesh", context), context);
   return made;
@@ -115,7 +117,7 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
                                       .largest_distance = k_largest_distance,
                                       .largest_distance_of_edge = k_largest_of_edge,
                                       .more_turned = k_more_turned};
-  const auto meets = [&](const SurfaceValue& made) {  // a cached result was made without a demand, perhaps
+  const auto meets = [&](const SurfaceValue& made) {  // a cached result may have been made without a demand
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
     const double share = static_cast<double>(after.n) / static_cast<double>(made.mesh.n_triangles());
     if (share <= demand.most_needles && after.least_angle >= demand.least_angle) return true;

@@ -27,18 +27,18 @@ namespace sterna::scripting {
 namespace {
 
 constexpr const char* k_repair_stage = "repair";
-constexpr double k_repair_read_end = 0.1;  ///< of repair_surfaces's progress
-// Of read_as_it_is.
+constexpr double k_repair_read_end = 0.1;  ///< progress of repair_surfaces
+// Progress of read_as_it_is.
 constexpr double k_files_read_end = 0.3;
 constexpr double k_closed_end = 0.8;
-// Of auto_surface's.
+// Progress of auto_surface.
 constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
 constexpr double k_repair_end = 0.6;
 constexpr double k_remesh_begin = 0.7;
-constexpr std::size_t k_faces_told = 3;  ///< in the summary
+constexpr std::size_t k_faces_told = 3;  ///< number of faces in the summary
 
-/// What a cache keeps of a repair.
+/// Cached data of a repair.
 struct RepairedWall {
   TriMesh mesh;
   surfmesh::StitchReport report;
@@ -54,7 +54,7 @@ ContentKey repair_key(const SurfaceItems& items, surfmesh::RepairOptions options
   return maker.add(sterna::options_of(stitching)).add(sterna::options_of(options)).key();
 }
 
-/// Names the faces of a model whose triangles are not their own any more, with their distance from it.
+/// Reports the faces of a model whose triangles were replaced, with their distance from the face.
 void tell_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, const RunContext& context) {
   const surfmesh::ReplacedFaces replaced = surfmesh::find_replaced_faces(*made.model_wall, made.mesh, repaired.mesh, context);
   if (replaced.faces.empty()) return;
@@ -75,10 +75,10 @@ bool are_models(std::span<const InputPath> files) {
   return std::ranges::all_of(files, [](const InputPath& file) { return is_model_file(file.path); });
 }
 
-/// A repaired surface that is not accepted yet: nothing is warned of.
+/// A repaired surface that is not accepted yet: no warnings were given.
 struct Repaired {
   SurfaceValue wall;
-  std::optional<GeometryChange> change;  ///< nothing: it is as it was
+  std::optional<GeometryChange> change;  ///< nothing: unchanged
 };
 
 Repaired repaired_of(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const surfmesh::RepairOptions& options, const Reuse& reuse,
@@ -119,7 +119,7 @@ Repaired repaired_of(std::span<const UnionItem> items, const surfmesh::StitchOpt
   return result;
 }
 
-/// A surface that is sound, closed or open in planes of the domain only.
+/// Reads a surface that is sound: closed, or open in planes of the domain only.
 /// \throws Error of read_wall, of the closed surface
 SurfaceValue read_as_it_is(std::span<const InputPath> files, const surfmesh::StitchOptions& stitching, const RunContext& context) {
   const WallFiles read = read_wall_files(files, stitching, context.part("read", 0.0, k_files_read_end));
@@ -146,7 +146,7 @@ SurfaceValue read_as_it_is(std::span<const InputPath> files, const surfmesh::Sti
   }
 }
 
-/// One sentence where what is wrapped is a sheet.
+/// Returns one sentence if the input of the wrap is a sheet.
 std::optional<std::string> sheet_of(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const RunContext& context) {
   surfmesh::StitchOptions open = stitching;
   open.allow_open = true;
@@ -160,7 +160,7 @@ std::optional<std::string> sheet_of(std::span<const UnionItem> items, const surf
   }
 }
 
-/// The accepted surface, with warnings of what is missing or different.
+/// Returns the accepted surface, with warnings about missing or different parts.
 SurfaceValue accepted(Repaired repaired, const RunContext& context) {
   for (const std::string& text : repaired.wall.report.warnings) context.warn(text);
   if (repaired.change) note_change(repaired.wall, *repaired.change, context);
@@ -211,7 +211,7 @@ bool is_about_surface(const Error& error) {
 
 SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
   ErrorInfo first;
-  std::optional<SurfaceValue> open;  // a model's, perhaps half of it
+  std::optional<SurfaceValue> open;  // surface of a model, perhaps of half a model
   surfmesh::StitchOptions stitching = options.stitching;
   try {
     const RunContext as_it_is = context.part("as it is", 0.0, k_as_it_is_end);
@@ -231,7 +231,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   }
   context.info("auto: " + first.attempted + ": " + first.problem + "; repair is tried");
   std::vector<UnionItem> items(files.begin(), files.end());
-  SurfaceHandle of_model;  // as its faces are
+  SurfaceHandle of_model;  // surface of the model with the triangles of its faces
   if (are_models(files)) {
     SurfaceRecipe recipe = options.recipe;
     recipe.options.crossings = "ignore";
@@ -242,7 +242,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     stitching.unit = 1.0;
     if (options.reading.fluid != "automatic") stitching.fluid = options.reading.fluid;
   }
-  std::optional<Repaired> folded;  // what is left lies on itself
+  std::optional<Repaired> folded;  // its remaining facets are folded onto each other
   try {
     Repaired repaired = repaired_of(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end), {});
     if (open && repaired.wall.changes.size() == open->changes.size()) return *open;

@@ -1,5 +1,5 @@
-// Begin with four intervals along each axis; spline; compare half way along each axis between the stations of the others, and at crooked places in all cells;
-// halve the intervals that are to blame; again.
+// Starts with four intervals along each axis; builds the spline; compares at the middle of the intervals of each axis, at the stations of the other axes,
+// and at irregular points in all cells; halves the intervals with too large errors; repeats.
 #include "scripting/values/sampled_map.h"
 
 #include <fmt/format.h>
@@ -15,16 +15,16 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::size_t k_first_intervals = 4;
-/// Of the longest side, when the user does not say.
+/// Fraction of the longest side, the default.
 constexpr double k_tolerance_share = 1e-6;
-/// Intervals shorter than this part of the longest side are not halved again: no spline follows a step.
+/// Intervals shorter than this fraction of the longest side are not halved again: no spline follows a step.
 constexpr double k_least_interval = 1e-9;
-/// Room around the box, of its longest side: what lies a little outside (surfaces beyond their borders) is splined too.
+/// Margin around the box, as a fraction of its longest side: geometry slightly outside (surfaces beyond their borders) is covered by the spline, too.
 constexpr double k_margin = 0.02;
-/// Of neighbouring intervals. Splines through points further graded than (3 + sqrt 5) / 2 may swing without bound (Marsden, 1974); halves give 2 and some
-/// rounding.
+/// Maximum ratio of neighbouring intervals. Splines through points graded by more than (3 + sqrt 5) / 2 may oscillate without bound (Marsden, 1974); halving
+/// gives 2 plus rounding.
 constexpr double k_ratio = 2.1;
-/// Where in a cell the final comparison is made: no simple fractions, so that a function which repeats itself evenly cannot hide.
+/// Points of a cell for the final comparison: no simple fractions, so that a periodic function cannot pass by coincidence.
 constexpr std::array<double, 3> k_crooked = {0.31, 0.43, 0.59};
 
 using Stations = std::array<std::vector<double>, 3>;
@@ -37,7 +37,7 @@ using Stations = std::array<std::vector<double>, 3>;
                .hint = std::move(hint)});
 }
 
-/// The function with its values kept.
+/// The function with its stored values.
 class Kept {
  public:
   explicit Kept(const std::function<Vec3(const Point&)>& f) : f_(f) {}
@@ -66,7 +66,7 @@ std::vector<double> split(const std::vector<double>& at, const std::vector<char>
   return finer;
 }
 
-/// Halves intervals until none is more than k_ratio times as long as the one beside it.
+/// Halves intervals until none is more than k_ratio times as long as its neighbour.
 std::vector<double> graded(std::vector<double> at) {
   for (;;) {
     std::vector<char> is_long(at.size() - 1, 0);
@@ -78,8 +78,8 @@ std::vector<double> graded(std::vector<double> at) {
   }
 }
 
-/// Values in a grid of sizes n, [(i * n_y + j) * n_z + k], whose lines along an axis become poles of splines; n follows, since splines may have more poles than
-/// points.
+/// Converts values in a grid of sizes n, [(i * n_y + j) * n_z + k]: the grid lines along an axis become poles of splines. n is updated, since splines may have
+/// more poles than points.
 std::vector<Vec3> splined(const std::vector<Vec3>& values, std::array<std::size_t, 3>& n, const std::vector<double>& at, std::size_t axis,
                           std::vector<double>& knots) {
   const SplineOptions options{.tangents = SplineTangents::not_a_knot, .at = at};
@@ -132,7 +132,7 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
       basis_.emplace_back(3, knots, false, "sampling the deformation");
     }
     poles_ = std::move(values);
-    // ---- Where it is wrong
+    // ---- Errors of the spline
     error_ = 0.0;
     Point worst;
     std::array<std::vector<char>, 3> is_marked;
@@ -161,7 +161,7 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
             }
           }
     }
-    // What neither axis shows at its middles may still be wrong beside them; then the cell is split along all.
+    // The errors at the middles of the intervals may be small, but large beside them; then the cell is split along all axes.
     if (!is_any)
       for (std::size_t i = 0; i + 1 < at[0].size(); ++i)
         for (std::size_t j = 0; j + 1 < at[1].size(); ++j)

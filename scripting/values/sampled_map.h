@@ -1,4 +1,5 @@
-// A deformation that is a function of a script, made a tricubic spline: the function is called from one thread while it is sampled, the spline from any.
+// A deformation given as a function of a script, converted to a tricubic spline: the function is called from one thread during sampling, the spline from any
+// thread.
 #pragma once
 
 #include <array>
@@ -17,16 +18,16 @@ struct SampledMapOptions {
   int max_samples = 200000;
 };
 
-/// p + d(p), d a tensor-product cubic spline over a box; outside of it the outermost pieces go on.
+/// p + d(p), where d is a tensor-product cubic spline over a box; outside of the box the outermost pieces are extrapolated.
 class SampledMap final : public SpaceMap {
  public:
   /// Samples `displacement` in `box`, refined along each axis until the spline is within the tolerance (metres; automatic: 1e-6 of the box's longest side) at
-  /// places between all samples. The function is called from this thread only.
-  /// \throws Error(bad_argument) with the place: not finite, or the tolerance is not reached with max_samples
+  /// locations between all samples. The function is called from this thread only.
+  /// \throws Error(bad_argument) with the location: not finite, or the tolerance is not reached with max_samples
   SampledMap(const std::function<Vec3(const Point&)>& displacement, const Box& box, const SampledMapOptions& options);
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;
-  double error() const { return error_; }      ///< metres: the largest that was found
+  double error() const { return error_; }      ///< metres: the largest measured error
   double largest() const { return largest_; }  ///< metres: the largest displacement among the samples
   std::size_t n_samples() const;
 

@@ -21,7 +21,7 @@ namespace {
 
 bool add(const ScriptValue& value, const ScriptCall& call, KeyMaker& maker);
 
-/// A text that names a file counts with what is in it; of its name what readers see: models are named after it.
+/// Adds a string. A string that names a file is added with the content and the file name (without its folder), because models are named after the file.
 void add_text(const std::string& text, const ScriptCall& call, KeyMaker& maker) {
   const std::filesystem::path path = find_input(call, text).path;
   std::error_code none;
@@ -44,9 +44,9 @@ bool add_table(const ScriptTable& table, const ScriptCall& call, KeyMaker& maker
   return true;
 }
 
-/// False: it has no key.
+/// Returns false if the value has no key.
 bool add(const ScriptValue& value, const ScriptCall& call, KeyMaker& maker) {
-  if (const auto number = number_of(value)) {  // 2 and 2.0 are one number
+  if (const auto number = number_of(value)) {  // 2 and 2.0 are the same number
     maker.add("number").add(*number);
     return true;
   }

@@ -1,4 +1,4 @@
-// What a verb of a script was called with, as a key: of models, whose exact geometry has no bytes of its own that could be compared.
+// Keys of verb calls in scripts: used for models, whose exact geometry has no bytes of its own that could be compared.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace sterna::scripting {
 
-/// The verb and its arguments after it has run: numbers and texts as they are, files by their names and contents, tables by their entries, objects by their own
-/// keys, functions by what they were asked and what they returned. Options of the command line count where they may be of models. Nothing where an argument has
-/// no key.
+/// Returns the key of the verb and its arguments after it has run: numbers and strings as they are, files by their names and contents, tables by their entries,
+/// objects by their own keys, functions by their arguments and results. Options of the command line are included if they may apply to models. Returns nothing
+/// if an argument has no key.
 std::optional<ContentKey> key_of_call(const ScriptCall& call);
 
-/// The result of a verb; one that is a new model knows what it was made of from now on.
+/// Returns the result of a verb; a result that is a new model gets the key of its inputs.
 ScriptValue with_provenance(ScriptValue result, const ScriptCall& call);
 
 }  // namespace sterna::scripting

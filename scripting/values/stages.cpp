@@ -35,7 +35,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// ---- volmesh's values as a file has them ---------------------------------------------------------------------------------------------------
+// ---- Values of volmesh in the form of a file -------------------------------------------------------------------------------------------------
 
 io::StoredEnvelope stored(const volmesh::Envelope& envelope, const TriMesh& surface, const volmesh::FirstHeights* first_heights) {
   io::StoredEnvelope result{
@@ -73,7 +73,7 @@ volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath&
   return envelope;
 }
 
-/// The mesh without what came behind its layer: nodes of the boundary that was filled stay, where they were then.
+/// Returns the mesh without the nodes after those of its layer: nodes of the boundary of the tetrahedra are kept, at their position at that time.
 HybridMesh layers_of(HybridMesh mesh, const io::StoredTetrahedra& tetrahedra, const InputPath& file) {
   const std::uint64_t n_boundary_points = tetrahedra.n_boundary_points;
   const std::size_t n_lines = mesh.layers.n_lines();
@@ -92,7 +92,7 @@ HybridMesh layers_of(HybridMesh mesh, const io::StoredTetrahedra& tetrahedra, co
   return mesh;
 }
 
-// ---- The rest is JSON ----------------------------------------------------------------------------------------------------------------------
+// ---- Other data: JSON ----------------------------------------------------------------------------------------------------------------------
 
 Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_triangles) {
   Json json = {{"feature_angle", envelope.feature_angle}, {"wall_triangles", n_wall_triangles}};
@@ -116,8 +116,8 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
   return json;
 }
 
-/// Of placed parts: the thickness that their layers have at most where nobody says so, by their own lengths, which do not change with their attitude or what is
-/// beside them.
+/// Returns, for placed parts, the default limits of their layer thickness. They are based on the parts' own lengths, which do not change with their attitude or
+/// their neighbours.
 std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
   std::vector<volmesh::PatchRule> rules;
   if (!is_automatic(options.envelope.max_thickness)) return rules;
@@ -133,7 +133,7 @@ std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const 
   return rules;
 }
 
-/// What is asked of patches: by default of placed parts, by the makers of the wall, by the user; what comes later wins.
+/// Returns the rules for patches: defaults of placed parts, rules of the makers of the wall, rules of the user; later rules win.
 std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
   std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
   rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
@@ -141,7 +141,7 @@ std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh
   return rules;
 }
 
-/// What a run that is not ready knows of itself; a finished one has its manifest.
+/// Returns the data of an unfinished run; a finished run has its manifest.
 std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& options, Json stage) {
   surfmesh::StitchOptions surface_options = wall.options;
   volmesh::MeshCase volume_options = options;
@@ -166,7 +166,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
   return json.dump(2) + "\n";
 }
 
-/// Members of the JSON in a file, each of the type that it must have.
+/// Members of the JSON in a file, each of its required type.
 class StageJson {
  public:
   StageJson(const std::string& text, const InputPath& file) : file_(file), json_(Json::parse(text, nullptr, false)) {
@@ -192,16 +192,16 @@ class StageJson {
   void read_options(const OptionTable& options) const {
     for (const Option& option : options) {
       const std::string pointer = "/options/" + std::string(option.stage) + "/" + std::string(option.name);
-      if (!json_.contains(Json::json_pointer(pointer))) continue;  // of a version that did not have it: as it is without
+      if (!json_.contains(Json::json_pointer(pointer))) continue;  // from a version without this member: keeps its default
       const Json& value = json_.at(Json::json_pointer(pointer));
       set_option_from_text(option, value.is_string() ? value.get<std::string>() : value.dump());
     }
   }
 
-  /// Older versions did not, and made layers on walls as they were given.
+  /// Returns false for older versions, which made layers on walls without splitting slivers.
   bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
 
-  /// Older versions did not, and gave members of a family no sources.
+  /// Returns false for older versions, which gave members of a family no sources.
   bool knows_family_wake() const { return json_.contains(Json::json_pointer("/options/family/family_wake")); }
 
   std::vector<volmesh::PatchRule> patch_rules() const {
@@ -212,7 +212,7 @@ class StageJson {
     return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished;
   }
 
-  /// Of a wall that surface_mesh made.
+  /// Returns the recipe of a wall made by surface_mesh.
   std::optional<SurfaceRecipe> recipe() const {
     if (!json_.contains(Json::json_pointer("/options/surface_mesh"))) return std::nullopt;
     SurfaceRecipe result;
@@ -222,7 +222,7 @@ class StageJson {
     return result;
   }
 
-  /// Of a wall that surface_mesh made, in this run or an earlier one. Radians.
+  /// Returns the smooth angle of a wall made by surface_mesh, in this run or an earlier one. Radians.
   std::optional<double> smooth_angle() const {
     if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
     return get<double>("/wall/max_smooth_angle");
@@ -230,7 +230,7 @@ class StageJson {
 
   std::vector<std::string> changed() const { return changed_of_json(json_.contains("changed") ? json_.at("changed").dump() : std::string("[]")); }
 
-  /// Of the wall against the user's files.
+  /// Returns the changes of the wall relative to the user's files.
   std::vector<std::string> changes() const { return json_.contains("changes") ? get<std::vector<std::string>>("/changes") : std::vector<std::string>(); }
 
   std::vector<volmesh::ActuatorDisc> discs() const {
@@ -248,7 +248,7 @@ class StageJson {
     return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
   }
 
-  /// None in files of versions that did not look for them.
+  /// Empty for files of versions that did not detect slivers.
   volmesh::NeedleReport needles() const {
     if (!json_.contains(Json::json_pointer("/stage/needles"))) return {};
     const auto count = [&](const char* name) { return get<std::int64_t>(std::string("/stage/needles/") + name); };
@@ -262,7 +262,7 @@ class StageJson {
             .first_left = {first[0], first[1], first[2]}};
   }
 
-  /// Only in files of runs that had to close some.
+  /// Present only in files of runs that had to close some.
   volmesh::ClosedFans closed_fans() const {
     volmesh::ClosedFans closed;
     if (!json_.contains(Json::json_pointer("/stage/closed_fans"))) return closed;
@@ -274,7 +274,7 @@ class StageJson {
 
   bool is_opened() const { return json_.contains(Json::json_pointer("/stage/is_opened")) && get<bool>("/stage/is_opened"); }
 
-  /// Finished runs list them, the others count them.
+  /// Finished runs list the sources, the others count them.
   std::size_t n_sources() const {
     const auto found = json_.find("sources");
     return found == json_.end() ? 0 : found->is_array() ? found->size() : get<std::size_t>("/sources");
@@ -339,7 +339,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
-  value.origin->options.patches = rules_of(wall, options);  // a file that keeps the stages has them from here only
+  value.origin->options.patches = rules_of(wall, options);  // a file with the stages gets them only from here
   return value;
 }
 
@@ -373,17 +373,17 @@ void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const
                    path, context);
 }
 
-/// What is left of a stage when its layer has become the mesh.
+/// The remaining data of a stage after its layer has become the mesh.
 struct FinishedParts {
   std::optional<TriMesh> split_wall;
   io::StoredEnvelope envelope;
   io::StoredTetrahedra tetrahedra;
-  std::vector<Point> layer_points;   ///< m, of the stage's layer, where it is the mesh's
-  std::optional<HybridMesh> opened;  ///< the stage's layer, where it is not
+  std::vector<Point> layer_points;   ///< m, of the stage's layer, if it is the mesh's
+  std::optional<HybridMesh> opened;  ///< the stage's layer, if it is not
   Json json;
 };
 
-/// The tetrahedra, and the nodes under them that the mesh has elsewhere.
+/// Returns the tetrahedra, and the nodes of their stage that were moved in the mesh.
 io::StoredTetrahedra with_moved_nodes(const FinishedParts& parts, const HybridMesh& mesh) {
   io::StoredTetrahedra tetrahedra = parts.tetrahedra;
   for (std::size_t i = 0; i < parts.layer_points.size(); ++i) {
@@ -419,7 +419,7 @@ OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options
 
 namespace {
 
-/// Sides that the mesher of the wall cut alike, as long as the triangles are its own.
+/// Returns the periodic sides that the mesher of the wall meshed identically, if the wall has still its triangles.
 std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
   if (!wall.recipe || wall.remesh_options || wall.repair_options || wall.wrap_options || wall.union_options) return {};
   std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(wall.recipe->options.periodic);
@@ -434,7 +434,7 @@ std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
 
 volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options) {
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
-  if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
+  if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on their location
   options.patches = rules_of(wall, options);
   if (options.periodic.empty()) options.periodic = periodic_of_wall(wall);
   return options;
@@ -464,13 +464,13 @@ MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase
 
 namespace {
 
-/// What the body leaves behind is resolved by nothing but the growth of tetrahedra, unless a source asks for it.
+/// Gives a hint if no source refines the wake, which is then resolved only by the growth of tetrahedra.
 void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (volmesh::has_bare_wake(wall.mesh, options))
     context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }; members of a family have one");
 }
 
-/// Fewer layers than reach the size of tetrahedra leave a jump on top: said before the work, with the number that is enough.
+/// Gives a hint, before the work, if the layers are too few to reach the size of tetrahedra and leave a jump on top. The hint contains the sufficient number.
 void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (const auto thin = volmesh::thin_layers(wall.mesh, options))
     context.info(
@@ -588,7 +588,7 @@ std::string describe_classes(const volmesh::Classification& classes) {
                      classes.feature_angle * 180.0 / std::numbers::pi);
 }
 
-/// Of make_envelope{}: "30 layers".
+/// Returns "30 layers" for make_envelope{}.
 std::string layers_text(const volmesh::MeshCase& options) {
   if (!options.patches.empty()) return "layers by patch";
   const int layers = volmesh::effective_options(options, RunContext()).envelope.layers;

@@ -1,4 +1,4 @@
-// A volume mesh step by step: values between the steps, which a .sterna file holds, so that a run can be stopped and continued to the same bytes.
+// A volume mesh step by step: intermediate values, stored in a .sterna file, so that a run can be stopped and continued to the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -13,30 +13,30 @@
 
 namespace sterna::scripting {
 
-/// The envelope of a wall, with all that the rest of the run needs.
+/// The envelope of a wall, with all data that the rest of the run needs.
 struct EnvelopeValue {
   SurfaceHandle wall;
   volmesh::MeshCase options;
   volmesh::EnvelopeStage stage;
-  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< of make_envelope by hand (envelope_steps.h): what has been done to it
-  std::shared_ptr<const volmesh::Classification> classes = {};   ///< of the step "classified", which has nothing else
-  std::size_t n_sources_in_file = 0;                             ///< of the run that wrote the file that this was read from; `options` do not have them
+  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< last step performed, if the steps are called one by one (envelope_steps.h)
+  std::shared_ptr<const volmesh::Classification> classes = {};   ///< result of the step "classified", which has no other data
+  std::size_t n_sources_in_file = 0;                             ///< number of sources in the run that wrote the file of this value; `options` lack them
 };
 
-/// Layer and tetrahedra, not yet one mesh.
+/// Layer and tetrahedra, not yet combined to one mesh.
 struct TetrahedraValue {
   SurfaceHandle wall;
-  std::int64_t n_wall_triangles = 0;  ///< as they were given, before any were split
+  std::int64_t n_wall_triangles = 0;  ///< as given, before any splits
   volmesh::MeshCase options;
   volmesh::FilledStage stage;
 };
 
-/// What each of the three steps takes. The arguments must outlive the tables.
+/// Return the options of each of the three steps. The arguments must outlive the tables.
 OptionTable envelope_options(volmesh::MeshCase& options);
 OptionTable tetrahedra_options(volmesh::MeshCase& options);
 OptionTable finish_options(volmesh::MeshCase& options);
 
-/// The options with what the wall itself knows: turns where it is smooth, rules for its patches, the model that it is of.
+/// Returns the options with the facts of the wall itself: turns where it is smooth, rules for its patches, its model.
 volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options);
 
 /// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
@@ -44,19 +44,19 @@ EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& 
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
 
-/// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is
-/// replaced as each step ends; nothing is written without a name.
+/// make_volume_mesh() that stores surface, envelope, tetrahedra and finally the mesh, its manifest, certificate and quality in a .sterna file, which is
+/// replaced as each step ends. Nothing is written without a name.
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse = {});
 
-/// What a .sterna file holds; null where it does not. An envelope in a file with tetrahedra is the one that their layer has, of its wall with splits.
+/// The content of a .sterna file; null for missing parts. The envelope in a file with tetrahedra is the one below their layer, of its wall with splits.
 struct StageContent {
   SurfaceHandle surface;
   EnvelopeHandle envelope;
   TetrahedraHandle tetrahedra;
   MeshHandle mesh;
 };
-/// \throws Error of io; file_malformed where parts do not belong together or options are missing.
+/// \throws Error of io; file_malformed if parts do not belong together or options are missing.
 StageContent read_stages(const InputPath& file, const RunContext& context);
 
 /// Writes a step's value to a .sterna file.
@@ -64,10 +64,10 @@ StageContent read_stages(const InputPath& file, const RunContext& context);
 void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context);
 void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path& path, const RunContext& context);
 
-/// Throws Error(bad_argument) unless steps can be written to a file of this name.
+/// \throws Error(bad_argument) unless steps can be written to a file of this name.
 void require_stage_output(const std::filesystem::path& path);
 
-/// One line each.
+/// Returns one line for the value.
 std::string describe(const EnvelopeValue& envelope);
 std::string describe(const TetrahedraValue& tetrahedra);
 

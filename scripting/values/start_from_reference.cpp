@@ -11,7 +11,7 @@
 
 namespace sterna::scripting {
 
-/// A part's envelope that may have started from the reference's, and how that went.
+/// A part's envelope that may have started from the reference's, and the outcome.
 struct StartedEnvelope {
   volmesh::PartEnvelope part;
   std::string outcome;
@@ -35,7 +35,7 @@ bool is_same(const OptionValue& a, const OptionValue& b) {
   return x && y && is_automatic(*x) && is_automatic(*y) ? true : a == b;
 }
 
-/// Names of the options that differ, but for those in `except` (separated and surrounded by blanks); empty: none.
+/// Returns the names of the options that differ, except those in `except` (separated and surrounded by blanks); empty: none.
 std::string differing(const OptionTable& a, const OptionTable& b, std::string_view except = " ") {
   std::string names;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -56,7 +56,7 @@ KeptPart kept_part(const PartTask& task, const surfmesh::SurfaceMesh& mesh, cons
   return part;
 }
 
-/// The reference's part of this structure: one of the same call of surface_mesh, else any; null where there is none.
+/// Returns the reference's part of this structure, preferably of the same call of surface_mesh; null if there is none.
 const KeptPart* find_like(const std::vector<KeptPart>& parts, const ModelStructure& structure, std::uint64_t call) {
   for (const bool is_of_call : {true, false})
     for (const KeptPart& part : parts)
@@ -64,14 +64,14 @@ const KeptPart* find_like(const std::vector<KeptPart>& parts, const ModelStructu
   return nullptr;
 }
 
-/// Why no part of the reference is like this one: how that of its name differs.
+/// Returns why no part of the reference is similar: the difference from the part of the same name.
 std::string difference_text(const std::vector<KeptPart>& parts, const std::string& name, const ModelStructure& structure) {
   for (const KeptPart& part : parts)
     if (part.name == name) return surfmesh::difference_of(part.mesh.structure, structure);
   return "the reference has no part of that name";
 }
 
-/// What speaks against taking over triangles before anybody tries; empty: nothing.
+/// Returns a reason against taking over triangles, before any attempt; empty: none.
 std::string objection(const KeptPart& like, const PartTask& task) {
   surfmesh::SurfaceMeshOptions before = like.options, now = task.options;
   if (const std::string names = differing(sterna::options_of(before), sterna::options_of(now)); !names.empty())
@@ -103,7 +103,7 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
   }
   if (!against.empty()) return anew(against);
   const std::string of_cache = "of " + part_name_of(task.model) + " with the triangles of " + reference.name();
-  std::optional<ContentKey> of_like;  // which of the reference's parts it is
+  std::optional<ContentKey> of_like;  // number of the reference's part
   if (key) of_like = KeyMaker("carried").add(*key).add(static_cast<std::uint64_t>(like - parts.data())).key();
   CarriedMesh carried = cached<CarriedMesh>(reuse, "surface_mesh", of_cache, of_like, context,
                                             [&] { return surfmesh::carry_mesh(like->mesh, task.model, structure, std::move(points), task.options, context); });
@@ -115,18 +115,19 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
 
 // ---- Envelopes -------------------------------------------------------------------------------------------------------------------------------
 
-/// What may differ: heights follow what is asked for here, and the feature angle is of the wall.
+/// Options that may differ: heights follow those of this case, and the feature angle depends on the wall.
 constexpr std::string_view k_free_options = " layers first_height max_growth total_height solve_for max_thickness max_relative_height feature_angle ";
 
-/// "envelope of wing: "; notes that the part that took over triangles, if it is one, is being told of.
+/// Returns "envelope of wing: "; if the part took over triangles, marks its envelope as reported.
 std::string envelope_of(const TriMesh& wall, ReferenceUse& reference) {
   CarriedPart* carried = reference.carried(triangles_key(wall));
   if (carried) carried->has_envelope = true;
   return "envelope of " + (carried ? carried->name : wall.patches.raw().front().name) + ": ";
 }
 
-/// The reference's envelope that one of this wall may start from. Null, and why is told, where it made none with these triangles, or options differ; null
-/// without a word where the wall is the reference's own, or (`has_carried` false) nothing on it took over triangles.
+/// Returns the reference's envelope from which the envelope of this wall may start. Returns null, with a report of the reason, if the reference has none with
+/// these triangles, or options differ. Returns null without a report if the wall is the reference's own, or (`has_carried` false) no part of it took over
+/// triangles.
 const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, bool has_carried, const Reuse& reuse,
                                const RunContext& context) {
   const ContentKey connectivity = connectivity_of(wall);
@@ -178,7 +179,7 @@ volmesh::Envelope wall_from_reference(const volmesh::LayerBase& base, const volm
     return envelope;
   }
   const std::string what = envelope_of(base.wall, reference);
-  bool has_carried = false;  // the wall is what is left of a surface where layers grow: parts of it need not have its triangles
+  bool has_carried = false;  // the wall is the part of a surface that has layers: parts need not have its triangles
   for (CarriedPart& part : reference.all_carried()) has_carried = part.has_envelope = true;
   const KeptEnvelope* from = find_start(base.wall, options, what, has_carried, reuse, context);
   if (from == nullptr) return volmesh::build_envelope(base, options, collider, context);

@@ -1,4 +1,4 @@
-// Stages of a case in a series with a reference: in the reference itself they are kept, in the other cases they start from it where that is proved good.
+// Stages of a case in a series with a reference: the reference itself stores them, the other cases start from them if that is proved to be valid.
 #pragma once
 
 #include <functional>
@@ -15,27 +15,27 @@
 
 namespace sterna::scripting {
 
-/// `ordinary`, but parts that are the reference's deformed take over its triangles (surfmesh::carry_mesh), and the reference's own are kept. A part is anew
-/// what `ordinary` makes of it where its geometry is the reference's, and, which is told, where its structure, its options, or sizes by place differ, or what
-/// it took over would not be good. \param key of what `ordinary` makes, for the cache; may be empty
+/// Returns `ordinary` with these changes: parts that are deformed parts of the reference take over its triangles (surfmesh::carry_mesh), and the reference's
+/// own are stored. In these cases a part is meshed by `ordinary`: its geometry is the reference's; or, which is reported, its structure, its options, or sizes
+/// by location differ, or the mesh taken over would not be good. \param key of the result of `ordinary`, for the cache; may be empty
 PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
                            const std::function<std::optional<ContentKey>(const PartTask&, const RunContext&)>& key = {});
 
-/// Makers of envelopes that start from the reference's where the wall has its triangles (volmesh::warm_start), and keep the reference's own. `ordinary` makes
-/// the envelope of a part in any other case, under `key` in the cache.
+/// Returns makers of envelopes that start from the reference's if the wall has its triangles (volmesh::warm_start), and store the reference's own. `ordinary`
+/// makes the envelope of a part in all other cases, under `key` in the cache.
 /// \pre reuse.reference
 volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
                                    const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
 
-/// Tells of every one of a wall's parts that took over triangles and whose envelope nobody asked for, why that did not start from the reference's. After the
-/// wall's envelope was made.
+/// Reports, for each part of a wall that took over triangles and whose envelope was not requested, why that envelope did not start from the reference's. To be
+/// called after the wall's envelope was made.
 void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context);
 
-/// The key of a result that depends on the reference, too; as it is without one.
+/// Returns the key of a result that also depends on the reference; unchanged without a reference.
 std::optional<ContentKey> beside_reference(const std::optional<ContentKey>& key, const Reuse& reuse, const RunContext& context);
 
-/// cached() of stage_cache.h, of a result beside which something is kept or told (ReferenceUse): one from the cache leaves the same. `key` without the
-/// reference.
+/// cached() of stage_cache.h, for a result beside which data is stored or reported (ReferenceUse): a result from the cache restores the same data. `key` is
+/// without the reference.
 template <class T>
 T cached_with_reference(const Reuse& reuse, std::string_view stage, std::string_view what, const std::optional<ContentKey>& key, const RunContext& context,
                         const std::function<T()>& make, const std::function<bool(const T&)>& may_keep = {});
@@ -51,7 +51,7 @@ T cached_with_reference(const Reuse& reuse, std::string_view stage, std::string_
   const ReferenceUse::Mark mark = reference.mark();
   std::optional<ReferenceUse::Beside> found;
   const auto make_here = [&] {
-    found.reset();  // of an entry that turned out to be damaged
+    found.reset();  // data of an entry that turned out to be damaged
     return make();
   };
   const auto write = [&](ByteSink& sink, const T& value) {

@@ -1,4 +1,4 @@
-// The structs that go into keys and entries of the cache, with the number of their members. A number that is wrong does not compile: see members.h.
+// The structs that go into keys and entries of the cache, with the number of their members. A wrong number does not compile: see members.h.
 #pragma once
 
 #include "geom/mesh/check.h"

@@ -19,8 +19,8 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
-constexpr double k_least_told = 0.5;          ///< seconds of a stage whose busy share is told
-constexpr std::size_t k_listed_troubles = 3;  ///< measures that miss a limit in the summary; a finished mesh is told in a dozen lines
+constexpr double k_least_told = 0.5;          ///< seconds of a stage from which its busy share is reported
+constexpr std::size_t k_listed_troubles = 3;  ///< measures that miss a limit in the summary; a finished mesh is summarised in a dozen lines
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
 
@@ -31,24 +31,24 @@ std::string verdict_text(const MeshValue& mesh) {
 
 std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(mesh.mesh.points.size()); }
 
-/// Name and value of the strictest kind of limit that `value` misses.
+/// Returns name and value of the strictest kind of limit that `value` misses.
 std::pair<const char*, double> missed_limit(const GateResult& gate, double value) {
   if (gate.is_hard_missed) return {"hard limit", gate.limits.hard};
   const bool is_target_missed = info_of(gate.measure).is_low_bad ? value < gate.limits.target : value > gate.limits.target;
   return is_target_missed ? std::pair{"target", gate.limits.target} : std::pair{"usual limit", gate.limits.usual};
 }
 
-/// "hard limit 5 deg", "target 12 deg", "usual limit 35 deg"
+/// Returns "hard limit 5 deg", "target 12 deg", "usual limit 35 deg".
 std::string missed_limit_text(const GateResult& gate, double value) {
   const MeasureInfo& info = info_of(gate.measure);
   const auto [name, limit] = missed_limit(gate, value);
   return fmt::format("{} {:.4g}{}", name, in_report_unit(info, limit), info.is_angle ? " deg" : "");
 }
 
-/// Of the worst place that is ours; of any where none is.
+/// Returns the value at the worst location that is not forced by the input surface; the worst of all if there is none.
 double told_value(const GateResult& gate) { return gate.places.empty() ? gate.worst : gate.places.front().value; }
 
-/// By which factor the strictest kind of limit that the worst place misses is missed: what puts troubles in order. Infinite where a lower limit meets 0.
+/// Returns the factor by which the worst location misses the strictest kind of limit: the sort criterion of problems. Infinite if a lower limit meets 0.
 double excess_of(const GateResult& gate) {
   const double value = told_value(gate);
   const double limit = missed_limit(gate, value).second;
@@ -56,7 +56,7 @@ double excess_of(const GateResult& gate) {
   return value > 0.0 && limit > 0.0 ? ratio : std::numeric_limits<double>::infinity();
 }
 
-/// Why the layer is lower than its target where it is nearest to a place; empty where it has its full height, or nothing is known of it.
+/// Returns why the layer closest to a location is lower than its target; empty if it has its full height, or the reason is unknown.
 std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
   const LayerBlock& layers = mesh.layers;
   if (layers.n_lines() == 0 || mesh.request.reason.size() != layers.n_lines() || mesh.request.target_height.size() != layers.n_lines()) return {};
@@ -71,7 +71,7 @@ std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
   return reason > 0 && reason < mesh.request.reasons.size() ? std::string_view(mesh.request.reasons[reason]) : std::string_view();
 }
 
-/// What helps at the worst place of a measure. Where a layer is squeezed, more of it makes it worse.
+/// Returns the remedy at the worst location of a measure. Where a layer is compressed, more layers worsen the measure.
 std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
   const bool is_of_height = gate.measure == Measure::interface_height || gate.measure == Measure::interface_volume || gate.measure == Measure::stack_growth;
   if (!mesh || !is_of_height || gate.places.empty()) return std::string(remedy_of(gate.measure));
@@ -82,7 +82,7 @@ std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
          "\"auto\"";
 }
 
-/// A measure that misses a limit, in one line: what is wrong in plain words, its worst place that is ours, and what would mend it.
+/// Returns a line on a measure that misses a limit: the problem in plain words, its worst location that is not forced, and the remedy.
 std::string trouble_text(const GateResult& gate, const HybridMesh* mesh) {
   const MeasureInfo& info = info_of(gate.measure);
   const double value = told_value(gate);
@@ -92,7 +92,7 @@ std::string trouble_text(const GateResult& gate, const HybridMesh* mesh) {
   return text + "; " + remedy_at(gate, mesh) + "\n";
 }
 
-/// Measures that miss a limit, those that FAIL before those that warn, the worst of each first.
+/// Returns the measures that miss a limit, first those that FAIL, then those that warn, the worst of each first.
 std::vector<const GateResult*> troubles_of(const CheckReport& report) {
   std::vector<const GateResult*> troubles;
   for (const GateState state : {GateState::fail, GateState::warn}) {
@@ -105,7 +105,7 @@ std::vector<const GateResult*> troubles_of(const CheckReport& report) {
   return troubles;
 }
 
-/// The worst few of them. The rest: -v, `sterna check`, manifest, report page.
+/// Returns the worst few of them. The others: -v, `sterna check`, manifest, report page.
 std::string troubles_text(const CheckReport& report, const HybridMesh* mesh) {
   const std::vector<const GateResult*> troubles = troubles_of(report);
   std::string text;
@@ -113,7 +113,7 @@ std::string troubles_text(const CheckReport& report, const HybridMesh* mesh) {
   return text;
 }
 
-/// " G5 G9": the gates with a measure for which `is_meant` holds, each once.
+/// Returns " G5 G9": the gates with a measure for which `is_meant` holds, each once.
 template <class IsMeant>
 std::string gate_names(const CheckReport& report, const IsMeant& is_meant) {
   std::string names;
@@ -126,7 +126,7 @@ std::string gate_names(const CheckReport& report, const IsMeant& is_meant) {
   return names;
 }
 
-/// Time outside the engine: what this program itself needs.
+/// Returns the time outside the engine: that of this program.
 double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
 
 }  // namespace

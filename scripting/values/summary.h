@@ -1,4 +1,4 @@
-// What a run says of itself: one-paragraph descriptions of surfaces and meshes, the closing summary, and the same as JSON for benchmarks.
+// Reports of a run: one-paragraph descriptions of surfaces and meshes, the closing summary, and the same as JSON for benchmarks.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace sterna::scripting {
 
-/// "316 204": groups of three digits.
+/// Returns "316 204": groups of three digits.
 std::string count_text(std::int64_t n);
 
-/// "TriMesh: 316 204 triangles, closed, 7 patches"
+/// Returns "TriMesh: 316 204 triangles, closed, 7 patches".
 std::string describe(const SurfaceValue& surface);
-/// One entry of SurfaceValue::changes: "repaired: 3 holes filled; ..."
+/// Returns one entry of SurfaceValue::changes: "repaired: 3 holes filled; ...".
 std::string change_text(std::string_view done, const std::vector<std::string>& messages);
-/// "HybridMesh: 248 181 nodes, 383 760 prisms, 131 799 tetrahedra, 3 patches, VALID"
+/// Returns "HybridMesh: 248 181 nodes, 383 760 prisms, 131 799 tetrahedra, 3 patches, VALID".
 std::string describe(const MeshValue& mesh);
 
 /// Measured by the caller around a whole run; log and statistics only.
@@ -27,30 +27,31 @@ struct RunMeasure {
   int threads = 0;
 };
 
-/// Peak resident memory of this process so far, bytes.
+/// Returns the peak resident memory of this process so far, bytes.
 double peak_memory_bytes();
 
-/// "cell-centred: FAIL at 3 places (12 of 3.2 M cells): G9 OF; node-centred: pass", "quality not checked".
+/// Returns "cell-centred: FAIL at 3 places (12 of 3.2 M cells): G9 OF; node-centred: pass", "quality not checked".
 std::string quality_text(const CheckReport& report);
-/// "FAIL: G9 OF", "pass": the worst state of the gates and which have it.
+/// Returns "FAIL: G9 OF", "pass": the worst state of the gates and the gates in this state.
 std::string worst_gates_text(const CheckReport& report);
-/// "skew 63.1 deg": the measure that the summary names first and its worst value there; empty where all limits are kept.
+/// Returns "skew 63.1 deg": the measure that the summary names first and its worst value for these gates; empty if all limits are met.
 std::string worst_quality_text(const CheckReport& report);
-/// A dozen lines at most: verdict, sizes, coverage, the worst three measures that miss a limit with their worst place and a remedy. The rest is in `check`, the
-/// manifest and the page.
-/// \param consumers that the verdict is for
+/// Returns a dozen lines at most: verdict, sizes, coverage, the worst three measures that miss a limit with their worst location and a remedy. The rest is in
+/// `check`, the manifest and the page.
+/// \param consumers solvers that the verdict applies to
 /// \pre mesh.origin
 std::string summary_text(const MeshValue& mesh, Consumers consumers = {});
-/// "wrote a.su2, a.vtu, each with a manifest beside it (.json)"
+/// Returns "wrote a.su2, a.vtu, each with a manifest beside it (.json)".
 std::string wrote_text(const std::vector<std::filesystem::path>& names);
-/// What a script's mesh:check() prints, a few lines: verdict, sizes and volume; with `tells_troubles` the worst three measures; violations with their places.
+/// Returns the output of a script's mesh:check(), a few lines: verdict, sizes and volume; with `tells_troubles` the worst three measures; violations with their
+/// locations.
 std::string check_summary_text(const CheckReport& report, bool tells_troubles);
-/// One line: seconds in the tetrahedra engine and the rest, memory.
+/// Returns one line: seconds in the tetrahedra engine and the rest, memory.
 /// \pre mesh.origin
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure);
-/// One line: seconds of each stage, and how busy the threads were.
+/// Returns one line: seconds of each stage, and the utilisation of the threads.
 std::string stages_text(const RunMeasure& measure);
-/// Both as JSON, schema "sterna-stats-1".
+/// Returns both as JSON, schema "sterna-stats-1".
 /// \pre mesh.origin
 std::string stats_json(const MeshValue& mesh, const RunMeasure& measure);
 

@@ -1,4 +1,4 @@
-// Files and surfaces as soups, for what takes them torn: repair and wrap.
+// Files and surfaces as soups, for the verbs that accept defective surfaces: repair and wrap.
 #pragma once
 
 #include <map>
@@ -13,16 +13,16 @@
 namespace sterna::scripting {
 
 struct SurfaceItems {
-  SurfaceValue wall;                       ///< what is known of them but for a mesh; its options know what the manifests beside the files say
+  SurfaceValue wall;                       ///< all known data except a mesh; its options include those of the manifests beside the files
   std::vector<SurfaceSoup> soups;          ///< in units of wall.options.unit
-  std::map<std::string, PatchKind> kinds;  ///< of patches by name
+  std::map<std::string, PatchKind> kinds;  ///< kinds of patches by name
 };
 
-/// Files are read with the unit of the options; surfaces are in metres.
+/// Reads the items: files with the unit of the options; surfaces are in metres.
 /// \throws Error of io
 SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::StitchOptions& options, const RunContext& context);
 
-/// The wall with a mesh made of its soups.
+/// Returns the wall with a mesh made of its soups.
 SurfaceValue with_mesh(const SurfaceItems& items, TriMesh mesh, surfmesh::StitchReport report);
 
 }  // namespace sterna::scripting

@@ -72,7 +72,7 @@ Json quality_json(const surfmesh::SurfaceMeshReport& report) {
       {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface anew"});
 }
 
-/// Normals point into the fluid: inwards all in all.
+/// Returns true if the normals point into the fluid: inwards in total.
 bool encloses_fluid(const TriMesh& mesh) {
   if (mesh.points.empty()) return false;
   const Point origin = mesh.points[VertexId(0)];
@@ -157,7 +157,7 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   std::ifstream in(manifest_of(file.path), std::ios::binary);
   if (!in) return std::nullopt;
   const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
-  if (!json.is_object() || json.value("schema", Json()) != k_schema) return std::nullopt;  // somebody else's file
+  if (!json.is_object() || json.value("schema", Json()) != k_schema) return std::nullopt;  // a file of another program
   if (json.value("output_xxh3_128", Json()) != hash) {
     context.warn(file.name + ".json is of another state of " + file.name +
                  ": kinds of patches and rules for layers in it do not count. Write the surface anew, or delete it");

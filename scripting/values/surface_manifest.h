@@ -1,4 +1,4 @@
-// The manifest beside a surface that surface_mesh made: what it was made of and how good it is, and what a later run can know of it.
+// The manifest beside a surface written by surface_mesh: its inputs, its quality, and the facts that a later run can use.
 #pragma once
 
 #include <filesystem>
@@ -11,31 +11,31 @@
 
 namespace sterna::scripting {
 
-/// Schema sterna-surface-1: inputs with hashes, options, patches, sizes, quality with worst places (angles in degrees, as in reports), the hash of `written`.
-/// Quality is that of surface_mesh; without it the largest turn alone, where it is known. \pre `written` is the finished file.
+/// Returns the manifest, schema sterna-surface-1: inputs with hashes, options, patches, sizes, quality with worst locations (angles in degrees, as in reports),
+/// the hash of `written`. Quality is that of surface_mesh; without it only the largest turn, if known. \pre `written` is the finished file
 /// \throws Error of io
 std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written);
 
-/// Whether there is something that the surface's file cannot hold: quality, kinds of patches, rules for layers, what was changed.
+/// Returns true if there are data that the surface's file cannot hold: quality, kinds of patches, rules for layers, changes.
 bool has_surface_manifest(const SurfaceValue& surface);
 
-/// Writes it as "<written>.json".
+/// Writes the manifest as "<written>.json".
 void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::path& written);
 
-/// What the manifest beside a surface file knows of it.
+/// The content of the manifest beside a surface file.
 struct KnownSurface {
   std::optional<double> smooth_angle;      ///< rad: SurfaceMeshReport::max_smooth_angle
-  std::map<std::string, PatchKind> kinds;  ///< of its patches by name: surface formats do not hold them
-  bool encloses_fluid = false;             ///< its outermost part has normals inwards
+  std::map<std::string, PatchKind> kinds;  ///< kinds of its patches by name: surface formats do not hold them
+  bool encloses_fluid = false;             ///< its outermost part has inward normals
   std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
   std::vector<std::string> changes;        ///< SurfaceValue::changes
   std::vector<std::string> changed;        ///< SurfaceValue::changed
 };
-/// Nothing where there is none, or where it is of another state of the file (`hash` differs), which is a warning.
-/// \throws Error(file_malformed) where it is ours but its contents are not as they must be
+/// Reads the manifest. Returns nothing if there is none. Returns nothing, with a warning, if it belongs to another state of the file (`hash` differs).
+/// \throws Error(file_malformed) if the manifest is of sterna but its contents are invalid
 std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const std::string& hash, const RunContext& context);
 
-/// Kinds by names of patches; names that are not among them keep theirs.
+/// Sets kinds by names of patches; names not in `kinds` keep theirs.
 void set_kinds(Column<PatchId, Patch>& patches, const std::map<std::string, PatchKind>& kinds);
 
 }  // namespace sterna::scripting

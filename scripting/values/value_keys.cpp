@@ -8,8 +8,8 @@
 namespace sterna::scripting {
 namespace {
 
-/// All that is no option of a schema, but for sources, which come behind the envelope. The members are listed so that a new one does not compile until it is in
-/// a key.
+/// Adds all data that are no options of a schema, except sources, which are used only after the envelope. The members are listed so that a new one does not
+/// compile until it is in a key.
 void add_rest(KeyMaker& maker, const volmesh::MeshCase& options) {
   const auto& [first_heights, patches, farfield_surface, sources, discs, wakes, periodic, smooth_angle, parts] =
       static_cast<const volmesh::MeshFacts&>(options);
@@ -58,10 +58,10 @@ ContentKey key_of(const ComponentValue& component) {
 
 ContentKey envelope_options_key(const volmesh::MeshCase& options) {
   volmesh::MeshCase named = options;
-  named.limits = {};  // they decide whether it is made, not what it is
+  named.limits = {};  // limits decide if the envelope is made, not its result
   KeyMaker maker("envelope options");
   maker.add(volmesh::options_of(named, volmesh::k_envelope_step));
-  if (!options.discs.empty()) maker.add(options.size.size_growth);  // decides their triangles
+  if (!options.discs.empty()) maker.add(options.size.size_growth);  // determines their triangles
   add_rest(maker, options);
   return maker.key();
 }
@@ -78,7 +78,7 @@ ContentKey key_of(const volmesh::EnvelopeStage& stage) { return KeyMaker("envelo
 
 ContentKey key_of(const volmesh::FilledStage& stage) {
   KeyMaker maker("filled");
-  const volmesh::TetraResult& tets = stage.tets;  // without what was measured of the engine
+  const volmesh::TetraResult& tets = stage.tets;  // without measurements of the engine
   maker.add(stage.split_wall)
       .add(stage.envelope)
       .add(stage.layers)

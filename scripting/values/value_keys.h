@@ -1,4 +1,4 @@
-// Keys of values by what they hold, see content_key.h.
+// Keys of values by their content, see content_key.h.
 #pragma once
 
 #include <optional>
@@ -21,18 +21,20 @@ struct SurfaceRecipe;
 struct SurfaceValue;
 struct TetrahedraValue;
 
-/// Points, triangles, patches.
+/// Returns the key of points, triangles and patches.
 ContentKey key_of(const TriMesh& mesh);
-/// What surface_mesh is asked for; not the function of place.
+/// Returns the key of all settings of surface_mesh except the function of the location.
 ContentKey key_of(const SurfaceRecipe& recipe);
-/// Mesh, reports, options, inputs by hash, recipe, and, where there is one, the model behind it: nothing where that is not known.
+/// Returns the key of mesh, reports, options, inputs by hash, recipe, and the model behind the mesh if there is one. Returns nothing if the model's inputs are
+/// unknown.
 std::optional<ContentKey> key_of(const SurfaceValue& surface);
-/// The component as it is now.
+/// Returns the key of the component in its current state.
 ContentKey key_of(const ComponentValue& component);
 
-/// What an envelope depends on beside its wall: options of envelope and farfield, rules of patches, discs, the farfield's surface, the smooth angle.
+/// Returns the key of the inputs of an envelope beside its wall: options of envelope and farfield, rules of patches, discs, the farfield's surface, the smooth
+/// angle.
 ContentKey envelope_options_key(const volmesh::MeshCase& options);
-/// What a volume mesh depends on beside its wall: all of it, but for the true surface.
+/// Returns the key of all inputs of a volume mesh beside its wall, except the true surface.
 ContentKey volume_options_key(const volmesh::MeshCase& options);
 ContentKey key_of(const volmesh::EnvelopeStage& stage);
 ContentKey key_of(const volmesh::FilledStage& stage);

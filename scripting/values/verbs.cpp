@@ -29,9 +29,9 @@
 namespace sterna::scripting {
 namespace {
 
-// Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
+// Fractions of the progress of read_wall; reading is bound by the disk, stitching by the intersection test.
 constexpr double k_wall_read_end = 0.3;
-/// Of unite_surfaces; cutting and remeshing take most of its time.
+/// Progress of unite_surfaces; cutting and remeshing take most of its time.
 constexpr double k_union_read_end = 0.2;
 
 void require_output(const std::filesystem::path& path, io::FormatUse use) {
@@ -40,10 +40,10 @@ void require_output(const std::filesystem::path& path, io::FormatUse use) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
-  io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
+  io::AtomicFile probe(path);  // reports why the file cannot be written; removed at once
 }
 
-/// A volume mesh that is taken for a wall is one of wall, planes and farfield: the aircraft becomes a cavity of a body as large as the domain.
+/// Rejects a volume mesh given as a wall: its surface has wall, planes and farfield, and the aircraft would become a cavity of a body as large as the domain.
 void require_surface(const SurfaceSoup& soup, const InputPath& file, const surfmesh::StitchOptions& options) {
   if (soup.n_cells == 0 || options.take_boundary) return;
   std::string names;
@@ -97,7 +97,7 @@ SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
 }
 
 void report_wall(const SurfaceValue& wall, const RunContext& context) {
-  // The unit is never silent: a factor of 1000 looks fine until the solver runs.
+  // The unit is always reported: a factor of 1000 is unnoticed until the solver runs.
   const double unit = wall.options.unit;
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", unit));
   constexpr double k_tiny = 0.1, k_huge = 1000.0;  // m: shorter than models in tunnels, longer than ships
@@ -115,7 +115,7 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
 SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context) {
   SurfaceValue result;
   result.options.unit = unit;
-  result.options.check_intersections = false;  // crossings are what union is for; it proves that its result has none
+  result.options.check_intersections = false;  // union accepts crossings; it proves that its result has none
   result.union_options = options;
   std::vector<UnionPart> parts;
   for (const UnionItem& item : items) {
@@ -177,7 +177,7 @@ void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path,
   const io::Format& format = io::format_to_write(path, io::FormatUse::write_volume, format_name);
   const Numbering numbering = numbering_for(format, options);
   if (numbering == Numbering::lines || format.name == "sterna") return io::write_volume_file(mesh, path, context, format_name);
-  // Cells that are numbered as one have an order of their own, which needs the columns; solvers with values in cells hardly feel the nodes.
+  // A common numbering of all cells has its own order, which needs the columns. The order of nodes hardly affects solvers with values in cells.
   const HybridMesh numbered = renumbered(mesh, format.write_numbered ? Numbering::both : numbering, context);
   io::write_volume_file(numbered, path, context, format_name, numbering);
 }
@@ -186,7 +186,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
   const std::filesystem::path path = given.has_filename() ? given : given.parent_path();  // a folder may end in a slash
   const StageTimer timer(context, "write");
   const RunContext part = context.part("write " + path.filename().string(), 0.0, 1.0);
-  if (path.extension() == ".sterna") {  // holds what is known of the mesh, too
+  if (path.extension() == ".sterna") {  // also holds the known data of the mesh
     io::write_sterna({.mesh = &mesh.mesh,
                       .manifest = manifest_json(mesh, path, context.seed()),
                       .certificate = mesh.origin ? certificate_json(mesh.origin->certificate) : std::string(),
@@ -195,14 +195,14 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
   } else if (const io::Format& format = io::format_to_write(given, io::FormatUse::write_volume, {}); format.name == "OpenFOAM") {
     write_zoned_foam(mesh, given, numbering_for(format, options), part);
   } else {
-    write_mesh_alone(mesh.mesh, given, {}, options, part);  // its slash tells a folder that is still to be made
+    write_mesh_alone(mesh.mesh, given, {}, options, part);  // its slash marks a folder that is still to be created
   }
   write_manifest(mesh, path, context);
 }
 
 namespace {
 
-/// Vertices that single precision puts onto others: neighbours closer than rounding.
+/// Returns the number of vertices that single precision merges with others: neighbours closer than rounding.
 std::int64_t count_merged_by_rounding(const TriMesh& mesh) {
   using Rounded = std::array<float, 3>;
   std::vector<std::pair<Rounded, Point>> points;

@@ -12,7 +12,7 @@
 
 namespace sterna::scripting {
 
-/// What of a wake sheet is no vector.
+/// Scalar options of a wake sheet.
 struct SheetNumbers {
   std::string wing = volmesh::WakeSheet{}.wing;
   double length = volmesh::WakeSheet{}.length;
@@ -70,7 +70,7 @@ using SheetJson = nlohmann::json;
 
 constexpr std::string_view k_wake_sheet_usage = "wake_sheet{ wing = \"main*\", length = 2, growth = 1.2, height_growth = 1.2, alpha = 2*deg }";
 
-/// As in the cases of solvers: x aft, z up.
+/// Returns the flow direction, as in the cases of solvers: x aft, z up.
 Vec3 stream_at(double alpha, double beta) { return {std::cos(alpha) * std::cos(beta), std::sin(beta), std::sin(alpha) * std::cos(beta)}; }
 
 WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {

@@ -1,4 +1,4 @@
-// A wall in two steps: its files read, and then joined, so that what joining refuses can be looked at without reading twice.
+// A wall in two steps: its files are read, and then joined, so that defects that prevent joining can be inspected without reading twice.
 #pragma once
 
 #include <map>
@@ -11,20 +11,21 @@
 
 namespace sterna::scripting {
 
-/// The files of a wall before they are joined.
+/// The files of a wall before joining.
 struct WallFiles {
-  SurfaceValue wall;  ///< all but its mesh; its options know what the manifests beside the files say
+  SurfaceValue wall;  ///< all data except its mesh; its options include those of the manifests beside the files
   std::vector<SurfaceSoup> soups;
-  std::map<std::string, PatchKind> kinds;  ///< of patches, by the manifests
+  std::map<std::string, PatchKind> kinds;  ///< kinds of patches, from the manifests
 };
 
+/// Reads the files.
 /// \throws Error of io
 WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
-/// Joins them by the wall's options.
+/// Joins the files by the wall's options.
 /// \throws Error of surfmesh::stitch_surface
 SurfaceValue join_wall(const WallFiles& files, const RunContext& context);
 
-/// Logs size and unit of a surface that was read, with a hint where the unit seems wrong.
+/// Logs size and unit of a surface that was read, with a hint if the unit seems wrong.
 void report_wall(const SurfaceValue& wall, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -13,11 +13,11 @@
 namespace sterna::scripting {
 namespace {
 
-/// Share of the progress; reading is bound by the disk.
+/// Fraction of the progress; reading is bound by the disk.
 constexpr double k_wrap_read_end = 0.1;
 constexpr const char* k_wrap_stage = "wrap";
 
-/// All that the wrap's mesh and report depend on.
+/// Returns the key of all inputs of the wrap's mesh and report.
 ContentKey wrap_key(const std::vector<SurfaceSoup>& soups, surfmesh::WrapOptions options) {
   KeyMaker maker(k_wrap_stage);
   for (const SurfaceSoup& soup : soups) maker.add(soup.points).add(soup.triangles).add(soup.patch).add(soup.patch_names).add(soup.source).add(soup.has_names);
@@ -50,7 +50,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
   surfmesh::StitchOptions reading;
   reading.unit = options.unit;
   reading.fluid = options.fluid;
-  reading.check_intersections = false;  // the wrap proves that it has none
+  reading.check_intersections = false;  // the wrap proves that its result has none
   reading.allow_open = true;
   const SurfaceItems read = read_items(items, reading, context.part("read", 0.0, k_wrap_read_end));
   surfmesh::WrapOptions used = options;
@@ -70,7 +70,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
         return wall;
       }));
   SurfaceValue wall = with_mesh(read, std::move(made.mesh), std::move(made.report));
-  wall.smooth_angle.reset();  // of the triangles before
+  wall.smooth_angle.reset();  // angle of the triangles before
   wall.wrap_options = used;
   wall.changes.push_back(change_text("wrapped", wall.report.messages));
   note_change(wall, compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "wrap", context), context);

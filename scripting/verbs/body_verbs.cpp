@@ -122,7 +122,7 @@ struct Schema<scripting::RevolutionOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// The part that all bodies share: name, mirror image, position.
+/// The options common to all bodies: name, mirror image, position.
 struct BodyTable {
   ScriptTable table;
   TableReader reader;
@@ -151,7 +151,7 @@ EndCap cap(const std::string& shape, double height) { return {CapShape::dome, sh
 
 BodyFrame point_frame(const Point& at, std::string name) { return {.name = std::move(name), .center = at, .shape = FrameShape::loop, .loop = {at}}; }
 
-/// Points {y, z} of the right half about the middle, bottom to top, in metres, as a frame's own points.
+/// Sets the points {y, z} of the right half relative to the centre, bottom to top, in metres, as a frame's own points.
 void set_points(BodyFrame& frame, const std::vector<std::vector<double>>& rows, TableReader& reader, const std::string& where) {
   double half_width = 0.0, low = rows.front()[1], high = rows.back()[1];
   for (const std::vector<double>& row : rows) half_width = std::max(half_width, row[0]);
@@ -274,7 +274,7 @@ ScriptValue make_pylon_verb(const ScriptCall& call) {
   PylonOptions o;
   const OptionTable schema = sterna::options_of(o);
   OptionTable name = sterna::options_of(shared);
-  name.pop_back();  // it is symmetric where what hangs on it is
+  name.pop_back();  // symmetric if the component that hangs on it is symmetric
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   const auto component = [&](std::size_t i) { return i < items.size() ? std::get_if<ComponentHandle>(&items[i]) : nullptr; };
@@ -295,7 +295,7 @@ ScriptValue make_pylon_verb(const ScriptCall& call) {
 
 namespace {
 
-/// boom{} and sting{}: a body from a point to another.
+/// Makes boom{} and sting{}: a body from one point to another.
 template <class Options>
 ScriptValue make_rod(const ScriptCall& call, std::string_view usage, ComponentKind kind,
                      Body (*make)(const std::string&, const Point&, const Point&, const Options&)) {

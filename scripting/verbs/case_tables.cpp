@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Area, mean chord and quarter-chord point of the wing called `name`, or of the largest. Returns what is wrong; empty: nothing.
+/// Takes area, mean chord and quarter-chord point of the wing called `name`, or of the largest. Returns the problem; empty: none.
 std::string take_wing(const std::vector<WingReference>& wings, const std::string& name, const std::string& why_none, CaseReference& reference) {
   const WingReference* chosen = nullptr;
   std::string names;
@@ -42,7 +42,7 @@ CaseReference read_case_reference(const ScriptCall& call, TableReader& reader, c
     if (const auto* component = std::get_if<ComponentHandle>(value); component && std::holds_alternative<Wing>((*component)->shape)) {
       take({wing_reference(std::get<Wing>((*component)->shape))}, {});
     } else if (is_stand_in(call, *value) && std::holds_alternative<ModelHandle>(*value)) {
-      reference.area = 1.0;  // its wings are not known yet
+      reference.area = 1.0;  // the wings of the placeholder are unknown
     } else if (const auto* model = std::get_if<ModelHandle>(value)) {
       const ModelReport report = measure_model(**model, call.session.context.part("reference", 0.0, 0.1));
       take(report.wings, report.no_wings);

@@ -1,4 +1,4 @@
-// aircraft{}, and what all components have: methods, fields, a line of description.
+// aircraft{}, and the common parts of all components: methods, fields, a line of description.
 #include "scripting/verbs/component_verbs.h"
 #include "scripting/lua/component_value.h"
 
@@ -39,7 +39,7 @@ struct Schema<scripting::AircraftOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// Along the own axis, round ends included.
+/// Returns the length along the body's own axis, round ends included.
 double length_of(const Body& body) {
   const auto cap = [](const EndCap& end, const BodyFrame& frame) {
     return frame.shape == FrameShape::loop ? 0.0 : end.height * 0.25 * (frame.width + frame.height);
@@ -54,7 +54,7 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_aircraft_usage);
   AircraftOptions o;
   UniteOptions unite;
-  OptionTable schema = sterna::options_of(o);  // in one: `unite` is an option and the name of a stage
+  OptionTable schema = sterna::options_of(o);  // in one table: `unite` is an option and the name of a stage
   for (Option& option : sterna::options_of(unite)) schema.push_back(std::move(option));
   TableReader reader(table, call.attempted());
   AircraftParts parts;
@@ -75,7 +75,7 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
   const RunContext context = call.session.context.part("aircraft", 0.0, 1.0);
   ModelValue side_by_side = make_aircraft(parts, context);
   if (!o.unite || is_sketch(call)) return std::make_shared<const ModelValue>(std::move(side_by_side));
-  // The union changes the faces, not what they describe.
+  // The union changes the faces, but not the described components.
   const std::optional<Aircraft> description = side_by_side.description;
   ModelValue united = unite_solids({std::make_shared<const ModelValue>(std::move(side_by_side))}, unite, context);
   united.description = description;
@@ -103,7 +103,7 @@ ScriptValue move_component(const ScriptCall& call) {
   return component;
 }
 
-/// Root-to-tip place on the chord line of a wing's right half.
+/// Returns the point at a root-to-tip position on the chord line of a wing's right half.
 ScriptValue point_on_wing(const ScriptCall& call) {
   const ComponentHandle& component = self<ComponentHandle>(call);
   const auto* wing = std::get_if<Wing>(&component->shape);

@@ -1,4 +1,4 @@
-// Verbs that describe components of an aircraft - wing{}, fuselage{}, nacelle{} and so on - and put them together: aircraft{}.
+// Verbs that describe components of an aircraft - wing{}, fuselage{}, nacelle{} and so on - and combine them: aircraft{}.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace sterna::scripting {
 
-/// fuselage, nacelle, boom, fairing, body_of_revolution, sting, pylon, wing, aircraft.
+/// The verbs fuselage, nacelle, boom, fairing, body_of_revolution, sting, pylon, wing, aircraft.
 std::span<const ScriptVerb> component_verbs();
 std::span<const ScriptVerb> component_methods();
 extern const ScriptVerb k_component_field;
 
-/// "Wing \"main\": 2 x 3 sections, span 34.1 m, area 122 m^2": what it is, in one line.
+/// Returns a one-line description: "Wing \"main\": 2 x 3 sections, span 34.1 m, area 122 m^2".
 std::string describe(const ComponentValue& component);
 
 /// The verbs by subject; each takes one table.
@@ -36,7 +36,7 @@ std::string sting_help();
 std::string deflect_help();
 std::string control_help();
 
-/// Usage lines, where verb and messages need them.
+/// Usage lines, for verbs and messages.
 inline constexpr std::string_view k_wing_usage =
     "wing{ name = \"wing\", symmetric = true, position = {12, 0, -1}, sections = { { y = 0, chord = 6, airfoil = \"naca23012\" }, { y = 15, chord = 2, sweep = "
     "25*deg, dihedral = 5*deg } }, tip = \"round\" }";
@@ -55,7 +55,7 @@ inline constexpr std::string_view k_deflect_usage =
     "main_wing:deflect{ \"aileron\", from = {0.72, 0.75}, to = {0.95, 0.72}, angle = 10*deg, gap = \"sealed\" }";
 inline constexpr std::string_view k_control_usage = "main_wing:control{ \"aileron\", from = {0.72, 0.75}, to = {0.95, 0.72} }";
 
-/// wing:deflect and wing:control (control_verbs.cpp).
+/// The methods wing:deflect and wing:control (control_verbs.cpp).
 ScriptValue deflect_wing(const ScriptCall& call);
 ScriptValue control_wing(const ScriptCall& call);
 

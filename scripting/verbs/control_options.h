@@ -1,4 +1,4 @@
-// Options of deflections, of wings that scripts describe and of control surfaces that files describe.
+// Options of deflections, for wings described by scripts and for control surfaces described by files.
 #pragma once
 
 #include <string>
@@ -22,9 +22,9 @@ struct DeflectOptions {
 
 OtherSide other_side_of(const std::string& choice);
 
-/// { Elevator = 5*deg, ["Flap*"] = { angle = 20*deg, gap = "open" } }: settings in the order of the names; notes problems.
+/// Reads { Elevator = 5*deg, ["Flap*"] = { angle = 20*deg, gap = "open" } }: settings in the order of the names; notes problems.
 std::vector<ControlSetting> read_control_settings(const ScriptTable& table, const std::string& where, TableReader& reader);
-/// Help on what an entry's table holds.
+/// Returns the help on the content of an entry's table.
 std::string control_settings_help();
 
 }  // namespace sterna::scripting

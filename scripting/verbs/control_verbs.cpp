@@ -1,4 +1,4 @@
-// wing:deflect{} and wing:control{}, and deflections of control surfaces that files describe.
+// wing:deflect{} and wing:control{}, and deflections of control surfaces described by files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   return component;
 }
 
-/// The options of one setting; kinds and places are the file's.
+/// Returns the options of one setting; kinds and positions are defined by the file.
 OptionTable setting_options(DeflectOptions& deflect, ControlOptions& control) {
   OptionTable options = sterna::options_of(deflect);
   for (Option& option : sterna::options_of(control))

@@ -16,10 +16,10 @@
 namespace sterna::scripting {
 namespace {
 
-// Shares of the progress of `sterna draw`.
+// Fractions of the progress of `sterna draw`.
 constexpr double k_draw_read_end = 0.4, k_check_end = 0.6;
 
-/// "1600x1000" as two options.
+/// Adds "1600x1000" as two options.
 void add_size(OptionOverrides& options, const std::string& text) {
   const std::size_t by = text.find('x');
   if (by == std::string::npos || by == 0 || by + 1 == text.size())

@@ -1,4 +1,4 @@
-// `sterna draw` and what it shares with the verb draw{}: reading what is to be drawn, drawing it, writing the PNG.
+// `sterna draw` and the functions common with the verb draw{}: reading of the input, drawing, writing of the PNG.
 #pragma once
 
 #include <filesystem>
@@ -23,18 +23,18 @@ struct DrawCommand {
   OptionOverrides options;
 };
 
-/// `sterna draw INPUT -o FILE.png` with one option for each of DrawOptions, and --size.
+/// Adds `sterna draw INPUT -o FILE.png` with one option for each of DrawOptions, and --size.
 CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw);
 int execute(const DrawCommand& command, const CommandContext& context);
 
-/// A surface or volume mesh from a file of that unit (m); a file of a volume format without cells counts as a surface.
+/// Returns a surface or volume mesh from a file of that unit (m); a file of a volume format without cells is read as a surface.
 /// \throws Error of io; (bad_argument) for models, which have no mesh yet
 std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double unit, const RunContext& context);
 
 /// \throws Error(unsupported_format) unless the name ends in .png
 void require_picture_output(const std::filesystem::path& path);
 
-/// The PNG appears whole or not at all. `report`: what check found, for DrawOptions::places; null: it is checked here where that is wanted.
+/// Writes the PNG atomically. `report`: findings of check, for DrawOptions::places; null: the mesh is checked here if they are requested.
 /// \throws Error of draw_png and of io::AtomicFile
 void write_picture(const HybridMesh& mesh, const CheckReport* report, const DrawOptions& options, std::string_view name, const std::filesystem::path& path,
                    const RunContext& context);

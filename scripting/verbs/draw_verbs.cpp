@@ -15,7 +15,7 @@ constexpr std::string_view k_draw_usage =
     "draw{ mesh, \"mesh.png\", view = \"iso\", color = \"quality\" }  or  draw{ mesh, \"edge.png\", cut = \"section 50%\" }  or  draw{ wall, \"wall.png\", "
     "color = \"edge_length\" }";
 
-/// Shortest text that reads back as the same number.
+/// Returns the shortest string that reads back as the same number.
 std::string exact_text(double value) {
   std::array<char, 32> text;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
@@ -29,7 +29,7 @@ std::string list_text(std::span<const double> numbers) {
 
 std::string point_text(const Vec3& p) { return list_text(std::array{p.x, p.y, p.z}); }
 
-/// { {1, 2, 0}, radius = 0.5 }
+/// Converts { {1, 2, 0}, radius = 0.5 }.
 std::optional<std::string> focus_text(const ScriptTable& table) {
   const auto found = table.fields.find("radius");
   if (table.items.size() != 1 || table.fields.size() != 1 || found == table.fields.end()) return std::nullopt;
@@ -38,13 +38,13 @@ std::optional<std::string> focus_text(const ScriptTable& table) {
   return center && radius ? std::optional(point_text(*center) + " radius=" + exact_text(*radius)) : std::nullopt;
 }
 
-/// { 225, 30 } or { -1, -1, 0.5 }
+/// Converts { 225, 30 } or { -1, -1, 0.5 }.
 std::optional<std::string> view_text(const ScriptTable& table) {
   const auto numbers = numbers_of(std::make_shared<const ScriptTable>(table));
   return numbers && (numbers->size() == 2 || numbers->size() == 3) ? std::optional(list_text(*numbers)) : std::nullopt;
 }
 
-/// Entries that may be tables as the texts that options are.
+/// Converts entries that may be tables to the strings of their options.
 ScriptTable with_texts(const ScriptCall& call, ScriptTable table) {
   struct Entry {
     const char* name;
@@ -66,7 +66,7 @@ ScriptTable with_texts(const ScriptCall& call, ScriptTable table) {
   return table;
 }
 
-/// What a picture's title calls it: the case of a series, the first file that it was made of and how many there are beside that, or the script.
+/// Returns the name in a picture's title: the case of a series, the first input file and the number of further ones, or the script.
 std::string name_of(const std::vector<InputFile>& inputs, const ScriptCall& call) {
   if (!call.session.output_folder.empty()) return call.session.output_folder.filename().string();
   if (inputs.empty()) return call.session.script.filename().string();

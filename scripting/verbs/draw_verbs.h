@@ -11,7 +11,7 @@ namespace sterna::scripting {
 
 std::span<const ScriptVerb> draw_verbs();
 
-/// { point = {0, 0, 0}, normal = {0, 1, 0} } or { x = 1.2 } as the text of an option; nothing for other tables.
+/// Returns { point = {0, 0, 0}, normal = {0, 1, 0} } or { x = 1.2 } as the string of an option; nothing for other tables.
 std::optional<std::string> cut_text(const ScriptTable& table);
 
 }  // namespace sterna::scripting

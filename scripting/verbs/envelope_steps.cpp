@@ -1,4 +1,4 @@
-// Each verb makes the site (wall, outer boundary, their hierarchy) anew: a value is what a file can hold, nothing more.
+// Each verb builds the layer domain (wall, outer boundary, their hierarchy) again, because a value contains only the data of a file.
 #include "scripting/verbs/envelope_steps.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using volmesh::EnvelopeStep;
 using volmesh::MeshCase;
 using volmesh::MeshingSite;
 
-/// The options of the envelope with these names, separated by blanks, and of the farfield where they end with it.
+/// Returns the options of the envelope with these names, separated by blanks, and those of the farfield if the list contains it.
 OptionTable some_options(MeshCase& options, std::string_view names) {
   const std::string padded = " " + std::string(names) + " ";
   OptionTable table = envelope_options(options);
@@ -34,7 +34,8 @@ OptionTable some_options(MeshCase& options, std::string_view names) {
   return table;
 }
 
-/// The steps work on the wall as it stands. make_envelope does more where parts were placed, or sides are periodic: the steps would not give its envelope.
+/// The steps treat the wall as one surface. make_envelope performs further steps if parts were placed, or sides are periodic: the steps would not give
+/// its envelope.
 void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
   if (!site.options.periodic.empty())
     reject(call, "the steps by hand do not keep periodic sides alike", "make_envelope{ wall, periodic = ... } does all of them");
@@ -64,7 +65,7 @@ constexpr std::string_view k_initial_names =
     "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement family_wake farfield";
 constexpr std::string_view k_initial_usage = "envelope.initial{ wall, class, layers = 5, first_height = 0.01, max_growth = 1.35 }";
 
-/// The wall as entry 1; for initial the classes as entry 2.
+/// Reads the wall as entry 1; for initial the classes as entry 2.
 SurfaceHandle wall_of(TableReader& reader, std::string_view usage) {
   const std::vector<ScriptValue>& items = reader.items();
   if (const auto* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front())) return *wall;
@@ -119,7 +120,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   choose_boundary_layer(options, reader, call);
   choose_family_wake(options, reader, call);
   MeshCase known = options;
-  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
+  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the rules of the surface may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
   set_first_heights(first_heights, *wall, options, call.session.context);

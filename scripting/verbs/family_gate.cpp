@@ -20,10 +20,10 @@ struct CheckFamilyOptions {
   bool strict = false;
 };
 
-/// What the manifest of a mesh file says of sizes in the volume. One of another file, or of another mesh of that name, says nothing.
+/// Reads the volume sizes in the manifest of a mesh file. A manifest of another file, or of another mesh of that name, is ignored.
 void read_manifest(const std::filesystem::path& file, FamilyMember& member, const RunContext& context) {
   const std::filesystem::path path = file.string() + ".json";
-  std::error_code ignored;  // what cannot be looked up is not there
+  std::error_code ignored;  // a path that cannot be accessed counts as missing
   if (!std::filesystem::exists(path, ignored)) return;
   std::ifstream stream(path, std::ios::binary);
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
@@ -100,7 +100,7 @@ ScriptValue check_family_verb(const ScriptCall& call) {
   for (const auto& [mesh, file] : meshes) {
     const double i = static_cast<double>(members.size());
     const RunContext part = call.session.context.part("check_family", i / n, (i + 1) / n);
-    // Of a mesh that this run has read the name of its file is known, and with it the manifest.
+    // For a mesh that was read in this run the name of its file is known, and therefore the manifest.
     InputPath from = file;
     if (mesh && !mesh->origin && mesh->inputs.size() == 1) from = find_input(call, mesh->inputs.front().name);
     const std::string name = from.name.empty() ? "mesh " + std::to_string(members.size() + 1) : from.name;

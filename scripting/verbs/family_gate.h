@@ -1,4 +1,4 @@
-// The family rule for users: check_family{ coarse, medium, fine } and `sterna check-family`.
+// The family rule as verb and command: check_family{ coarse, medium, fine } and `sterna check-family`.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@
 namespace sterna::scripting {
 
 struct CheckFamilyCommand {
-  std::vector<std::string> inputs;  ///< from coarse to fine
+  std::vector<std::string> inputs;  ///< mesh files from coarse to fine
   OptionOverrides options;
   bool is_json = false;
 };
 
-/// What is known of a mesh: of one made here also what was asked for; of one that was read what the manifest beside its file says, where that is the mesh's
-/// own. `file`: where it was read from; empty: it was made here.
+/// Returns the known data of a mesh. For a mesh made in this run these include the requested options; for a mesh that was read, those of the manifest
+/// beside its file, if the manifest belongs to the mesh. `file`: source of the mesh; empty: made in this run.
 FamilyMember member_of(const MeshValue& mesh, std::string name, const std::filesystem::path& file, const RunContext& context);
 
-/// Status 3 where a rule FAILs.
+/// Returns status 3 if a rule FAILs.
 /// \throws Error of read_mesh and check_family
 int execute(const CheckFamilyCommand& command, const CommandContext& context);
 
-/// check_family.
+/// The verb check_family.
 std::span<const ScriptVerb> family_gate_verbs();
 
 }  // namespace sterna::scripting

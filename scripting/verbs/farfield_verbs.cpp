@@ -27,7 +27,7 @@ constexpr std::string_view k_text_usage =
     "or the name of a file";
 constexpr std::string_view k_prefix = "farfield_";
 
-/// Options of the stage by the names that their own table takes. `options` must outlive the table.
+/// Returns options of the stage by their names in its own table. `options` must outlive the table.
 OptionTable short_options(volmesh::FarfieldOptions& options, std::initializer_list<std::string_view> names) {
   OptionTable table = sterna::options_of(options);
   for (Option& option : table) option.name.remove_prefix(k_prefix.size());
@@ -35,7 +35,7 @@ OptionTable short_options(volmesh::FarfieldOptions& options, std::initializer_li
   return table;
 }
 
-/// sides = { x_min = "inflow", x_max = { kind = "outflow", name = "exit", edge = 0.5 } }, or the text that the option takes.
+/// Reads sides = { x_min = "inflow", x_max = { kind = "outflow", name = "exit", edge = 0.5 } }, or the string form of the option.
 std::string read_sides(TableReader& reader) {
   const ScriptValue* value = reader.field("sides");
   if (!value) return {};
@@ -93,7 +93,7 @@ void put_values(ScriptTable& shape, const OptionTable& schema) {
   }
 }
 
-/// The value of a verb: a table for the stage "farfield".
+/// Makes the value of a verb: a table for the stage "farfield".
 ScriptValue make_shape(const ScriptCall& call, std::string_view shape_name, std::string_view usage, std::initializer_list<std::string_view> names) {
   const ScriptTable table = table_argument(call, 0, usage);
   volmesh::FarfieldOptions options;
@@ -141,7 +141,7 @@ std::string sphere_help() {
 
 namespace {
 
-/// Options of the stage as a table, from a text; numbers as numbers.
+/// Returns the options of the stage as a table, from a string; numbers as numbers.
 ScriptTable table_of_text(const std::string& text) {
   volmesh::FarfieldOptions options, defaults;
   const OptionTable schema = sterna::options_of(options);
@@ -156,7 +156,7 @@ ScriptTable table_of_text(const std::string& text) {
   return table;
 }
 
-/// { tunnel, sides = { floor = "wall" } }: what the entry is, with the sides.
+/// Reads { tunnel, sides = { floor = "wall" } }: the table of the first entry, with the sides.
 ScriptTable table_of_entry(const ScriptCall& call, const ScriptTable& given) {
   TableReader reader(given, call.attempted() + ", farfield");
   ScriptTable table;
@@ -246,7 +246,7 @@ SurfaceHandle read_farfield(const volmesh::FarfieldOptions& options, const std::
   const std::array files = {find(options.farfield_surface)};
   if (is_model_file(files.front().path)) return std::make_shared<const SurfaceValue>(mesh_model_files(files, {}, {}, context));
   surfmesh::StitchOptions reading;
-  reading.allow_open = true;  // it may end in the plane of a half model
+  reading.allow_open = true;  // the surface may end in the plane of a half model
   return std::make_shared<const SurfaceValue>(read_wall(files, reading, context));
 }
 

@@ -1,4 +1,4 @@
-// Limits of the QUALITY gates as users give them: gates = { orthogonality = { hard = 3*deg, target = 15*deg }, face_weight = false }.
+// Limits of the QUALITY gates as given by users: gates = { orthogonality = { hard = 3*deg, target = 15*deg }, face_weight = false }.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace sterna::scripting {
 
-/// The entry `gates` of a table. Keys are names of measures (or of a gate that has one measure, "G5"); hard, target, usual are numbers (angles in radians) or
-/// false for none, share in [0, 1]. A measure that is false has no limits: it is shown only. Notes problems. Returns whether there was any.
+/// Reads the entry `gates` of a table. Keys are names of measures (or of a gate that has one measure, "G5"); hard, target, usual are numbers (angles in
+/// radians) or false for none, share in [0, 1]. A measure that is false has no limits: it is displayed only. Notes problems. Returns true if the entry exists.
 bool read_gate_limits(TableReader& reader, GateTable& limits);
 
-/// The same off the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none".
+/// Sets limits from the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none".
 /// \throws Error(bad_argument)
 void set_gate_limits(std::string_view text, GateTable& limits);
 
-/// The measures with their limits, for help.
+/// Returns the measures with their limits, for help.
 std::string gate_limits_help();
 
 }  // namespace sterna::scripting

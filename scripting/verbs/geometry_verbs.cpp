@@ -20,13 +20,13 @@
 
 namespace sterna::scripting {
 
-/// What airfoil{} takes beside the section itself.
+/// Options of airfoil{} in addition to the section itself.
 struct AirfoilOptions {
   double trailing_edge = k_automatic;
   int points = 0;
   double within = k_automatic;
 };
-/// What surface{} takes beside function and ranges.
+/// Options of surface{} in addition to function and ranges.
 struct SurfaceOptions {
   std::string name = "surface";
   double tolerance = SamplingOptions{}.tolerance;
@@ -34,7 +34,7 @@ struct SurfaceOptions {
   bool periodic_v = false;
   int max_intervals = SamplingOptions{}.max_intervals;
 };
-/// Names of boxes and cylinders; a cylinder's radius.
+/// Names of boxes and cylinders; radius of a cylinder.
 struct SolidOptions {
   std::string name;
   double radius = k_automatic;
@@ -110,14 +110,14 @@ ScriptValue read_cad_verb(const ScriptCall& call) {
   return std::make_shared<const ModelValue>(read_model(*file, options, call.session.context.part("read_cad", 0.0, 1.0)));
 }
 
-/// Of a script that is only checked: whether the file has what its deflections name. The description alone is read, nothing is made of it.
+/// For a script that is only checked: tests if the file has the control surfaces named in its deflections. Only the description is read; no model is made.
 void check_deflections(const ScriptCall& call, const InputPath& file, const std::vector<ControlSetting>& settings, TableReader& reader) {
-  std::error_code ignored;  // what cannot be looked up is not there, which is told elsewhere
+  std::error_code ignored;  // a path that cannot be accessed counts as missing, which is reported elsewhere
   if (!call.session.check || settings.empty() || reader.has_problems() || !std::filesystem::exists(file.path, ignored)) return;
   try {
     with_controls_set(description_of(file, RunContext()), settings);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_argument) return;  // of a file that cannot be read the run tells
+    if (error.code() != ErrorCode::bad_argument) return;  // the run reports a file that cannot be read
     reader.add_problem("deflections: " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : "; " + error.info().hint));
   }
 }
@@ -157,7 +157,7 @@ ScriptValue make_airfoil(const ScriptCall& call) {
   const OptionTable schema = sterna::options_of(options);
   TableReader reader(table, call.attempted());
   std::optional<Airfoil> airfoil;
-  // airfoil{ {1, 0}, {0.5, 0.1}, ... } lists the points themselves, airfoil{ { {1, 0}, ... } } has them as its first entry.
+  // airfoil{ {1, 0}, {0.5, 0.1}, ... } lists the points themselves; airfoil{ { {1, 0}, ... } } has the list as its first entry.
   const std::vector<ScriptValue>& items = reader.items();
   if (items.empty()) reader.add_problem("needs a NACA designation, a file name or a list of points {x, z}: " + std::string(k_airfoil_usage));
   else if (items.size() == 1) airfoil = read_airfoil_value(items.front(), call, reader, "entry 1");
@@ -200,7 +200,7 @@ ScriptValue airfoil_field(const ScriptCall& call) {
 
 constexpr std::string_view k_surface_usage = "surface{ function(u, v) return u, v, 0.1*u*v end, u = {0, 1}, v = {0, 1}, name = \"sheet\", tolerance = 1e-6 }";
 
-/// Faces over halves of the directions that are closed: no seam has to be used twice by one face; sides of no length are poles.
+/// Makes faces over halves of the closed directions, so that no face uses a seam twice; sides of zero length are poles.
 Model model_of_surface(const SampledSurface& sampled, const SurfaceOptions& options, const ParameterBox& box) {
   const SurfacePtr surface = sampled.surface;
   const NurbsSurfaceForm form = *surface->exact_nurbs();
@@ -219,7 +219,7 @@ Model model_of_surface(const SampledSurface& sampled, const SurfaceOptions& opti
   };
   const double size = length({box.u.from, box.v.from}, {box.u.to, box.v.to}) + length({box.u.from, box.v.to}, {box.u.to, box.v.from});
   const auto is_pole = [&](Uv from, Uv to) { return length(from, to) <= sampled.error + 1e-9 * size; };
-  // Rows and columns that a period makes the same have the same number; those of a pole have one corner.
+  // Rows and columns that coincide by periodicity have the same number; those of a pole have one corner.
   const auto row_of = [](std::size_t i, const std::vector<double>& at, bool is_closed) { return is_closed && i + 1 == at.size() ? std::size_t{0} : i; };
   std::vector<CornerId> corners(us.size() * vs.size());
   std::vector<char> is_u_pole(vs.size()), is_v_pole(us.size());
@@ -298,7 +298,7 @@ constexpr std::string_view k_solid_box_usage =
 constexpr std::string_view k_solid_cylinder_usage =
     "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, name = \"tank\" }  or, as a source,  cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.05 }";
 
-/// Two points {x, y, z} as entries 1 and 2.
+/// Returns two points {x, y, z} from entries 1 and 2.
 std::array<Point, 2> two_points(TableReader& reader, std::string_view usage) {
   std::array<Point, 2> points;
   const std::vector<ScriptValue>& items = reader.items();
@@ -392,7 +392,7 @@ std::optional<Airfoil> read_airfoil_value(const ScriptValue& value, const Script
     if (const auto* airfoil = std::get_if<AirfoilHandle>(&value)) return **airfoil;
     if (const auto* text = std::get_if<std::string>(&value)) {
       const InputPath file = find_input(call, *text);
-      // A designation has no extension; a file that is there wins.
+      // A designation has no extension; an existing file wins.
       const bool is_file = std::filesystem::exists(file.path) || (file.path.has_extension() && text->find(' ') == std::string::npos);
       return is_file ? read_airfoil(file.path) : naca_airfoil(*text);
     }

@@ -10,19 +10,20 @@
 
 namespace sterna::scripting {
 
-/// read_cad, read_smx, read_cpacs, airfoil, surface.
+/// The verbs read_cad, read_smx, read_cpacs, airfoil, surface.
 std::span<const ScriptVerb> geometry_verbs();
 extern const ScriptVerb k_airfoil_field;
 std::string describe(const Airfoil& airfoil);
 
-/// box{...} and cylinder{...} without `size`: solids. With it they are sources (source_verbs.h).
+/// Makes box{...} and cylinder{...} without `size`: solids. With `size` they are sources (source_verbs.h).
 ScriptValue make_box_model(const ScriptCall& call);
 ScriptValue make_cylinder_model(const ScriptCall& call);
 
-/// union{...} of models, components and CAD files.
+/// Unites the arguments of union{...}: models, components and CAD files.
 ScriptValue unite_models(const ScriptCall& call);
 
-/// The airfoil that a value names: an airfoil, a NACA designation, a file, or a list of points {x, z}. Notes a problem with the reader and returns nothing.
+/// Returns the airfoil named by a value: an airfoil, a NACA designation, a file, or a list of points {x, z}. If there is a problem, notes it with the reader
+/// and returns nothing.
 std::optional<Airfoil> read_airfoil_value(const ScriptValue& value, const ScriptCall& call, TableReader& reader, const std::string& where);
 
 }  // namespace sterna::scripting

@@ -25,7 +25,7 @@ std::string half_help() {
          options_help(sterna::options_of(of_model));
 }
 
-/// half(x) is half{ x }, whatever x is.
+/// Returns the table of half{ x } for half(x), for any x.
 ScriptTable half_argument(const ScriptCall& call) {
   if (!call.arguments.empty() && std::holds_alternative<SurfaceHandle>(call.arguments.front()))
     return {.items = {call.arguments.front()}, .fields = {}, .other_keys = {}};
@@ -86,9 +86,9 @@ SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& option
   SurfaceValue half = surface;
   half.mesh = half_of(surface.mesh, options, context);
   half.report.is_closed = false;
-  half.mesh_report.reset();                                         // of the whole
-  half.model_wall.reset();                                          // knows its triangles by number
-  std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // of what was on the other side
+  half.mesh_report.reset();                                         // report of the whole surface
+  half.model_wall.reset();                                          // refers to its triangles by number
+  std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // rules of patches on the other side
     return std::none_of(half.mesh.patches.begin(), half.mesh.patches.end(), [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   half.parts.clear();

@@ -1,4 +1,4 @@
-// The verb half: of models cut as exact geometry, of triangulated surfaces as triangles.
+// The verb half: cuts models as exact geometry, and triangulated surfaces as triangles.
 #pragma once
 
 #include <span>
@@ -12,10 +12,10 @@ struct HalfOptions;  // geom/mesh/half.h
 
 namespace sterna::scripting {
 
-/// half. Takes a surface, the name of a surface's file, models or components.
+/// The verb half. Takes a surface, the name of a surface's file, models or components.
 std::span<const ScriptVerb> half_verbs();
 
-/// The half of a surface with where it came from.
+/// Returns the half of a surface with its origin.
 /// \throws Error of half_of
 SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& options, const RunContext& context);
 

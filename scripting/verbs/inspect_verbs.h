@@ -1,4 +1,4 @@
-// The verb inspect{...}: what volume_mesh will make of a surface, before it is meshed.
+// The verb inspect{...}: the expected result of volume_mesh for a surface, before meshing.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@ namespace sterna::scripting {
 
 std::span<const ScriptVerb> inspect_verbs();
 
-/// What stands for the table of an inspection where a script is only checked: nothing was found.
+/// Returns a placeholder for the table of an inspection if a script is only checked: no findings.
 ScriptValue inspection_stand_in();
 
 }  // namespace sterna::scripting

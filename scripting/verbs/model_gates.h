@@ -1,4 +1,4 @@
-// Gates G17 and G18 for users: mesh:check{ wall = wall }, wall:check(), sterna check --model.
+// Gates G17 and G18 as verbs and commands: mesh:check{ wall = wall }, wall:check(), sterna check --model.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace sterna::scripting {
 
-/// \throws Error(bad_argument) where the surface does not know its model, with what to do instead
+/// \throws Error(bad_argument) with a remedy if the surface has no model
 void require_model_wall(const SurfaceValue& wall, const std::string& attempted);
 
-/// Measures the mesh's walls against the model of `wall` and puts both gates into the report; what was left out goes to the log.
+/// Measures the mesh's walls against the model of `wall` and adds both gates to the report; omissions go to the log.
 /// \pre wall.model_wall; report.quality_measured
 void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const GateTable& limits, CheckReport& report, const RunContext& context);
 
-/// surface:check, a method.
+/// The method surface:check.
 extern const ScriptVerb k_check_surface;
 
 }  // namespace sterna::scripting

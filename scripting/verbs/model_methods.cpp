@@ -17,7 +17,7 @@
 
 namespace sterna::scripting {
 
-/// A full turn: more is degrees without `*deg`.
+/// A full turn: larger values are degrees without `*deg`.
 inline constexpr double k_turn = 6.2831853071795865;
 
 struct RotateOptions {
@@ -92,7 +92,7 @@ constexpr std::string_view k_kinds_usage = "model:kinds{ [\"Body*\"] = \"slip\" 
 constexpr std::string_view k_deflect_model_usage = "airliner:deflect{ [\"Rud*\"] = { angle = 5*deg, gap = \"sealed\" } }";
 constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\" }";
 
-/// What a model was described by does not describe it any more.
+/// Returns the model without its description, which is no longer valid.
 ScriptValue without_description(ModelValue value, std::string_view by) {
   if (value.description) value.without_description = "it was changed by " + std::string(by);
   value.description.reset();
@@ -100,7 +100,7 @@ ScriptValue without_description(ModelValue value, std::string_view by) {
   return std::make_shared<const ModelValue>(std::move(value));
 }
 
-/// Another geometry: one part, where it is.
+/// Returns a model with another geometry: one part, at its location.
 ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
   ModelValue value = *old;
   value.model = std::move(model);
@@ -108,10 +108,10 @@ ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
   return without_description(std::move(value), by);
 }
 
-/// The same model elsewhere.
+/// Returns the same model at another location.
 ScriptValue moved(const ModelHandle& old, const Transform& motion, std::string_view by) {
   ModelValue value = *old;
-  value.parts = parts_of(*old);  // which knows what it was made of; its copies do not
+  value.parts = parts_of(*old);  // has the key of its inputs; its copies do not
   move_parts(motion, value);
   return without_description(std::move(value), by);
 }
@@ -255,7 +255,7 @@ ScriptValue set_kinds(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   ModelValue value = *handle;
   value.is_as_described = false;
-  // Patterns that spell out more come later, so that they win.
+  // Patterns with more literal letters come later, so that they win.
   std::vector<std::string> patterns;
   for (const auto& [pattern, kind] : table.fields) patterns.push_back(pattern);
   std::stable_sort(patterns.begin(), patterns.end(), [](const std::string& a, const std::string& b) { return n_spelled_out(a) < n_spelled_out(b); });
@@ -403,7 +403,7 @@ ScriptValue model_field(const ScriptCall& call) {
     fields.emplace_back("min", list_of(box.min));
     fields.emplace_back("max", list_of(box.max));
   }
-  // What m.components lists can be asked for as it is listed; members and methods keep their names.
+  // Any name in m.components can be used as a field; members and methods keep their names.
   const bool is_member = name && (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.first == *name; }) ||
                                   std::any_of(model_methods().begin(), model_methods().end(),
                                               [&](const ScriptVerb& verb) { return verb.name.substr(verb.name.find(':') + 1) == *name; }));
@@ -446,7 +446,7 @@ constexpr std::array<ScriptVerb, 12> k_methods = {{
 Transform read_shift(const ScriptCall& call, std::string_view usage) {
   const ScriptTable table = table_argument(call, 1, usage);
   TableReader reader(table, call.attempted());
-  // move{ {x, y, z} } as well as move{ x, y, z }
+  // Accepts move{ {x, y, z} } as well as move{ x, y, z }.
   auto shift = table.items.size() == 1 ? point_of(table.items.front()) : point_of(std::make_shared<const ScriptTable>(ScriptTable{reader.items(), {}, {}}));
   reader.items();
   if (!shift) reader.add_problem("expected three numbers, dx, dy, dz in metres: " + std::string(usage));

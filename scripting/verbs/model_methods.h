@@ -1,4 +1,4 @@
-// Methods and fields of models: model:write, model:move, model:rotate, model:deform and so on. Each gives a new model; none changes the old one.
+// Methods and fields of models: model:write, model:move, model:rotate, model:deform and so on. Each returns a new model; none changes the old one.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ std::span<const ScriptVerb> model_methods();
 /// model.faces; model["wing*"] are the components of that name, as a model.
 extern const ScriptVerb k_model_field;
 
-/// What object:move{ dx, dy, dz } and object:rotate{ ... } say, of models and surfaces.
+/// Reads the motion of object:move{ dx, dy, dz } and object:rotate{ ... }, for models and surfaces.
 /// \throws Error(bad_argument)
 Transform read_shift(const ScriptCall& call, std::string_view usage);
 Transform read_turn(const ScriptCall& call, std::string_view usage);

@@ -1,4 +1,4 @@
-// The verb repair, and what read_surface takes of it and of --auto.
+// The verb repair, and the entries repair, wrap and auto of read_surface.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@
 
 namespace sterna::scripting {
 
-/// repair.
+/// The verb repair.
 std::span<const ScriptVerb> repair_verbs();
 
-/// How read_surface reads: nothing where its table has none of repair, wrap and auto.
+/// Reader for read_surface; empty if its table has none of repair, wrap and auto.
 using SurfaceReader = std::function<SurfaceValue(const std::vector<InputPath>&, const surfmesh::StitchOptions&, const RunContext&, const Reuse&)>;
-/// repair = true or a table of repair's options, wrap likewise, auto = true; at most one of them.
+/// Reads repair = true or a table of repair's options, wrap likewise, auto = true; at most one of them.
 SurfaceReader read_surface_entry(TableReader& reader, const ScriptCall& call);
 
 }  // namespace sterna::scripting

@@ -13,9 +13,9 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_straight = 1e-9;  ///< rad: smaller angles of the flow are zero
+constexpr double k_straight = 1e-9;  ///< rad: smaller angles of the flow are treated as zero
 
-/// The kind of the patches that such a value is for.
+/// Returns the kind of the patches to which such a value applies.
 PatchKind kind_with(std::string_view value) {
   return value == "pressure" ? PatchKind::outflow : value.starts_with("total_") ? PatchKind::inflow : PatchKind::interface;
 }
@@ -38,7 +38,7 @@ Column<PatchId, PatchFacts> facts_of(const HybridMesh& mesh) {
   return facts;
 }
 
-/// Patches with a node on an inflow or outflow.
+/// Returns the patches with a node on an inflow or outflow.
 std::set<PatchId> beside_openings(const HybridMesh& mesh) {
   const auto is_opening = [&](PatchId p) { return mesh.patches[p].kind == PatchKind::inflow || mesh.patches[p].kind == PatchKind::outflow; };
   std::vector<std::uint8_t> is_on(mesh.points.size(), 0);
@@ -96,7 +96,7 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
   if (site.monitored.empty() && patterns.empty() && !site.is_tunnel) problems.add("no wall is left whose forces count: name some with monitor");
 }
 
-/// The verdict for the kind of solver that uses the measure, as a warning where a gate FAILs.
+/// Reports the verdict for the kind of solver that uses the measure, as a warning if a gate FAILs.
 void report_verdict(const CheckReport& report, Measure measure, std::string_view solver, const RunContext& context) {
   for (const Consumer consumer : k_consumers) {
     if (!info_of(measure).consumers.has(consumer)) continue;
@@ -126,7 +126,7 @@ CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckR
   }
   report_verdict(*known, measure, solver, context);
   const GateResult& gate = known->gate(measure);
-  CaseMeasure result{.worst = gate.worst, .place = {}};  // in a mesh of one cell 0 between cells
+  CaseMeasure result{.worst = gate.worst, .place = {}};  // 0 for a measure between cells in a mesh of one cell
   for (const auto* places : {&gate.places, &gate.forced})
     if (!places->empty() && places->front().value == gate.worst) result.place = places->front().position;
   return result;

@@ -1,4 +1,4 @@
-// What mesh:su2_config and mesh:foam_case have in common: options, reference values, conditions at openings, and what the patches of a mesh are to a solver.
+// Common parts of mesh:su2_config and mesh:foam_case: options, reference values, conditions at openings, and the role of a mesh's patches in a solver.
 #pragma once
 
 #include <map>
@@ -28,7 +28,7 @@ struct CaseOptions {
   int iterations = 5000;
 };
 
-/// What happens at an opening or an actuator disc.
+/// The condition at an opening or an actuator disc.
 struct CaseBoundary {
   double pressure = k_automatic;
   double total_pressure = k_automatic;
@@ -37,7 +37,7 @@ struct CaseBoundary {
   double pressure_jump = k_automatic;
   double temperature_jump = 0.0;
 };
-using CaseBoundaries = std::map<std::string, CaseBoundary>;  ///< by names of patches
+using CaseBoundaries = std::map<std::string, CaseBoundary>;  ///< conditions by names of patches
 
 /// Reference values of the whole aircraft.
 struct CaseReference {
@@ -47,13 +47,13 @@ struct CaseReference {
   std::string source;           ///< "wing "main"": for the file and the log
 };
 
-/// What patches with such names are to the solver, in place of what they were when the mesh was made.
+/// Kind of patches with matching names in the solver, in place of the kind in the mesh.
 struct CaseKind {
-  std::string names;  ///< pattern; of two that match the one with more letters counts
+  std::string names;  ///< pattern; of two that match, the one with more letters applies
   PatchKind kind = PatchKind::wall;
 };
 
-/// What a case is asked to be, whatever the solver.
+/// The request for a case, independent of the solver.
 struct CaseRequest {
   CaseOptions options;
   volmesh::FlowState flow;
@@ -62,16 +62,16 @@ struct CaseRequest {
   std::vector<CaseKind> kinds;
 };
 
-/// The worst value of a quality measure, by which a solver's numerics are chosen.
+/// The worst value of a quality measure, which determines a solver's numerics.
 struct CaseMeasure {
   double worst = 0.0;          ///< in the measure's unit
-  std::optional<Point> place;  ///< m, where it misses a limit of its gate
+  std::optional<Point> place;  ///< m, if it misses a limit of its gate
 };
 
-/// Of the last check of the mesh, or by a check of its own where that has not measured it. \p solver as the error names it
-/// \throws Error(bad_argument) where the mesh does not conform, so that nothing can be measured
+/// Returns the worst value from the last check of the mesh, or from a new check if the last one has not measured it. \p solver as named in the error
+/// \throws Error(bad_argument) if the mesh is not conforming, so that the measure is undefined
 CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckReport* known, std::string_view solver, const RunContext& context);
-/// " at (x, y, z)", or nothing.
+/// Returns " at (x, y, z)", or nothing.
 std::string at_place(const CaseMeasure& measure);
 
 struct PatchFacts {
@@ -80,7 +80,7 @@ struct PatchFacts {
   double size = 0.0;  ///< m^2
 };
 
-/// What cannot be known from the mesh and what was given: all of it is told at once.
+/// Collects missing data that are neither in the mesh nor given: all are reported together.
 class CaseProblems {
  public:
   void add(std::string text) { all_.push_back(std::move(text)); }
@@ -92,44 +92,45 @@ class CaseProblems {
   std::vector<std::string> all_;
 };
 
-/// The patches of a mesh as solvers see them.
+/// The patches of a mesh as used by solvers.
 struct CaseSite {
   Column<PatchId, PatchFacts> facts;
-  std::vector<PatchId> monitored;    ///< whose forces count: those that `monitor` names, else all walls but those of tunnels
+  std::vector<PatchId> monitored;    ///< patches with force output: those that `monitor` names, else all walls except those of tunnels
   std::vector<PatchId> unmonitored;  ///< walls of a tunnel: they touch an inflow or outflow
   bool has_layers = false;
   bool is_tunnel = false;    ///< openings and no farfield
-  bool is_internal = false;  ///< a tunnel without a model in it (duct, nozzle): what counts is what happens between its openings, not forces
+  bool is_internal = false;  ///< a tunnel without a model in it (duct, nozzle): the output is the flow between its openings, not forces
   bool is_half = false;
   std::vector<PatchId> inflows, outflows;
 };
 
-/// The mesh with other kinds of patches; nothing where none is asked for. Cells stay as they are, so layers may stand on a slip wall.
-/// \throws Error(bad_argument) for a pattern that no patch is like, the kind interface, periodic sides and actuator discs
+/// Returns the mesh with other kinds of patches; nothing if no kind is changed. Cells are kept, so layers may be on a slip wall.
+/// \throws Error(bad_argument) for a pattern that matches no patch, the kind interface, periodic sides and actuator discs
 std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKind> kinds, const std::string& attempted);
 
-/// \param unknown patches of which nothing says the kind (MeshValue::unknown_kinds): a guess would become a boundary condition
-/// \throws Error(bad_argument) that names those for which there is no rule in `kinds`
+/// \param unknown patches of unknown kind (MeshValue::unknown_kinds): a guess would become a boundary condition
+/// \throws Error(bad_argument) that names the patches without a rule in `kinds`
 void require_known_kinds(const std::set<std::string>& unknown, const std::vector<CaseKind>& kinds, const std::string& attempted);
 
-/// \param mesh of which a plane of symmetry makes a half model
+/// \param mesh a plane of symmetry makes it a half model
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);
 
-/// Whether the patch is one of two periodic sides.
+/// Returns true if the patch is one of two periodic sides.
 bool is_periodic(const HybridMesh& mesh, PatchId patch);
-/// A disc has two sides: <name>, upstream, and <name>.back. The other side of the one, and of the other; nothing where the patch is not that one.
+/// A disc has two sides: <name>, upstream, and <name>.back. The functions return the side opposite to the front and to the back; nothing if the patch is not
+/// that side.
 std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
 std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
 
-/// Conditions by names of patches, which notes what was used.
+/// Conditions by names of patches, with a record of the used conditions.
 class UsedBoundaries {
  public:
   explicit UsedBoundaries(const CaseBoundaries& boundaries) : boundaries_(boundaries) {}
-  /// Of no such name: nothing is given.
+  /// Returns the condition of the patch; an empty one if its name is not given.
   CaseBoundary of(const Patch& patch);
-  /// Pa, over an actuator disc; nothing, and a problem, where it cannot be known.
+  /// Returns the pressure jump over an actuator disc, Pa; nothing, and adds a problem, if it cannot be determined.
   std::optional<double> pressure_jump(const Patch& disc, double area, CaseProblems& problems);
-  /// A problem for every name that no patch asked for, and for every value that means nothing at such a patch (a thrust at an inflow).
+  /// Adds a problem for every name that no patch has used. Adds a problem for every value that has no meaning at such a patch (a thrust at an inflow).
   void require_used(CaseProblems& problems) const;
 
  private:
@@ -137,15 +138,15 @@ class UsedBoundaries {
   std::map<std::string, PatchKind> used_;
 };
 
-/// m^2 and m, as the solver is to count.
+/// Return the values for the solver, m^2 and m.
 double reference_area(const CaseReference& reference, const CaseSite& site);
 double reference_length(const CaseReference& reference, const volmesh::FlowState& flow);
-/// The point without what rounding has left of zeros.
+/// Returns the point with zeros in place of rounding errors.
 Point moment_origin(const CaseReference& reference, const volmesh::FlowState& flow);
 
-/// A component of a vector of this length: what rounding has left of a zero is one, so no "-3.3e-16" stands in a file that people read.
+/// Returns a component of a vector of this length, with zero in place of a rounding error, so that "-3.3e-16" does not occur in human-readable files.
 double clean_component(double x, double length);
-/// Into the fluid, unit length.
+/// Returns the normal into the fluid, unit length.
 Vec3 inward_normal(const PatchFacts& facts);
 std::string case_number(double x);
 

@@ -18,7 +18,7 @@
 
 namespace sterna::scripting {
 
-/// The numbers of all kinds of sources; each verb takes some of them.
+/// The numbers of all kinds of sources; each verb accepts some of them.
 struct SourceNumbers {
   double size = k_automatic;
   double size_end = k_automatic;
@@ -63,7 +63,7 @@ struct KindOfSource {
   SourceKind kind;
   std::string_view verb;
   std::size_t n_points;
-  std::string_view numbers;  ///< that the verb takes, separated by blanks
+  std::string_view numbers;  ///< accepted by the verb, separated by blanks
   std::string_view usage;
 };
 constexpr std::array<KindOfSource, 6> k_source_kinds = {{
@@ -80,7 +80,7 @@ constexpr std::string_view k_wake_usage =
     "= 2 }";
 constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name = \"size\" }";
 
-/// "line takes two points, size, radius"
+/// Returns "line takes two points, size, radius".
 std::string keys_text(const KindOfSource& kind) {
   std::string text = std::string(kind.verb) + " takes " + (kind.n_points == 2 ? "two points" : "a point");
   std::istringstream numbers{std::string(kind.numbers)};
@@ -88,7 +88,7 @@ std::string keys_text(const KindOfSource& kind) {
   return kind.kind == SourceKind::wake ? text + ", direction" : text;
 }
 
-/// The dimension of what is said under that key of a source: a direction is none, anything else a length unless its option says otherwise.
+/// Returns the dimension of the value with that key of a source: none for a direction, that of the option if there is one, else a length.
 Unit unit_of_key(const std::string& key) {
   SourceNumbers numbers;
   for (const Option& option : sterna::options_of(numbers))
@@ -96,7 +96,7 @@ Unit unit_of_key(const std::string& key) {
   return key == "direction" ? Unit::none : Unit::metre;
 }
 
-/// The options that this kind takes; `numbers` must outlive them.
+/// Returns the options of this kind; `numbers` must outlive them.
 OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
   OptionTable table = sterna::options_of(numbers);
   std::erase_if(table, [&](const Option& option) { return kind.numbers.find(" " + std::string(option.name) + " ") == std::string_view::npos; });
@@ -104,7 +104,7 @@ OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
 }
 
 SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::string& attempted) {
-  table.fields.erase("shape");  // the verb's own note, no key of the user's
+  table.fields.erase("shape");  // set by the verb, no key of the user's
   SizeSource source{.kind = kind.kind};
   SourceNumbers numbers;
   const OptionTable options = options_of(numbers, kind);
@@ -150,7 +150,7 @@ ScriptTable source_table(const ScriptCall& call) {
 ScriptValue make_source(const ScriptCall& call, const KindOfSource& kind) {
   ScriptTable table = source_table(call);
   const SizeSource source = source_of(table, kind, call.attempted());
-  // Growth is known by volume_mesh only; all the rest can be told at this line.
+  // Growth is known only in volume_mesh; all other problems can be reported for this line.
   if (const std::string problem = problem_of(source, k_unbounded); !problem.empty())
     throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = problem, .hint = std::string(kind.usage)});
   table.fields["shape"] = std::string(kind.verb);
@@ -178,7 +178,7 @@ ScriptValue make_cylinder_or_source(const ScriptCall& call) {
 
 ScriptValue point_value(const Vec3& p) { return std::make_shared<const ScriptTable>(ScriptTable{.items = {p.x, p.y, p.z}, .fields = {}, .other_keys = {}}); }
 
-/// wake{ wall, length = 2 }: the numbers follow from the surface, which is why it becomes the table of an ordinary wake.
+/// Makes wake{ wall, length = 2 }: the numbers follow from the surface, therefore the result is the table of an ordinary wake.
 ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) {
   const ScriptTable table = source_table(call);
   TableReader reader(table, call.attempted());
@@ -218,7 +218,7 @@ std::string wake_help() {
   return options_help(options_of(numbers, k_source_kinds[5])) + "behind a surface, wake{ wall, length = 2 }:\n" + options_help(sterna::options_of(wake));
 }
 
-/// Checked here, read by the verb that uses it.
+/// Checks the table here; the file is read by the verb that uses it.
 ScriptValue make_samples(const ScriptCall& call) {
   ScriptTable table;
   if (call.arguments.size() == 1 && std::holds_alternative<std::string>(call.arguments.front())) table.items.push_back(call.arguments.front());
@@ -236,7 +236,7 @@ ScriptValue make_samples(const ScriptCall& call) {
 SizeSource read_samples(const ScriptTable& table, const ScriptCall& call) {
   const std::filesystem::path given = std::get<std::string>(table.items.front());
   const std::filesystem::path beside_script = call.session.script.parent_path() / given;
-  std::error_code ignored;  // a name that cannot be looked up is reported by the reader, with its reason
+  std::error_code ignored;  // a name that cannot be accessed is reported by the reader, with the reason
   const bool is_beside = given.is_relative() && !std::filesystem::exists(given, ignored) && std::filesystem::exists(beside_script, ignored);
   const auto name = table.fields.find("name");
   io::PointField field =

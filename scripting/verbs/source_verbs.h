@@ -1,4 +1,4 @@
-// The verbs that make sources of the size field: box{...}, line{...}, wake{...} and so on, and reading them back from a verb's table.
+// The verbs that make sources of the size field: box{...}, line{...}, wake{...} and so on, and reading of sources from a verb's table.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@
 
 namespace sterna::scripting {
 
-/// point, line, box, cylinder, wake, size_samples. The values are tables with the field "shape", whose name is the verb's.
+/// The verbs point, line, box, cylinder, wake, size_samples. Their values are tables with the field "shape", whose name is the verb's.
 std::span<const ScriptVerb> source_verbs();
-/// ball of a given size: sphere{ {x, y, z}, radius = 1, size = 0.1 }, which shares its verb with the farfield.
+/// Makes a ball of a given size: sphere{ {x, y, z}, radius = 1, size = 0.1 }, which shares its verb with the farfield.
 ScriptValue make_sphere_source(const ScriptCall& call);
 
-/// The entry "sources" of a table: a list of what the verbs above made, or one. Notes problems with the reader.
+/// Reads the entry "sources" of a table: a value of the verbs above, or a list of them. Notes problems with the reader.
 std::vector<volmesh::SizeSource> read_sources(TableReader& reader, const ScriptCall& call);
-/// A source of the command line, "line 0 0 0 8 0 0 size=0.02 radius=0.5" or "cylinder from=0,0,0 to=8,0,0 radius=1 size=0.1": the verb's name, its points (also
-/// from, to, center), its named numbers. Numbers take units.
+/// Parses a source of the command line, "line 0 0 0 8 0 0 size=0.02 radius=0.5" or "cylinder from=0,0,0 to=8,0,0 radius=1 size=0.1": the verb's name, its
+/// points (also from, to, center), its named numbers. Numbers take units.
 /// \throws Error(bad_argument, unknown_option)
 volmesh::SizeSource source_of_text(const std::string& text);
 
-/// "length=2 size=0.05 direction=1,0,0.05"; may be empty.
+/// Parses "length=2 size=0.05 direction=1,0,0.05"; may be empty.
 /// \throws Error(bad_argument, unknown_option), also as volmesh::wake_behind
 volmesh::SizeSource wake_of_text(const std::string& text, const TriMesh& wall);
 

@@ -53,7 +53,7 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   choose_boundary_layer(options, reader, call);
   choose_family_wake(options, reader, call);
   volmesh::MeshCase known = options;
-  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
+  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the rules of the surface may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
   auto given = std::make_shared<SurfaceValue>(*wall);
@@ -85,7 +85,7 @@ ScriptValue make_tetrahedra_verb(const ScriptCall& call) {
 
 constexpr std::string_view k_prisms_usage = "prisms{ env, tets, improve_rounds = 30 }";
 
-/// The layer is laid out before the tetrahedra are made (it may have to be lower than the envelope was), so what it is made with belongs to tetrahedra{}.
+/// The layer is subdivided before the tetrahedra are made (it may have to be lower than the envelope), so its options belong to tetrahedra{}.
 void refuse_layer_options(TableReader& reader) {
   volmesh::PrismOptions options;
   for (const Option& option : sterna::options_of(options))
@@ -130,10 +130,10 @@ ScriptValue read_stages_verb(const ScriptCall& call) {
 
 // ---- Methods and fields --------------------------------------------------------------------------------------------------------------------
 
-/// The envelope's points on the connectivity of the wall.
+/// Returns the envelope's points with the connectivity of the wall.
 SurfaceValue surface_of(const EnvelopeValue& envelope) {
   SurfaceValue surface = *envelope.wall;
-  surface.mesh_report.reset();  // of the wall
+  surface.mesh_report.reset();  // report of the wall
   surface.parts.clear();
   for (const VertexId v : surface.mesh.points.ids()) surface.mesh.points[v] = envelope.stage.envelope.point(envelope.wall->mesh, v);
   return surface;

@@ -1,4 +1,4 @@
-// The verbs of a volume mesh by hand: make_envelope, tetrahedra, prisms, read_stages, and their objects.
+// The verbs for a volume mesh step by step: make_envelope, tetrahedra, prisms, read_stages, and their objects.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ std::span<const ScriptVerb> stage_verbs();
 std::span<const ScriptVerb> envelope_methods();
 std::span<const ScriptVerb> tetrahedra_methods();
 
-/// object.name for names that are no method.
+/// Verbs that read object.name for names that are no method.
 extern const ScriptVerb k_envelope_field;
 extern const ScriptVerb k_tetrahedra_field;
 

@@ -1,5 +1,5 @@
-// Keys, formats and units as SU2's config_template.cfg (version 8) has them. Steps of su2_config: what each patch is (area, normal, neighbours); markers of
-// every kind; flow and reference values; text.
+// Keys, formats and units as in SU2's config_template.cfg (version 8). Steps of su2_config: facts of each patch (area, normal, neighbours); markers of every
+// kind; flow and reference values; text.
 #include "scripting/verbs/su2_config.h"
 
 #include <algorithm>
@@ -19,9 +19,10 @@ namespace {
 
 using volmesh::FlowState;
 
-/// How SU2 marches to the steady state. SU2's own advice for RANS and upwind schemes: a CFL number below 20 is low, above 100 high; ten iterations of the
-/// linear solver are enough on a sound mesh. Faces of control volumes that lie along their edges make the matrix less dominant, so lower numbers come with more
-/// iterations there. The two limits are the gate's (G5); no run has tested them, since SU2 is not in Debian.
+/// Parameters of SU2's iteration to the steady state. SU2's own advice for RANS and upwind schemes: a CFL number below 20 is low, above 100 high; ten
+/// iterations of the linear solver are enough on a sound mesh. Faces of control volumes that are nearly parallel to their edges make the matrix less diagonally
+/// dominant, so lower numbers are combined with more iterations there. The two limits are those of the gate (G5); no run has tested them, since SU2 is not in
+/// Debian.
 struct March {
   double cfl, largest_cfl;
   int linear_iterations;
@@ -30,8 +31,8 @@ constexpr March k_usual_march{.cfl = 10.0, .largest_cfl = 1000.0, .linear_iterat
 constexpr March k_careful_march{.cfl = 5.0, .largest_cfl = 100.0, .linear_iterations = 15};
 constexpr March k_slow_march{.cfl = 1.0, .largest_cfl = 20.0, .linear_iterations = 20};
 constexpr int k_force_window = 200;            ///< iterations
-constexpr double k_force_change = 0.002;       ///< of lift and drag within the window
-constexpr double k_no_angle = 0.1 * k_degree;  ///< of attack: lift may be zero below it
+constexpr double k_force_change = 0.002;       ///< largest change of lift and drag within the window
+constexpr double k_no_angle = 0.1 * k_degree;  ///< angle of attack: lift may be zero below it
 
 std::string list(const std::vector<std::string>& entries) {
   if (entries.empty()) return "( NONE )";
@@ -83,8 +84,8 @@ class Configuration {
     if (has_wall_functions_ && y_plus > 0.0) context_.info(fmt::format("SU2: wall functions, as the first height means y+ {:.3g}", y_plus));
   }
 
-  /// What the patches of a pair are of themselves does not count: the flow goes out of one and comes in through the other. SU2 takes the centre and angles of a
-  /// rotation, none here.
+  /// The kinds of the patches of a pair are ignored: the flow leaves through one and enters through the other. SU2 takes the centre and angles of a rotation,
+  /// none here.
   void add_periodic() {
     for (const PeriodicSides& sides : mesh_.periodic)
       periodic_.push_back(fmt::format("{}, {}, 0, 0, 0, 0, 0, 0, {}, {}, {}", names_[sides.first.index()], names_[sides.second.index()],
@@ -147,7 +148,7 @@ class Configuration {
   }
 
   void add_disc(PatchId p, const std::string& name) {
-    if (front_of_disc(mesh_, site_, p)) return;  // told with its front
+    if (front_of_disc(mesh_, site_, p)) return;  // handled with its front
     const std::optional<PatchId> back = back_of_disc(mesh_, site_, p);
     if (!back) {
       problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface and no actuator disc: its condition cannot be known");
@@ -275,7 +276,7 @@ class Configuration {
     return text + "ITER= " + std::to_string(common_.iterations) + "\n" + end();
   }
 
-  /// Of a force SU2 takes the mean change from one iteration to the next, over the force; of several all have to be below it.
+  /// For a force SU2 takes the mean change from one iteration to the next, divided by the force; with several forces all have to be below the limit.
   std::string end() const {
     if (monitored_.empty()) return "CONV_FIELD= RMS_DENSITY\nCONV_RESIDUAL_MINVAL= -9\nCONV_STARTITER= 10\n";
     const bool has_lift = std::abs(common_.alpha) > k_no_angle;
@@ -286,7 +287,7 @@ class Configuration {
         k_force_change / k_force_window, k_force_window);
   }
 
-  /// SU2 has it where there are two markers at least.
+  /// SU2 provides this output if there are two markers at least.
   std::string drop() const { return site_.inflows.size() + site_.outflows.size() > 1 ? ", SURFACE_PRESSURE_DROP" : ""; }
 
   std::string files() const {
@@ -310,7 +311,7 @@ class Configuration {
   const RunContext& context_;
   CaseProblems problems_;
   CaseSite site_;
-  std::vector<std::string> names_;  ///< of markers, by patch
+  std::vector<std::string> names_;  ///< names of markers, by patch
   std::string solver_;
   bool is_viscous_ = false;
   bool has_wall_functions_ = false;

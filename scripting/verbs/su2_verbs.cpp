@@ -55,7 +55,7 @@ ScriptValue write_su2_config(const ScriptCall& call) {
   request.kinds = read_case_kinds(reader);
   if (const std::string problem = problem_of_su2_mesh(options.mesh); !problem.empty()) reader.add_problem(problem);
   if (file) note_output(call, output_path(call, *file));
-  if (flow && call.session.check && !reader.has_problems()) {  // in a run the mesh says the rest, and all is told together
+  if (flow && call.session.check && !reader.has_problems()) {  // in a run the mesh provides the other data, and all problems are reported together
     CaseProblems needed;
     const bool asks_viscous = options.solver == "RANS" || options.solver == "NAVIER_STOKES";
     require_su2_flow(*flow, asks_viscous ? std::optional<bool>(true) : std::nullopt, needed);

@@ -1,4 +1,4 @@
-// mesh:su2_config{}, and what `sterna su2-config` shares with it.
+// mesh:su2_config{}, and the functions common with `sterna su2-config`.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,11 @@ inline constexpr std::string_view k_su2_config_usage =
 ScriptValue write_su2_config(const ScriptCall& call);
 std::string su2_config_help();
 
-/// Writes a configuration for a mesh file that `options` names, else for one beside it with the same name.
+/// Writes a configuration for the mesh file named in `options`, else for a mesh file beside it with the same name.
 /// \throws Error(bad_argument) of su2_config and with_kinds
 void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest& request, const std::filesystem::path& file, const std::string& attempted,
                     const RunContext& context);
-/// What is wrong with the name of a mesh that SU2 is to read; empty: nothing.
+/// Returns the problem with the name of a mesh that SU2 is to read; empty: none.
 std::string problem_of_su2_mesh(const std::string& name);
 
 }  // namespace sterna::scripting

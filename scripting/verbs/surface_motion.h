@@ -1,4 +1,4 @@
-// Surfaces that are moved, turned and put together; what was made of a part before it moved can be moved after it.
+// Surfaces that are moved, turned and combined; parts that were meshed before a motion can be reused after it.
 #pragma once
 
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace sterna::scripting {
 
-/// The surface elsewhere: its parts, or it as one part, remember where they were made.
+/// Returns the moved surface; its parts, or the surface as one part, keep their original location.
 /// \pre `motion` is a rotation and a shift
 SurfaceValue moved_surface(const SurfaceValue& surface, const Transform& motion);
 
-/// The surfaces side by side, each a part (or its parts): a triangulated model in a triangulated tunnel. Patches of the same name and kind are one. Nothing is
-/// united.
-/// \throws Error(self_intersection) where triangles of two surfaces cross, with places
+/// Returns the surfaces side by side, each as a part (or its parts): a triangulated model in a triangulated tunnel. Patches of the same name and kind are
+/// merged. No union is made.
+/// \throws Error(self_intersection) with locations if triangles of two surfaces cross
 SurfaceValue side_by_side(std::span<const SurfaceHandle> surfaces, const RunContext& context);
 
-/// surface:move, surface:rotate
+/// The methods surface:move, surface:rotate.
 std::span<const ScriptVerb> surface_motions();
 
 }  // namespace sterna::scripting

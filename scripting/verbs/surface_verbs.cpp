@@ -19,13 +19,13 @@ namespace {
 constexpr std::string_view k_surface_mesh_usage =
     "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
-/// The options of a surface mesh in a script: pairs of sides are a list there.
+/// Returns the options of a surface mesh in a script: pairs of sides are a list there.
 OptionTable without_pairs(OptionTable table) {
   std::erase_if(table, [](const Option& option) { return option.name == "periodic"; });
   return table;
 }
 
-/// What patches ask for: of their triangles, and of the layers that volume_mesh puts on them.
+/// Rules of patches: sizes of their triangles, and layer options for volume_mesh.
 struct SurfaceRules {
   std::vector<surfmesh::PatchSurfaceOptions> sizes;
   std::vector<volmesh::PatchRule> layers;
@@ -44,7 +44,7 @@ SurfaceRules read_rules(TableReader& reader) {
   return rules;
 }
 
-/// size = function(x, y, z) return 0.1 + 0.05*x end
+/// Reads size = function(x, y, z) return 0.1 + 0.05*x end.
 std::function<double(const Point&)> read_size_function(TableReader& reader) {
   const ScriptValue* value = reader.field("size");
   if (value == nullptr) return {};
@@ -104,7 +104,7 @@ std::string surface_mesh_help() {
 constexpr std::string_view k_remesh_usage =
     "remesh{ wall, curvature_angle = 12*deg, max_edge = 0.4, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
-/// What a table asks of remeshing.
+/// The remesh request of a table.
 struct RemeshAsked {
   RemeshRecipe recipe;
   SurfaceRules rules;

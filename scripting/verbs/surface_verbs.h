@@ -12,7 +12,7 @@ namespace sterna::scripting {
 
 std::span<const ScriptVerb> surface_verbs();
 
-/// What the entry `remesh` of read_surface asks for: true, or a table of what the verb remesh takes. Empty: nothing.
+/// The entry `remesh` of read_surface: true, or a table with the options of the verb remesh. Empty: no entry.
 using RemeshEntry = std::function<SurfaceValue(const SurfaceValue&, const RunContext&, const Reuse&)>;
 RemeshEntry read_remesh_entry(TableReader& reader, const ScriptCall& call);
 

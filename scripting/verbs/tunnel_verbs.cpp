@@ -1,5 +1,5 @@
-// test_section{}: a rectangular or round duct, or a solid of the user's, whose patches have kinds, sizes and layers of their own. assembly{}: models that are
-// one where they touch.
+// test_section{}: a rectangular or round duct, or a solid of the user's, whose patches have their own kinds, sizes and layers. assembly{}: models that are
+// united where they touch.
 #include "scripting/verbs/tunnel_verbs.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct Schema<scripting::TunnelSizeOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// Edges along the shortest side of a tunnel, unless said otherwise: what its walls need where nothing is near.
+/// Default number of edges along the shortest side of a tunnel: sufficient for its walls if no body is near.
 constexpr double k_edges_across = 12.0;
 
 constexpr std::string_view k_test_section_usage =
@@ -67,7 +67,7 @@ constexpr std::string_view k_test_section_usage =
     "= 20e-6 }, floor = \"slip\" }  or  test_section{ length = 6, diameter = 2 }";
 constexpr std::string_view k_assembly_usage = "assembly{ model, sting_model }  or, of surfaces,  assembly{ wall, read_surface(\"sting.stl\"):move{ 3, 0, 0 } }";
 
-/// Names of the walls as the script calls them.
+/// Names of the walls in scripts.
 constexpr std::array<const char*, 4> k_sides = {"floor", "right", "ceiling", "left"};
 
 std::set<std::string> names_of_role(const Model& model, FaceRole role) {
@@ -83,7 +83,7 @@ bool is_any(const volmesh::PatchRule& rule) {
          rule.truncate != volmesh::PatchRule{}.truncate;
 }
 
-/// The size of all patches, as a rule that those of single patches overrule.
+/// Sets the size of all patches, as a rule that those of single patches override.
 void add_size(const TunnelSizeOptions& options, ModelValue& tunnel) {
   const Box box = box_of(tunnel.model);
   if (box.empty()) return;
@@ -94,7 +94,7 @@ void add_size(const TunnelSizeOptions& options, ModelValue& tunnel) {
   for (const std::string& name : names) tunnel.sizes.push_back({.names = name, .max_edge = size});
 }
 
-/// What walls = ... or an entry of patches = {...} says of patches: their kind, or a table with kind, sizes and layers. Notes problems.
+/// Reads the value of walls = ... or of an entry of patches = {...}: the kind of patches, or a table with kind, sizes and layers. Notes problems.
 void read_patch(const ScriptValue& value, const std::string& key, const std::set<std::string>& names, ModelValue& tunnel, TableReader& reader) {
   std::optional<PatchKind> kind;
   surfmesh::PatchSurfaceOptions sizes;
@@ -116,7 +116,7 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
   } else {
     kind = read_patch_kind(value, key, reader);
   }
-  // A table with layers for a side of a tunnel makes it a wall, whatever a less specific entry says of its kind; a kind beside the layers stands.
+  // A table with layers for a side of a tunnel makes it a wall, whatever kind a less specific entry gives; a kind beside the layers is kept.
   const bool has_layers = layer.layers > 0;
   if (kind && *kind != PatchKind::wall && is_any(layer) && layer.layers != 0)
     reader.add_problem(key + ": only walls carry layers, and its kind is " + std::string(to_string(*kind)) +
@@ -134,7 +134,7 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
   }
 }
 
-/// patches = { ["inlet*"] = { max_edge = 0.2 } }
+/// Reads patches = { ["inlet*"] = { max_edge = 0.2 } }.
 void read_patches(TableReader& reader, ModelValue& tunnel) {
   const ScriptValue* value = reader.field("patches");
   if (!value) return;
@@ -155,7 +155,7 @@ void read_patches(TableReader& reader, ModelValue& tunnel) {
   }
 }
 
-/// The user's solid as a tunnel: inflow and outflow are patterns of names of its faces, all others are walls.
+/// Uses the user's solid as a tunnel: inflow and outflow are patterns of names of its faces, all others are walls.
 void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunnel) {
   tunnel = *solid;
   tunnel.description.reset();
@@ -182,7 +182,7 @@ void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunne
   }
 }
 
-/// through = "sting*" or { "sting*", "strut" }
+/// Reads through = "sting*" or { "sting*", "strut" }.
 void read_through(TableReader& reader, ModelValue& tunnel) {
   const ScriptValue* value = reader.field("through");
   if (!value) return;
@@ -205,7 +205,7 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
   ModelValue tunnel{.without_description = "it is a test section"};
   const bool is_given = !items.empty();
   refuse_items_beyond(reader, 1);
-  if (is_given && is_stand_in(call, items.front())) finish_checks(call);  // nothing is known of its faces
+  if (is_given && is_stand_in(call, items.front())) finish_checks(call);  // its faces are unknown
   if (is_given) {
     if (const ModelHandle solid = model_of(items.front(), call)) take_solid(solid, reader, tunnel);
     else reader.add_problem("entry 1: expected the model of a closed solid, not " + std::string(type_text(items.front())));
@@ -219,7 +219,7 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
     if (!is_round && (is_automatic(options.width) || is_automatic(options.height)))
       reader.add_problem("needs width and height, or the diameter of a round section");
     const std::optional<Vec3> position = read_point(reader, "position");
-    // What is wrong so far is told together with what follows: a section that cannot be made has no faces.
+    // Problems found so far are reported together with later ones: a section that cannot be made has no faces.
     if (!is_automatic(options.length) && is_round == (is_automatic(options.width) && is_automatic(options.height))) {
       tunnel.model = make_test_section(options);
       if (position) tunnel.model = transformed(tunnel.model, translation(*position));
@@ -259,7 +259,7 @@ std::string test_section_help() {
          "test_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: a closed solid is the tunnel\n";
 }
 
-/// All entries as models; notes what is none.
+/// Returns all entries as models; notes a problem for any other value.
 std::vector<ModelHandle> model_items(const ScriptCall& call, TableReader& reader) {
   std::vector<ModelHandle> models;
   std::size_t number = 0;
@@ -272,7 +272,7 @@ std::vector<ModelHandle> model_items(const ScriptCall& call, TableReader& reader
   return models;
 }
 
-/// Whether all entries are surfaces.
+/// Returns true if all entries are surfaces.
 bool is_of_surfaces(TableReader& reader, std::vector<SurfaceHandle>& surfaces) {
   const std::vector<ScriptValue>& items = reader.items();
   for (const ScriptValue& item : items)

@@ -1,4 +1,4 @@
-// Verbs of wind tunnels: the test section, and what is put together in it.
+// Verbs of wind tunnels: the test section, and the assembly of models in it.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace sterna::scripting {
 
-/// test_section, assembly.
+/// The verbs test_section, assembly.
 std::span<const ScriptVerb> tunnel_verbs();
 
 }  // namespace sterna::scripting

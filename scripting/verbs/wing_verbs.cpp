@@ -137,17 +137,18 @@ struct Schema<scripting::WingletOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// Sections of the bend between wing and winglet; an arc in so many straight parts is met to 1 % of its radius.
+/// Sections of the bend between wing and winglet; an arc of that many straight segments has an error of 1 % of its radius.
 constexpr int k_bend_sections = 5;
-/// Part of a winglet's height over which it bends where nothing is said; where that is too tight, the radius is this many times the section's height inside of
-/// it.
+/// Default fraction of a winglet's height over which it bends. If this is too tight, the radius is the section's height on the inside of the bend times the
+/// margin.
 constexpr double k_usual_bend = 0.25, k_bend_margin = 1.5;
-/// Beyond it there is hardly a straight part; and radii of hardly more than the height inside leave hardly a skin there.
+/// Limits of the fraction and of the margin: with a larger fraction hardly a straight part remains; with a smaller radius hardly any skin remains on the
+/// inside.
 constexpr double k_most_bend = 0.9, k_least_bend_margin = 1.05;
-/// Steeper panels need z or span: y says nothing.
+/// Steeper panels need z or span, because y does not define them.
 constexpr double k_steep = 1.5;
 
-/// A section as the table has it, in order from the root.
+/// A section as given in the table, in order from the root.
 struct GivenSection {
   std::string name;
   Point leading;
@@ -156,11 +157,11 @@ struct GivenSection {
   double roll = k_automatic;
   bool is_break = false;
   bool is_reversed = false;
-  double dihedral = 0.0;  ///< of the panel before it, as it stands
+  double dihedral = 0.0;  ///< dihedral of the panel before it, at its actual position
   Airfoil airfoil;
 };
 
-/// Angle of a panel about x: up to the right is positive, as is down to the left.
+/// Returns the angle of a panel about x: up to the right is positive, as is down to the left.
 double panel_roll(const Point& from, const Point& to) {
   const double dy = to.y - from.y, dz = to.z - from.z;
   return dy < 0.0 ? -std::atan2(dz, -dy) : std::atan2(dz, dy);
@@ -192,7 +193,7 @@ class SectionList {
   const WingOptions& options_;
 };
 
-/// Where the section stands, from what is given and the section before.
+/// Sets the position of the section, from the given values and the section before.
 void SectionList::place(GivenSection& s, const WingSectionOptions& o, const std::string& where) {
   const bool is_first = sections.empty();
   const Point before = is_first ? Point{} : sections.back().leading;
@@ -248,10 +249,10 @@ void SectionList::add(const ScriptValue& value, const std::string& where) {
   sections.push_back(std::move(s));
 }
 
-/// The part of a winglet's height over which it has to turn at least, so that the skin inside of the bend does not fold: the bend's radius is more than the
-/// section is high there.
+/// Returns the minimum fraction of a winglet's height over which it has to turn, so that the skin on the inside of the bend does not fold: the radius of the
+/// bend must exceed the height of the section there.
 double least_bend(const GivenSection& tip, double turn, double height) {
-  double inside = 0.0;  // of the chord, from the leading edge, square to the panel
+  double inside = 0.0;  // relative to the chord, from the leading edge, normal to the panel
   for (const Uv& p : tip.airfoil.points) {
     const double v = (tip.is_reversed ? -p.v : p.v) - p.u * std::sin(tip.twist);
     inside = std::max(inside, turn > 0.0 ? v : -v);
@@ -259,7 +260,7 @@ double least_bend(const GivenSection& tip, double turn, double height) {
   return inside * tip.chord * std::abs(turn) / height;
 }
 
-/// \throws Error(bad_argument) through the reader where the bend that was asked for, or any, is too tight
+/// Returns the fraction over which the winglet bends. \throws Error(bad_argument) through the reader if the requested bend, or any bend, is too tight
 double bend_of(const WingletOptions& o, const GivenSection& tip, double from, const Point& position, TableReader& reader) {
   const double turn = o.cant - from, least = least_bend(tip, turn, o.height);
   if (o.bend == 0.0) return o.bend;
@@ -279,7 +280,7 @@ double bend_of(const WingletOptions& o, const GivenSection& tip, double from, co
   return bend;
 }
 
-/// The last section goes on upwards: bent over sections of equal turn, then straight to the winglet's tip.
+/// Continues upwards from the last section: a bend over sections of equal turn, then straight to the winglet's tip.
 void SectionList::add_winglet(const ScriptValue& value, const Point& position) {
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table) {
@@ -337,7 +338,7 @@ void SectionList::add_winglet(const ScriptValue& value, const Point& position) {
   go(o.height - done, o.cant, o.cant, true, "winglet tip");
 }
 
-/// Rolls that are not given.
+/// Sets the rolls that are not given.
 void complete_rolls(std::vector<GivenSection>& sections, bool is_root_in_plane) {
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (!is_automatic(sections[i].roll)) continue;
@@ -348,7 +349,7 @@ void complete_rolls(std::vector<GivenSection>& sections, bool is_root_in_plane) 
   }
 }
 
-/// Roll about x, then twist about the section's own span axis, as rotations about the fixed axes x, y, z.
+/// Applies roll about x, then twist about the section's own span axis, as rotations about the fixed axes x, y, z.
 WingSection section_of(const GivenSection& s) {
   const double cr = std::cos(s.roll), sr = std::sin(s.roll), ct = std::cos(s.twist), st = std::sin(s.twist);
   WingSection section{.name = s.name, .leading_edge = s.leading, .chord = s.chord};
@@ -362,9 +363,9 @@ WingSection section_of(const GivenSection& s) {
   return section;
 }
 
-/// A surface of no angle that is the wing from its tip, its first section, to another one: a patch with a name.
+/// Returns a surface of zero deflection that covers the wing from its tip, its first section, to another section: a named patch.
 Deflection winglet_patch(const Wing& wing, const std::string& name, std::size_t last_section) {
-  constexpr double k_any_chord = 0.5;  // nothing turns about it
+  constexpr double k_any_chord = 0.5;  // the hinge position is arbitrary: nothing turns
   const bool has_other_side = wing.is_symmetric || wing.has_mirror_image;
   return {.surface = {.name = name,
                       .wing = wing.name,

@@ -7,7 +7,7 @@
 
 namespace sterna::scripting {
 
-/// wrap. Takes surfaces and names of surface files.
+/// The verb wrap. Takes surfaces and names of surface files.
 std::span<const ScriptVerb> wrap_verbs();
 
 }  // namespace sterna::scripting
