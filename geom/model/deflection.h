@@ -8,9 +8,9 @@
 
 namespace sterna {
 
-/// The same control surface with its hinge given from the root: span 0 at the root, 1 at the tip, of the length seen along the flow; chord as ever. The root of
-/// a symmetric wing is its middle (the result lies on the right half); of others the end nearer to y = 0 where they have a mirror image, else the end with the
-/// longer chord. Points may come in any order.
+/// Converts a control surface whose hinge is given from the root (span 0 at the root, 1 at the tip, relative to the length seen along the flow; chord as
+/// usual). The root of a symmetric wing is its centre (the result lies on the right half). For other wings it is the end nearer to y = 0 if they have a mirror
+/// image, else the end with the longer chord. Points may be in any order.
 /// \throws Error(bad_argument) for fewer than 2 points
 ControlSurface from_root(const Wing& wing, ControlSurface surface);
 
@@ -29,14 +29,14 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface);
 /// more than half of it
 Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections);
 
-/// The same with ends drawn in where fairings and end gaps of neighbours (or one of them and a patch) would overlap: by half of what is missing each, a patch
-/// not at all. Hinges stay on their lines. What still overlaps `deflected` refuses.
+/// As the argument, with ends moved inwards where fairings and end gaps of neighbours (or of a surface and a patch) would overlap: each surface by half of the
+/// overlap, a patch not at all. Hinges stay on their lines. `deflected` rejects any remaining overlap.
 std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections);
 
-/// The deflection's image: its name as image_name says, its angle as `other_side` says (none: no angle); the hinge as it is.
+/// Returns the deflection's image: named by image_name, with the angle given by `other_side` (none: zero angle) and an unchanged hinge.
 Deflection image_of(const Deflection& deflection);
 
-/// Rows between two sections of a cubic wing that is bent.
+/// Number of rows between two sections of a bent cubic wing.
 inline constexpr int k_cubic_rows = 8;
 
 }  // namespace sterna
