@@ -26,8 +26,8 @@ NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std:
 std::vector<double> restricted_knots(int degree, const std::vector<double>& knots, Interval range);
 /// Returns the knots of the same curve at a higher degree: the multiplicity of every distinct knot increases by `by`.
 std::vector<double> elevated_knots(const std::vector<double>& knots, int by);
-/// Ascending union of two clamped knot vectors of one degree and domain, each knot as often as in the one that has it more often; knots of `b` that
-/// miss one of `a` by rounding (1e-14 of the domain) are taken for it.
+/// Returns the ascending union of two clamped knot vectors of one degree and domain, each knot with the larger of its two multiplicities. Knots of `b` that
+/// differ from one of `a` only by rounding (1e-14 of the domain) are identified with it.
 std::vector<double> united_knots(const std::vector<double>& a, const std::vector<double>& b);
 /// Returns the knots mapped linearly so that they begin and end at the ends of `domain`.
 std::vector<double> stretched_knots(const std::vector<double>& knots, Interval domain);
