@@ -10,21 +10,21 @@
 
 namespace sterna {
 
-/// A part: one closed surface or several, which may cross each other, too.
+/// A part: one or several closed surfaces, which may also cross each other.
 struct UnionPart {
-  std::string name;  ///< A part: one or several closed surfaces, which may also cross each other.
+  std::string name;  ///< for messages, and for patches of the same name in two parts
   TriMesh mesh;
 };
 
 struct UnionOptions {
   bool remesh = true;          ///< improve the triangles along the intersection curves
-  double strip_width = 4.0;    ///< how far from the curve, in local edge lengths
-  double strip_growth = 1.3;   ///< width of the remeshed strip on each side of the curve, in local edge lengths
-  double deviation = 0.01;     ///< growth factor of edge lengths with the distance from the curve
-  bool keep_cavities = false;  ///< largest distance from the input surface, in local edge lengths
+  double strip_width = 4.0;    ///< width of the remeshed strip on each side of the curve, in local edge lengths
+  double strip_growth = 1.3;   ///< growth factor of edge lengths with the distance from the curve
+  double deviation = 0.01;     ///< largest distance from the input surface, in local edge lengths
+  bool keep_cavities = false;  ///< keep cavities enclosed by the parts
 };
 
-/// Triangles along the curves: those that the remesher may touch.
+/// Quality of the triangles along the curves that the remesher may change.
 struct StripQuality {
   std::int64_t n_triangles = 0;
   std::int64_t n_slivers = 0;  ///< triangles with an angle below k_sliver_angle

@@ -37,7 +37,7 @@ void draw_title(Canvas& canvas, const Layout& layout, const std::string& title);
 void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks);
 /// Draws the directions of x, y and z; in orthographic views also a length scale.
 void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera);
-/// Lines of discs and their names. \pre drawn before marks
+/// Draws the lines of discs and their names. \pre drawn before marks
 void draw_lines(Canvas& canvas, const Layout& layout, const Camera& camera, const Scene& scene);
 void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std::span<const DrawMark> marks);
 

@@ -44,8 +44,8 @@ struct InsertTarget {
 
 /// Minimum distances of a new point.
 struct Room {
-  double to_points = 0.0;    ///< m; to points of the boundary
-  double to_corners = 0.0;   ///< m; above a boundary triangle below it
+  double to_points = 0.0;    ///< m; to any point of the mesh except those of the boundary
+  double to_corners = 0.0;   ///< m; to points of the boundary
   double to_boundary = 0.0;  ///< m; above a boundary triangle that it stands over
 };
 
