@@ -28,11 +28,11 @@ struct Solid {
 };
 
 struct SolidParts {
-  std::vector<Solid> solids;                            ///< in the order of parts and components
-  std::vector<InputFacet> facets;                       ///< by tag
-  std::vector<Patch> region_patch;                      ///< by region; names as in the result
-  std::vector<std::string> names;                       ///< of the solids, for messages: "body.stl", "component 3 of body.stl (124 triangles about (0, 1, 0))"
-  std::vector<std::vector<std::uint32_t>> groups;       ///< solids connected by crossings, ascending; groups ordered by first member
+  std::vector<Solid> solids;                       ///< in the order of parts and components
+  std::vector<InputFacet> facets;                  ///< by tag
+  std::vector<Patch> region_patch;                 ///< by region; names as in the result
+  std::vector<std::string> names;                  ///< names of the solids for messages: "body.stl", "component 3 of body.stl (124 triangles about (0, 1, 0))"
+  std::vector<std::vector<std::uint32_t>> groups;  ///< solids connected by crossings, ascending; groups ordered by first member
   std::vector<std::array<std::uint32_t, 2>> crossings;  ///< pairs of facets of different solids that intersect
 };
 

@@ -55,8 +55,8 @@ using Facet = std::array<Point, 3>;
 struct Skin {
   const Model* model = nullptr;
   TriMesh mesh;
-  std::vector<Uv> at;                      ///< of the vertices
-  std::vector<FaceId> face_of;             ///< of the triangles
+  std::vector<Uv> at;                      ///< parameters of the vertices
+  std::vector<FaceId> face_of;             ///< face of each triangle
   std::vector<std::uint32_t> triangle_at;  ///< per vertex: one of its triangles
   std::unique_ptr<TriangleTree> tree;
   Box box;

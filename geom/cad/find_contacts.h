@@ -38,7 +38,7 @@ struct PartExposure {
 
 struct ContactReport {
   std::vector<PartContact> contacts;
-  std::vector<PartExposure> exposures;  ///< of the parts
+  std::vector<PartExposure> exposures;  ///< one per part
 };
 
 namespace cad {

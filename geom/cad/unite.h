@@ -43,7 +43,7 @@ struct UniteTry {
 struct UniteReport {
   std::vector<UniteTry> tries;        ///< the last one was accepted
   double volume = 0.0;                ///< volume of the union, m^3
-  double sum_of_volumes = 0.0;        ///< of the parts: the difference from `volume` is the overlap
+  double sum_of_volumes = 0.0;        ///< sum over the parts: the difference from `volume` is the overlap
   double largest_volume = 0.0;        ///< volume of the largest part
   std::size_t n_bodies = 0;           ///< closed solids that do not touch; 1 if everything is connected
   std::vector<PartContact> contacts;  ///< contacts of the parts, found before anything is united

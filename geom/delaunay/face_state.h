@@ -10,7 +10,7 @@ struct FaceState {
   const Surface& surface;
   const SizeFunction& wanted;
   const FaceMeshOptions& options;
-  ParameterBox box;  ///< of the border
+  ParameterBox box;  ///< box of the border
   SurfaceTriangulation mesh;
   Column<VertexId, double> size;  ///< metres, of every vertex of `mesh`
 };

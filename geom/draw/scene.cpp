@@ -127,7 +127,7 @@ class SceneBuilder {
   }
 
   /// Returns the unit normal out of a surface's opening; zero if it is closed: the area vectors of a closed surface sum to zero, those of an open one to the
-  /// negative of the opening's.
+  /// missing area.
   Vec3 opening_normal() const {
     Vec3 sum;
     double area = 0.0;

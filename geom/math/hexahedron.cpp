@@ -1,7 +1,7 @@
 // Hexahedron with bilinear faces: volume, and a conservative test that its Jacobian is positive everywhere.
 //
 // The Jacobian of the trilinear map is of degree two in each coordinate; its Bernstein coefficients bound it from below, and bisecting the
-// cube makes the bound as sharp as wanted. The coefficients are sums of determinants of edge vectors:
+// cube makes the bound as sharp as required. The coefficients are sums of determinants of edge vectors:
 //   J = det( sum a_jk, sum b_ik, sum c_ij )  with the four edges a along the first coordinate, b the second, c the third,
 //   coefficient (p, q, r) = sum over i + i' = p, j + j' = q, k + k' = r of det(a_jk, b_ik', c_i'j') / (binom(2,p) binom(2,q) binom(2,r)).
 // Based on: A. Johnen, J.-F. Remacle, C. Geuzaine, "Geometrical validity of curvilinear finite elements", J. Comput. Phys. 233 (2013).

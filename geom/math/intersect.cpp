@@ -5,7 +5,7 @@
 //
 // The usual cases are decided by the sides of each triangle's vertices on the other's plane and by lines that pierce triangles (the functions in
 // the first half). Whenever all the signs that prove a triangle to have area and the planes to differ vanish, the slow
-// path (second half) looks at the two sets as segments and coplanar triangles.
+// path (second half) treats the two sets as segments and coplanar triangles.
 #include "geom/math/intersect.h"
 
 #include <algorithm>
