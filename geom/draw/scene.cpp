@@ -23,7 +23,7 @@ constexpr double k_along_normal = 1.1;
 constexpr double k_aslant = 1.0;
 /// Cosine between view direction and plane normal below which a plane is seen nearly edge-on and obscures nothing that needs to be cut off.
 constexpr double k_edge_on = 0.02;
-/// Above this number of patches the legend shows only their number.
+/// Number of patches listed in the legend; further ones are only counted.
 constexpr std::size_t k_most_swatches = 24;
 
 class SceneBuilder {

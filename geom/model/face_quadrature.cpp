@@ -102,7 +102,7 @@ class FaceIntegral {
     return {area, dot(x, n) / 3.0, 0.5 * std::abs(n.z), n, area * x, 0.5 * Vec3{x.x * x.x * n.x, x.y * x.y * n.y, x.z * x.z * n.z}};
   }
 
-  /// Returns the steps of an edge use, since the parameter curve may extend beyond its edge.
+  /// Returns the parameters at which an edge use is divided, within the range of the edge: the parameter curve may extend beyond it.
   std::vector<double> steps_of(const EdgeUse& use) const {
     const Interval range = model_.edges[use.edge].range;
     const std::optional<NurbsCurveForm<Uv>> form = use.parameter->exact_nurbs();
@@ -224,7 +224,7 @@ class FaceIntegral {
     add_sample(piece.curve->point(piece.from + 0.5 * length));
   }
 
-  /// Adds the area between the bases: the previous pieces count from the line of one column, the following ones from that of another, up to v.
+  /// Adds the integral between two bases up to v: the previous pieces count from the line of one column, the following ones from that of another.
   void change_base(std::size_t before, std::size_t after, double v) {
     for (std::size_t c = std::min(before, after); c < std::max(before, after); ++c) total_.add(before > after ? 1.0 : -1.0, column_up_to(c, v));
   }

@@ -297,7 +297,7 @@ bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipC
   return is_gone;
 }
 
-/// Tests if a required edge of the cavity's tetrahedra is no longer on the cavity's hull; returns one of its tetrahedra, not the first.
+/// Returns a tetrahedron of the cavity, not the first, at a required edge that is not on the cavity's hull; k_none if there is no such edge.
 std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity, std::span<const Facet> hull) const {
   for (const std::uint32_t t : cavity) {
     const Corners& v = mesh_.nodes[t];

@@ -16,7 +16,7 @@ namespace sterna::tets {
 /// off the paraboloid, then the next, so every set of points has a unique Delaunay triangulation (Devillers and Teillaud 2003). Never 0.
 int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point);
 
-/// Limit in tetrahedra; beyond strips of sliver tetrahedra each point would see all others.
+/// Limit in tetrahedra; beyond strips of sliver triangles each point would see all others.
 inline constexpr std::size_t k_largest_cavity = 4000;
 inline constexpr std::size_t k_chunk = 1 << 13;  ///< slots of tetrahedra that are processed together, or skipped if nothing has changed
 

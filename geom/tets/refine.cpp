@@ -272,7 +272,7 @@ std::int64_t Refiner::round(bool needs_front) {
         for (const std::uint32_t i : thinned(proposed, std::span(order).subspan(begin, end - begin))) list.push_back(proposed[i]);
       },
       k_thinned_together);
-  // All tetrahedra have proposed; update the state of those that still exist unchanged.
+  // Count the proposals before the insertion: tetrahedra that still exist afterwards gained nothing. Proposals beaten by a point of this round do not count.
   std::vector<std::uint8_t> before;
   for (const Seed& seed : seeds) {
     before.push_back(state[seed.start]);
