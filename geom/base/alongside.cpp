@@ -7,7 +7,7 @@ namespace sterna::detail {
 
 void yield_to_others() {
   constexpr int k_nice = 10;  // about a tenth of the weight of a thread of normal priority
-  // Linux: the nice value belongs to the thread, and may always be raised.
+  // On Linux the nice value belongs to the thread, and may always be raised.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), k_nice);
 }
 

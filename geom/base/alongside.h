@@ -1,4 +1,4 @@
-// Work of our own on a second thread while the calling one waits for something else.
+// Runs work of this process on a second thread while the calling thread waits for something else.
 #pragma once
 
 #include <exception>
@@ -13,19 +13,20 @@
 namespace sterna {
 
 namespace detail {
-/// Lowers the priority of the calling thread, so that what the caller waits for comes first.
+/// Lowers the priority of the calling thread, so that the work which the caller waits for runs first.
 void yield_to_others();
 }  // namespace detail
 
-/// Runs `work(context) -> T` beside the caller, on all threads of the context but one, or on all; with a single thread it runs before the caller goes on. Its
-/// priority is low. The result does not depend on that, because no kernel's does. The destructor stops the work.
+/// Runs `work(context) -> T` beside the caller at low priority, on all threads of the context but one, or on all. With a single thread the work runs to its end
+/// before the caller continues. The result does not depend on the number of threads, because no kernel's result does. The destructor stops the work.
 template <class T>
 class Alongside {
  public:
-  /// For a caller that waits for another process, which needs a thread.
+  /// Overload for a caller that waits for another process, which itself needs one thread.
   template <class Work>
   Alongside(const RunContext& context, Work work) : Alongside(context, context.threads() - 1, std::move(work)) {}
-  /// On so many threads, as far as the caller's own parallel loops leave them idle. \pre n_threads > 0 where the context has more than one
+  /// Runs the work on `n_threads` threads, as far as the caller's own parallel loops leave them idle. \pre n_threads > 0 if the context has more than one
+  /// thread
   template <class Work>
   Alongside(const RunContext& context, int n_threads, Work work) {
     if (context.threads() == 1) {
@@ -46,12 +47,12 @@ class Alongside {
   Alongside(const Alongside&) = delete;
   Alongside& operator=(const Alongside&) = delete;
 
-  /// Whether take() would not wait.
+  /// Returns true if take() would return without waiting.
   bool is_done() const { return ended_.try_wait(); }
-  /// From any thread.
+  /// Waits for the end of the work; may be called from any thread.
   void wait() const { ended_.wait(); }
-  /// Waits for the result; call it once.
-  /// \throws what the work has thrown.
+  /// Waits for the result and returns it; call once.
+  /// \throws any exception thrown by the work
   T take() {
     if (thread_.joinable()) thread_.join();
     if (exception_) std::rethrow_exception(exception_);
@@ -62,7 +63,7 @@ class Alongside {
   std::optional<T> result_;
   std::exception_ptr exception_;
   std::latch ended_{1};
-  std::jthread thread_;  ///< last: ends before what it writes to
+  std::jthread thread_;  ///< last member: the thread ends before the members that it writes to are destroyed
 };
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// Starting another program: the one mechanism behind helpers (geom/base/helper_process.h), workers of a series and commands.
+// Starts other programs. Helpers (geom/base/helper_process.h), workers of a series and commands all use this mechanism.
 #pragma once
 
 #include <fcntl.h>
@@ -20,22 +20,24 @@
 
 namespace sterna {
 
-/// Above the descriptors that a child inherits under fixed numbers, so that none of them is overwritten in the child before it is handed on.
+/// Lowest descriptor that is free in the parent: above the fixed numbers under which a child inherits descriptors, so that none is overwritten in the child
+/// before it is passed on.
 inline constexpr int k_first_free_descriptor = 10;
 
-/// What a child is started with. Its stdin is empty, its signals are as a shell would start it, it is in a process group of its own, so that Ctrl-C reaches it
-/// through the program only.
+/// Start parameters of a child process. Its stdin is empty and its signal handling is that of a process started by a shell. It runs in its own process group,
+/// so that Ctrl-C reaches it only through this program.
 struct ChildStart {
-  std::vector<std::string> words;                ///< the program, looked for in the PATH unless there is a slash in it, and its arguments
-  std::vector<std::pair<int, int>> descriptors;  ///< {here, there}: inherited under the number `there`; \pre no `here` is the `there` of an earlier one
-  std::string output;                            ///< file that takes stdout and stderr, emptied first; empty = as `descriptors` say
-  std::string folder;                            ///< its current folder; empty = ours
+  std::vector<std::string> words;                ///< the program and its arguments; the program is searched for in PATH unless its name contains a slash
+  std::vector<std::pair<int, int>> descriptors;  ///< {here, there}: `here` is inherited under the number `there`; \pre no `here` equals the `there` of an
+                                                 ///< earlier pair
+  std::string output;                            ///< file that receives stdout and stderr, emptied first; empty = as given by `descriptors`
+  std::string folder;                            ///< working directory; empty = that of this process
 };
 
-/// A started program; killed and reaped at the latest when the object goes.
+/// A started program, killed and reaped at the latest when the object is destroyed.
 class ChildProcess {
  public:
-  /// \throws Error(file_not_found) where there is no such program, Error(internal) when it cannot be started
+  /// \throws Error(file_not_found) if the program does not exist, Error(internal) if it cannot be started
   explicit ChildProcess(const ChildStart& start);
   ~ChildProcess() { kill(); }
   ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, -1)), status_(other.status_) {}
@@ -47,23 +49,23 @@ class ChildProcess {
     return *this;
   }
 
-  /// The wait status, as of waitpid(), once it has ended.
+  /// Returns the wait status, as of waitpid(), once the program has ended.
   std::optional<int> ended() {
     if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
     return pid_ > 0 ? std::nullopt : std::optional<int>(status_);
   }
-  /// Waits for its end. Returns the wait status.
+  /// Waits for the end of the program. Returns the wait status.
   int wait() {
     while (pid_ > 0 && waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
     }
     pid_ = -1;
     return status_;
   }
-  /// Asks it to stop.
+  /// Sends SIGTERM to the program.
   void stop() const {
     if (pid_ > 0) ::kill(pid_, SIGTERM);
   }
-  /// Ends it and all it started in its group, now. Returns the wait status.
+  /// Kills the program and all processes of its group immediately. Returns the wait status.
   int kill() {
     if (pid_ > 0) ::kill(-pid_, SIGKILL);
     return wait();
@@ -87,9 +89,9 @@ struct Descriptor {
   int value = -1;
 };
 
-/// A pipe whose ends a child may inherit.
+/// A pipe whose ends can be inherited by a child.
 struct Pipe {
-  /// \throws Error(code), attempted as given, when the system refuses
+  /// \throws Error(code) with `attempted` as given if the system refuses
   Pipe(ErrorCode code, const std::string& attempted) {
     const auto refuse = [&](const char* what) {
       throw Error({.code = code, .attempted = attempted, .problem = std::string(what) + ": " + std::strerror(errno)});
@@ -106,7 +108,7 @@ struct Pipe {
   Descriptor read_end, write_end;
 };
 
-/// Appends to `text` what is there to be read. False at the end of the stream.
+/// Appends the available data to `text`. Returns false at the end of the stream.
 inline bool read_some(int descriptor, std::string& text) {
   std::array<char, 4096> buffer{};
   const ssize_t n = read(descriptor, buffer.data(), buffer.size());
@@ -120,7 +122,7 @@ namespace detail {
 /// File actions and attributes of posix_spawn, released with the object.
 struct SpawnSetup {
   explicit SpawnSetup(const ChildStart& start) {
-    constexpr mode_t k_new_file_mode = 0666;  // the umask takes its part
+    constexpr mode_t k_new_file_mode = 0666;  // reduced by the umask
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
     sigset_t none, all;

@@ -1,5 +1,5 @@
-// Structs of columns visited by one list: `columns_of(s)` returns a tuple of references to all members, and everything that has to touch each of them goes
-// through it.
+// Structs of columns with a single list of their members: `columns_of(s)` returns a tuple of references to all members. Code that must process every column
+// uses that list.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace sterna {
 
-/// Calls f(column of the first struct, that of the second, ...) for each column. `columns_of` is found beside the struct.
+/// Calls f(column of the first struct, column of the second, ...) for each column. `columns_of` is found by argument-dependent lookup.
 template <class F, class... Structs>
 void for_each_column(const F& f, Structs&... structs) {
   const auto lists = std::make_tuple(columns_of(structs)...);

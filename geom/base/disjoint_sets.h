@@ -1,4 +1,4 @@
-// Which members are connected, by joining pairs.
+// Disjoint sets (union-find): determines connected members by joining pairs.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
-  /// The lowest member of the set of `i`. Not const: it shortens the way for the next time.
+  /// Returns the lowest member of the set of `i`. Not const: it shortens the path for later calls.
   std::uint32_t root(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// False where both are in one set already.
+  /// Joins the sets of `a` and `b`. Returns false if they are already one set.
   bool join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);
@@ -27,7 +27,7 @@ class DisjointSets {
     if (b < a) parent_[a] = b;
     return a != b;
   }
-  /// The root of each member.
+  /// Returns the root of each member.
   std::vector<std::uint32_t> roots() && {
     for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = root(i);
     return std::move(parent_);

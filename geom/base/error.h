@@ -1,5 +1,5 @@
-// The one exception class of the project: a code, a sentence with place and numbers, what to try, and the geometry of the
-// failure, which the outermost caller may write to a VTU.
+// The exception class of the project: a code, a message with location and numbers, a hint, and the geometry of the failure, which the outermost caller may
+// write to a VTU file.
 #pragma once
 
 #include <array>
@@ -15,23 +15,23 @@
 namespace sterna {
 
 enum class ErrorCode {
-  bad_argument,    ///< a value of the wrong type, out of range, or a missing required one
-  unknown_option,  ///< a key that no option has
-  script_failed,   ///< the Lua script itself is wrong
+  bad_argument,    ///< a value of the wrong type or out of range, or a missing required value
+  unknown_option,  ///< a key that is not the name of an option
+  script_failed,   ///< the Lua script itself is in error
   file_not_found,
-  file_malformed,      ///< the file breaks its format's rules
-  unsupported_format,  ///< a format (or a variant of one) that this build does not read or write
+  file_malformed,      ///< the file violates the rules of its format
+  unsupported_format,  ///< a format or variant of a format that this build cannot read or write
   write_failed,
   empty_surface,
   open_surface,
   non_manifold_surface,
-  self_intersection,  ///< of a wall, an envelope, or between boundaries
+  self_intersection,  ///< self-intersection of a wall or an envelope, or intersection between boundaries
   not_orientable,
   envelope_failed,
-  geometry_failed,  ///< an operation on exact geometry: a conversion, healing, a boolean
+  geometry_failed,  ///< an operation on exact geometry failed: conversion, healing, boolean
   tetra_engine_missing,
-  tetra_engine_failed,   ///< crash, error code, time or memory limit of the helper
-  tetra_result_invalid,  ///< the engine answered, but not with a mesh of the domain
+  tetra_engine_failed,   ///< crash, error code, or time or memory limit of the helper
+  tetra_result_invalid,  ///< the engine returned a result that is not a mesh of the domain
   mesh_invalid,          ///< `check` found violations
   overflow,
   cancelled,
@@ -41,13 +41,13 @@ enum class ErrorCode {
 /// Stable spelling for logs, JSON and tests, e.g. "open_surface".
 std::string_view to_string(ErrorCode code);
 
-/// A place of trouble: where, and what is there (patch, entity, value against limit).
+/// Location where an error occurred, with a description (patch, entity, value against limit).
 struct ErrorPlace {
   Vec3 position;
   std::string what;
 };
 
-/// Geometry of a failure, small enough to be written as a VTU for the user.
+/// Geometry of a failure, small enough to be written to a VTU file for the user.
 struct TroubleGeometry {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -56,23 +56,23 @@ struct TroubleGeometry {
   bool empty() const { return triangles.empty() && edges.empty() && vertices.empty(); }
 };
 
-inline constexpr std::size_t k_max_places = 10;       ///< that a message names
-inline constexpr std::size_t k_max_geometry = 20000;  ///< triangles that a drawing of trouble has
+inline constexpr std::size_t k_max_places = 10;       ///< maximum number of locations listed in a message
+inline constexpr std::size_t k_max_geometry = 20000;  ///< maximum number of triangles in the geometry of a failure
 
 struct ErrorInfo {
   ErrorCode code = ErrorCode::internal;
   std::string attempted;           ///< "reading wing.stl", "filling the volume with tetrahedra"
-  std::string problem;             ///< what is wrong, value against its limit with unit
-  std::vector<ErrorPlace> places;  ///< the first few places; `n_places` may be larger
+  std::string problem;             ///< description of the failure: value against its limit, with unit
+  std::vector<ErrorPlace> places;  ///< the first few locations; `n_places` may be larger
   std::int64_t n_places = 0;       ///< 0: as many as `places`
-  std::string hint;                ///< what to try; may be empty
+  std::string hint;                ///< suggested remedy; may be empty
   TroubleGeometry geometry;
 
-  /// Counts a place; the first k_max_places are kept.
+  /// Counts a location and stores it if it is among the first k_max_places.
   void add_place(const Vec3& position, std::string what);
 };
 
-/// what() is the whole text: "attempted: problem", then the places, then the hint.
+/// what() returns the complete message: "attempted: problem", then the locations, then the hint.
 class Error : public std::runtime_error {
  public:
   explicit Error(ErrorInfo info);
@@ -84,10 +84,10 @@ class Error : public std::runtime_error {
   std::shared_ptr<const ErrorInfo> info_;
 };
 
-/// Error(bad_argument). For what has no place and no better code.
+/// Throws Error(bad_argument); for errors without a location or a more specific code.
 [[noreturn]] void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {});
 
-/// "(x, y, z)" with 6 significant digits, the spelling of coordinates in every message.
+/// Returns "(x, y, z)" with 6 significant digits, the format of coordinates in all messages.
 std::string format_point(const Vec3& p);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// Half-edges as arithmetic: half-edge 3 t + c starts at corner c of triangle t.
+// Half-edge arithmetic: half-edge 3 t + c starts at corner c of triangle t.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ std::string to_hex(const XXH128_hash_t& hash) {
 }  // namespace
 
 std::string hash_file(const std::filesystem::path& path) {
-  std::error_code ignored;  // of a path that cannot be looked at: fopen says why
+  std::error_code ignored;  // error of an inaccessible path: fopen reports the cause
   if (std::filesystem::is_directory(path, ignored)) fail(ErrorCode::file_not_found, path, "this is a folder, not a file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) fail(ErrorCode::file_not_found, path, "the file cannot be opened: " + std::generic_category().message(errno));

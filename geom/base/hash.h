@@ -1,4 +1,4 @@
-// Content hashes for manifests and caches. Not for security.
+// Content hashes for manifests and caches. Not cryptographically secure.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@
 
 namespace sterna {
 
-/// XXH3, 128 bits, of a file's bytes as 32 lower-case hex digits; the same as `xxhsum -H2` prints. Reads in pieces, about 5 GB/s once cached.
-/// \throws Error(file_not_found) when it cannot be opened or is a folder, Error(file_malformed) when reading fails half-way; with the system's reason.
+/// Returns XXH3, 128 bits, of a file's bytes as 32 lower-case hex digits; identical to the output of `xxhsum -H2`. Reads in blocks, about 5 GB/s once cached.
+/// \throws Error(file_not_found) if it cannot be opened or is a folder, Error(file_malformed) if reading fails half-way; with the system's reason
 std::string hash_file(const std::filesystem::path& path);
 
-/// Of several files in one: the hash of the text that `xxhsum -H2 NAME NAME ...` prints in their folder (each line the file's hash, two blanks, its name).
-/// Their order counts.
+/// Returns one hash of several files: the hash of the text that `xxhsum -H2 NAME NAME ...` prints in their folder (each line the file's hash, two blanks, its
+/// name). The order of the files matters.
 /// \throws Error as hash_file
 std::string hash_files(std::span<const std::filesystem::path> paths);
 
-/// XXH3, 64 bits, seed 0; the same on every machine. About 20 GB/s.
+/// Returns XXH3, 64 bits, seed 0; identical on every machine. About 20 GB/s.
 std::uint64_t hash_bytes(std::string_view bytes);
 
-/// XXH3, 128 bits, of bytes that come piece by piece; how they are cut does not matter.
+/// XXH3, 128 bits, of bytes added block by block; the division into blocks does not affect the result.
 class ContentHash {
  public:
   ContentHash();
@@ -33,7 +33,7 @@ class ContentHash {
   ContentHash& operator=(ContentHash&&) noexcept;
 
   void append(std::span<const std::byte> bytes);
-  /// Of all bytes so far, the most significant one first; more may follow.
+  /// Returns the hash of all bytes added so far, most significant byte first; more bytes may follow.
   std::array<std::uint8_t, 16> digest() const;
 
  private:

@@ -20,16 +20,16 @@
 namespace sterna {
 namespace {
 
-constexpr int k_poll_ms = 20;                ///< how soon a stop or the time limit is noticed
-constexpr int k_late_poll_ms = 2;            ///< how soon data that comes late is handed on
-constexpr std::size_t k_output_kept = 4096;  ///< bytes of the helper's last words kept for the error text
+constexpr int k_poll_ms = 20;                ///< polling interval for a stop or the time limit
+constexpr int k_late_poll_ms = 2;            ///< polling interval for late data
+constexpr std::size_t k_output_kept = 4096;  ///< bytes of the helper's last output kept for the error message
 constexpr int k_folders_up = 3;              ///< the program's folder and two above it: tests and fuzz targets lie below the build folder
 
 [[noreturn]] void throw_system_failure(const HelperTask& task, const std::string& what, int error) {
   throw Error({.code = task.failed, .attempted = task.attempted, .problem = what + ": " + std::strerror(error)});
 }
 
-/// Moves a descriptor out of the range that the helper's own descriptors will have.
+/// Moves a descriptor out of the range of the helper's own descriptors.
 int moved_up(int descriptor, const HelperTask& task) {
   const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, k_first_free_descriptor);
   const int error = errno;
@@ -40,11 +40,11 @@ int moved_up(int descriptor, const HelperTask& task) {
 
 Pipe pipe_of(const HelperTask& task) { return Pipe(task.failed, task.attempted); }
 
-/// What a helper gets later than its start. The read end of the pipe stays open here: writing to it must not raise SIGPIPE when the helper has died.
+/// Data sent to a helper after its start. The read end of the pipe stays open here: writing to it must not raise SIGPIPE if the helper has died.
 class LateBlock {
  public:
   explicit LateBlock(const HelperTask& task) : task_(task), block_("sterna late", 0, task), ready_(pipe_of(task)) {}
-  /// False as long as there is no data.
+  /// Returns false as long as there is no data.
   bool send(std::span<const std::byte> data) {
     if (is_sent_ || data.empty()) return is_sent_;
     block_.append(data);
@@ -82,7 +82,7 @@ ChildProcess start_child(const HelperStart& start, int request, int reply, int o
   }
 }
 
-/// Reads what is there and keeps the end of it. False at the end of the stream.
+/// Reads the available output and keeps the end of it. Returns false at the end of the stream.
 bool read_output(int descriptor, std::string& output) {
   const bool is_open = read_some(descriptor, output);
   if (output.size() > 2 * k_output_kept) output.erase(0, output.size() - k_output_kept);
@@ -143,7 +143,7 @@ HelperExit run_helper(const HelperStart& start, int request, int reply, const Ru
   words.write_end.reset();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
 
-  // The end of the output is the end of the helper, unless it has closed its output; then it is waited for in small sleeps.
+  // The end of the output is the end of the helper, unless it has closed its output; in that case poll in short intervals.
   std::optional<int> ended;
   for (bool is_open = true; is_open || !(ended = child.ended());) {
     const bool is_waiting = late_block && !late_block->send(start.late());
@@ -168,7 +168,7 @@ HelperExit run_helper(const HelperStart& start, int request, int reply, const Ru
 std::string find_helper(const std::string& name, const std::string& given_folder, const HelperTask& task) {
   namespace fs = std::filesystem;
   const auto is_executable = [](const fs::path& path) {
-    std::error_code ignored;  // a path that cannot be looked at is no executable
+    std::error_code ignored;  // an inaccessible path is not an executable
     return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
   };
   std::vector<fs::path> candidates;

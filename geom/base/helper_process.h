@@ -1,4 +1,4 @@
-// Running a helper executable: memory blocks handed over as file descriptors, output captured, limits and stop enforced, no zombies.
+// Runs a helper executable: passes memory blocks as file descriptors, captures the output, enforces limits and stop requests, leaves no zombie processes.
 #pragma once
 
 #include <cstddef>
@@ -15,34 +15,35 @@ namespace sterna {
 // Descriptors of a helper's process.
 inline constexpr int k_helper_request_fd = 3;
 inline constexpr int k_helper_reply_fd = 4;
-inline constexpr int k_helper_late_fd = 5;        ///< late data, once they are there
-inline constexpr int k_helper_late_ready_fd = 6;  ///< pipe: then their length in bytes comes here, a uint64
+inline constexpr int k_helper_late_fd = 5;        ///< late data, once available
+inline constexpr int k_helper_late_ready_fd = 6;  ///< pipe: receives the length of the late data in bytes, a uint64, when they are available
 
-/// What a helper is for, as errors say it.
+/// Description of a helper's task for error messages.
 struct HelperTask {
   std::string helper;                       ///< "the tetrahedra engine"
   std::string attempted;                    ///< "handing the boundary to the tetrahedra engine"
   std::string else_try;                     ///< appended to the hint to build it: ", or set ..."; may be empty
-  ErrorCode missing = ErrorCode::internal;  ///< it is not there or cannot be started
-  ErrorCode failed = ErrorCode::internal;   ///< the system refuses memory or a pipe
+  ErrorCode missing = ErrorCode::internal;  ///< code of the error if the helper is missing or cannot be started
+  ErrorCode failed = ErrorCode::internal;   ///< code of the error if the system refuses memory or a pipe
 };
 
-/// Anonymous file in memory that another process can inherit; closed with the object.
+/// Anonymous file in memory that another process can inherit; closed when the object is destroyed.
 class SharedBlock {
  public:
-  /// \throws Error(task.failed) when the system refuses.
+  /// \throws Error(task.failed) if the system refuses
   SharedBlock(const char* name, std::size_t size, HelperTask task);
   ~SharedBlock();
   SharedBlock(const SharedBlock&) = delete;
   SharedBlock& operator=(const SharedBlock&) = delete;
 
   int descriptor() const { return descriptor_; }
-  /// Maps the block at its present size, which another process may have changed; nullptr when it is empty. The mapping lives as long as the object.
+  /// Maps the block at its present size, which another process may have changed. Returns nullptr if the block is empty. The mapping is valid as long as the
+  /// object exists.
   std::byte* map();
-  /// Puts data at its end, which moves.
-  /// \throws Error(task.failed) when there is no memory for it.
+  /// Appends data at the end of the block.
+  /// \throws Error(task.failed) if memory is exhausted
   void append(std::span<const std::byte> data);
-  std::size_t size() const { return size_; }  ///< of the mapping
+  std::size_t size() const { return size_; }  ///< size of the mapping
 
  private:
   HelperTask task_;
@@ -51,42 +52,43 @@ class SharedBlock {
   std::size_t size_ = 0;
 };
 
-/// Data that is not there yet: nothing as long as it is not.
+/// Supplies data that become available later; returns nothing until then.
 using LateData = std::function<std::span<const std::byte>()>;
 
-/// How a helper is run.
+/// Start parameters of a helper.
 struct HelperStart {
   HelperTask task;
-  std::string path;                    ///< of the executable
-  std::vector<std::string> arguments;  ///< beside its name
-  LateData late;                       ///< empty = none; asked again and again; what it throws ends the helper and comes out of run_helper
+  std::string path;                    ///< path of the executable
+  std::vector<std::string> arguments;  ///< arguments without the program's name
+  LateData late;                       ///< empty = none; called repeatedly; an exception that it throws ends the helper and is rethrown by run_helper
   double time_limit = 0.0;             ///< seconds of wall time; k_automatic = none
 };
 
-/// How a helper ended.
+/// Result of a helper's run.
 struct HelperExit {
   int wait_status = 0;        ///< as of waitpid()
-  bool is_time_over = false;  ///< killed here because of the time limit
-  double seconds = 0.0;       ///< wall time of its life
-  std::string output;         ///< the last few kilobytes it wrote to stdout and stderr
+  bool is_time_over = false;  ///< killed by run_helper because the time limit was exceeded
+  double seconds = 0.0;       ///< wall time of the helper
+  std::string output;         ///< the last few kilobytes of its stdout and stderr
   bool is_success() const { return wait_status == 0 && !is_time_over; }
 };
 
-/// Starts the helper with the descriptors `request` and `reply` as its 3 and 4, waits for its end. Its own process group, so that Ctrl-C reaches it through the
-/// context's stop only.
+/// Starts the helper with the descriptors `request` and `reply` as its descriptors 3 and 4, and waits for its end. The helper has its own process group, so
+/// that Ctrl-C reaches it only through the context's stop.
 /// \pre request and reply are 10 or more, as those of SharedBlock are; see above_helper_descriptors()
-/// \throws Error task.missing when it cannot be started, task.failed; cancelled (the helper is killed and reaped first).
+/// \throws Error task.missing if it cannot be started, task.failed; cancelled (the helper is killed and reaped first)
 HelperExit run_helper(const HelperStart& start, int request, int reply, const RunContext& context);
 
-/// The same file under a number that run_helper takes; the old one is closed.
+/// Duplicates the file to a descriptor number that run_helper accepts and closes the old descriptor.
 /// \throws Error(task.failed)
 int above_helper_descriptors(int descriptor, const HelperTask& task);
 
-/// Path of the helper executable `name`: in `folder` if that is not empty, else in the folder of the running executable or one of the two above it.
-/// \throws Error(task.missing) with the places that were looked at.
+/// Returns the path of the helper executable `name`: in `folder` if that is not empty, else in the folder of the running executable or in one of the two
+/// folders above it.
+/// \throws Error(task.missing) with the locations searched
 std::string find_helper(const std::string& name, const std::string& folder, const HelperTask& task);
 
-/// "; its last words: ..." for an error text; empty when it said nothing.
+/// Returns "; its last words: ..." for an error message; empty if the helper printed nothing.
 std::string last_words(const HelperExit& exit);
 
 }  // namespace sterna

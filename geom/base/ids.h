@@ -1,4 +1,4 @@
-// Typed 32-bit ids and columns indexed by them: a vertex id cannot be used where a triangle id is meant.
+// Typed 32-bit ids and columns indexed by them. A vertex id cannot be used in place of a triangle id.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace sterna {
 
-/// Throws Error(ErrorCode::overflow) that names what overflowed; defined in ids.cpp.
+/// Throws Error(ErrorCode::overflow) naming the quantity that overflowed; defined in ids.cpp.
 [[noreturn]] void throw_id_overflow(std::uint64_t value);
 
 /// 32-bit id of one kind of entity. Invalid by default; no implicit conversion in or out.
@@ -21,7 +21,7 @@ class Id {
   static constexpr std::uint32_t k_invalid = std::numeric_limits<std::uint32_t>::max();
 
   constexpr Id() = default;
-  /// \throws Error(overflow) when `index` does not fit.
+  /// \throws Error(overflow) if `index` does not fit
   constexpr explicit Id(std::uint64_t index) : value_(static_cast<std::uint32_t>(index)) {
     if (index >= k_invalid) throw_id_overflow(index);
   }
@@ -43,7 +43,7 @@ using HalfedgeId = Id<struct HalfedgeTag>;  ///< 3 * triangle + corner
 using PatchId = Id<struct PatchTag>;        ///< named boundary patch
 using NodeId = Id<struct NodeTag>;          ///< node of a HybridMesh
 
-/// The range of ids [0, n), for range-based for.
+/// Range of ids [0, n) for range-based for loops.
 template <class I>
 class IdRange {
  public:

@@ -1,4 +1,4 @@
-// Arrays one behind the other, at compile time.
+// Concatenates arrays at compile time.
 #pragma once
 
 #include <array>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double k_untold = std::numeric_limits<double>::infinity();
 
-/// The number behind a key of a file of lines "key number ..."; untold where there is none.
+/// Returns the number after a key in a file of lines "key number ..."; untold if there is none.
 double number_of(const std::filesystem::path& path, const std::string& wanted) {
   std::ifstream file(path);
   std::string key, rest;
@@ -26,7 +26,7 @@ double number_of(const std::filesystem::path& path, const std::string& wanted) {
   return k_untold;
 }
 
-/// The one number of a file; untold for "max", or where there is no such file.
+/// Returns the only number in a file; untold for "max", or if there is no such file.
 double number_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   double number = 0.0;
@@ -38,7 +38,7 @@ double free_of_kernel() {
   return k_kibibyte * number_of("/proc/meminfo", "MemAvailable:");
 }
 
-/// Of the process, in bytes: its whole address space, and what of it is in memory. Zeros where it is not told.
+/// Sizes of the process in bytes: its whole address space, and its resident part. Zeros if not reported.
 struct ProcessSize {
   double all = 0.0, resident = 0.0;
 };
@@ -56,7 +56,7 @@ double free_of_address_space() {
   return std::max(0.0, static_cast<double>(limit.rlim_cur) - process_size().all);
 }
 
-/// Of the process's own group and those around it (version 2 of control groups).
+/// Returns the free memory of the process's control group and the groups around it (version 2 of control groups).
 double free_of_control_group() {
   std::ifstream file("/proc/self/cgroup");
   double least = k_untold;
@@ -66,7 +66,7 @@ double free_of_control_group() {
     for (std::filesystem::path group = top / line.substr(4);; group = group.parent_path()) {
       const double limit = number_of(group / "memory.max"), used = number_of(group / "memory.current");
       if (limit != k_untold && used != k_untold) {
-        const double cache = number_of(group / "memory.stat", "inactive_file");  // given up when others need it
+        const double cache = number_of(group / "memory.stat", "inactive_file");  // released when other processes need memory
         least = std::min(least, std::max(0.0, limit - used + (cache == k_untold ? 0.0 : cache)));
       }
       if (group == top || !group.has_relative_path()) break;

@@ -1,12 +1,12 @@
-// How much memory is left. For forecasts and reports only, never for results.
+// Available and used memory. For forecasts and reports only; results never depend on these values.
 #pragma once
 
 namespace sterna {
 
-/// Bytes that this process may still take: the least of what the kernel thinks is free, what is left of its address space (ulimit -v), and of its control group
-/// (containers, jobs of Slurm). Infinite where nothing is told.
+/// Returns the bytes that this process may still allocate: the minimum of the kernel's estimate of free memory, the rest of the address space limit (ulimit
+/// -v), and the rest of the limit of the control group (containers, Slurm jobs). Infinite if no limit is reported.
 double available_memory();
-/// Bytes that this process holds in memory now; 0 where it is not told.
+/// Returns the bytes of memory that this process uses now (resident set); 0 if not reported.
 double resident_memory();
 
 }  // namespace sterna

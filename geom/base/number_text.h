@@ -1,4 +1,4 @@
-// Numbers in messages: so many significant digits, however small.
+// Numbers in messages with a given number of significant digits, however small.
 #pragma once
 
 #include <charconv>

@@ -7,17 +7,20 @@
 
 namespace sterna {
 
-/// Kelvin, of options that are temperatures or differences of temperatures. (Beside the enumeration, whose header everything includes.)
+/// Kelvin: unit of options that are temperatures or temperature differences. (Declared here and not in the header of the enumeration, which everything
+/// includes.)
 inline constexpr Unit k_kelvin{5};
 
-/// The unit of an angle that is given as a number alone: files that the program writes hold radians, the command line takes degrees.
+/// Unit of an angle given as a plain number: files written by the program hold radians, the command line takes degrees.
 enum class BareAngle { radians, degrees };
 
-/// Numbers with a unit suffix ("mm", "um", "cm", "inch", "ft", "deg", "K") in SI; both "2*mm" and "2mm". A number alone is in SI, an angle as `bare_angle`
-/// says. \throws Error(bad_argument) where it is no number, or its unit is not one of `expected`: 12deg is no length, and what has no unit takes none
+/// Parses a number with an optional unit suffix ("mm", "um", "cm", "inch", "ft", "deg", "K") and returns it in SI; accepts both "2*mm" and "2mm". A plain
+/// number is in SI; for angles `bare_angle` gives the unit.
+/// \throws Error(bad_argument) if the text is not a number or its unit is not one of `expected`: 12deg is not a length, and a dimensionless quantity takes no
+/// unit
 double parse_number_with_unit(std::string_view text, Unit expected, BareAngle bare_angle);
 
-/// set_option_from_text with the unit of angles that have none.
+/// Calls set_option_from_text with the unit assumed for angles given without one.
 /// \throws Error(bad_argument)
 void set_option_from_text(const Option& option, std::string_view text, BareAngle bare_angle);
 

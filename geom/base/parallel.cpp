@@ -1,5 +1,5 @@
-// Two back ends behind the same functions: oneTBB, and std::thread for the tsan preset (Debian's libtbb is not instrumented, and
-// suppressing its reports would hide real races).
+// Two back ends of the same functions: oneTBB, and std::thread for the tsan preset (Debian's libtbb is not instrumented, and suppressing its reports would hide
+// real races).
 #include "geom/base/parallel.h"
 
 #include <exception>
@@ -20,7 +20,7 @@
 namespace sterna {
 namespace {
 
-/// Keeps the exception of the lowest chunk, so that the error a user sees does not depend on timing.
+/// Keeps the exception of the lowest chunk, so that the reported error does not depend on timing.
 class FirstException {
  public:
   void capture(std::size_t chunk) {
@@ -45,8 +45,8 @@ int resolve_threads(int threads) { return threads > 0 ? threads : static_cast<in
 
 #ifndef STERNA_STD_THREADS
 
-/// Threads that TBB may have in all when some pool wants more than the hardware has. Of all rules alive TBB takes the smallest, so that a
-/// pool's rule must not be its own count (a pool of 2 would hold one of 7 down): its arena keeps it to that. 256 is what TBB itself reserves for.
+/// Limit of TBB's total number of threads if a pool requires more than the hardware has. TBB applies the smallest of all existing limits, so a pool must not
+/// set its own count as a limit (a pool of 2 would restrict one of 7): its arena limits it instead. 256 is the number for which TBB itself reserves memory.
 constexpr std::size_t k_allowed_threads = 256;
 
 class ThreadPool {
@@ -56,7 +56,8 @@ class ThreadPool {
       allowance.emplace(tbb::global_control::max_allowed_parallelism, std::max(static_cast<std::size_t>(count), k_allowed_threads));
   }
   int threads;
-  std::optional<tbb::global_control> allowance;  ///< only above the hardware's threads, TBB's own limit; 7 threads must be possible on 2 cores
+  std::optional<tbb::global_control> allowance;  ///< set only above the hardware's number of threads, which is TBB's own limit; 7 threads must be possible on 2
+                                                 ///< cores
   tbb::task_arena arena;
 };
 

@@ -30,11 +30,11 @@ class RangeFunction {
 
 }  // namespace detail
 
-/// Elements per chunk when the caller does not say; large enough to hide the cost of a task (about 1 us).
+/// Default number of elements per chunk; large enough to hide the cost of a task (about 1 us).
 inline constexpr std::size_t k_default_chunk = 2048;
 
 /// Calls f(begin, end) once for each chunk [i*chunk, min((i+1)*chunk, n)), in any order, on the context's threads.
-/// Exceptions of f reach the caller; of several, the one of the lowest chunk. Checks for a stop between chunks.
+/// Exceptions of f reach the caller; if several are thrown, that of the lowest chunk. Checks for a stop between chunks.
 void parallel_chunks(const RunContext& context, std::size_t n, std::size_t chunk, detail::RangeFunction f);
 
 /// Calls f(i) for every i in [0, n).
@@ -45,7 +45,7 @@ void parallel_for(const RunContext& context, std::size_t n, const F& f, std::siz
   });
 }
 
-/// map(begin, end) -> R for each chunk, then R = combine(R, R) from the first chunk to the last, starting from `initial`.
+/// Computes map(begin, end) -> R for each chunk, then R = combine(R, R) from the first chunk to the last, starting from `initial`.
 template <class R, class Map, class Combine>
 R parallel_reduce(const RunContext& context, std::size_t n, R initial, const Map& map, const Combine& combine, std::size_t chunk = k_default_chunk) {
   if (n == 0) return initial;
@@ -56,7 +56,7 @@ R parallel_reduce(const RunContext& context, std::size_t n, R initial, const Map
   return result;
 }
 
-/// What collect(begin, end, list) appends to the list of its chunk, from the first chunk to the last.
+/// Concatenates the lists to which collect(begin, end, list) appends, one list per chunk, from the first chunk to the last.
 template <class T, class Collect>
 std::vector<T> parallel_collect(const RunContext& context, std::size_t n, const Collect& collect, std::size_t chunk = k_default_chunk) {
   return parallel_reduce(

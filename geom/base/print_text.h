@@ -1,4 +1,4 @@
-// Numbers in messages, as printf has them.
+// printf-style formatting of numbers in messages.
 #pragma once
 
 #include <cstdarg>
@@ -7,7 +7,7 @@
 
 namespace sterna {
 
-/// At most 500 characters.
+/// Returns the formatted text, at most 500 characters.
 [[gnu::format(printf, 1, 2)]] inline std::string print_text(const char* format, ...) {
   char text[512];
   std::va_list arguments;

@@ -14,7 +14,7 @@ constexpr auto k_progress_interval = std::chrono::milliseconds(100);
 
 std::int64_t now_ns() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// Of this process and the helpers that it has waited for.
+/// Returns the CPU time of this process and of the helpers that it has waited for.
 double processor_seconds() {
   double seconds = 0.0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -51,7 +51,7 @@ void RunContext::tell_if_long() const {
   const std::int64_t now = now_ns(), taken = now - begin_ns_;
   std::int64_t silent_until = state_->silent_until_ns.load(std::memory_order_relaxed);
   if (static_cast<double>(taken) < 1e9 * state_->settings.long_step || now < silent_until) return;
-  if (!state_->silent_until_ns.compare_exchange_strong(silent_until, now + taken)) return;  // another thread tells it
+  if (!state_->silent_until_ns.compare_exchange_strong(silent_until, now + taken)) return;  // another thread reports it
   const std::int64_t minutes = taken / 60'000'000'000;
   warn(stage_.substr(0, stage_.find('/')) + " has taken " + (minutes > 0 ? std::to_string(minutes) + " min" : std::to_string(taken / 1'000'000'000) + " s") +
        " so far, now at " + stage_ + ", and goes on; Ctrl-C stops it, nothing half-written stays");
@@ -75,7 +75,7 @@ RunContext RunContext::part(std::string_view stage, double from, double to) cons
   result.begin_ns_ = begin_ns_;
   if (stage_.empty()) {
     result.begin_ns_ = now_ns();
-    state_->silent_until_ns = 0;  // what was said of the step before is no word of this one
+    state_->silent_until_ns = 0;  // messages about the previous step do not apply to this one
   }
   result.from_ = from_ + from * (to_ - from_);
   result.to_ = from_ + to * (to_ - from_);

@@ -20,7 +20,7 @@ struct NamedScale {
   double scale;
   Unit dimension;
 };
-/// SI value of each unit that a number may carry; exact by definition (inch = 25.4 mm, ft = 12 inch).
+/// SI value of each unit accepted with a number; exact by definition (inch = 25.4 mm, ft = 12 inch).
 constexpr std::array<NamedScale, 14> k_units = {{{"m", 1.0, Unit::metre},
                                                  {"mm", 1e-3, Unit::metre},
                                                  {"um", 1e-6, Unit::metre},
@@ -48,7 +48,7 @@ std::string_view dimension_text(Unit dimension) {
   return "";
 }
 
-/// "a length (m, mm, cm, inch, in, ft)"
+/// Returns "a length (m, mm, cm, inch, in, ft)".
 std::string expected_text(Unit dimension) {
   std::string units;
   for (const NamedScale& known : k_units)
@@ -76,7 +76,7 @@ std::string value_text(const OptionValue& value) {
       value);
 }
 
-/// With its unit as users write it: angles in degrees, to six digits, which hides the conversion's rounding.
+/// Formats a value with the unit used in input: angles in degrees, to six digits, which hides the rounding of the conversion.
 std::string display_text(double value, Unit unit) {
   if (unit != Unit::radian) return option_number_text(value) + (unit == Unit::none ? "" : " " + std::string(to_string(unit)));
   std::ostringstream text;
@@ -104,7 +104,7 @@ std::vector<std::string> split(std::string_view text) {
   return words;
 }
 
-/// The number that a name stands for: choices "coarse=0.5 fine=2".
+/// Returns the number assigned to a name in the choices "coarse=0.5 fine=2".
 std::optional<double> named_number(std::string_view choices, std::string_view name) {
   for (const std::string& choice : split(choices)) {
     const std::size_t equals = choice.find('=');
@@ -113,7 +113,7 @@ std::optional<double> named_number(std::string_view choices, std::string_view na
   return std::nullopt;
 }
 
-/// "coarse, fine"
+/// Returns "coarse, fine".
 std::string names_of_numbers(std::string_view choices) {
   std::string text;
   for (const std::string& choice : split(choices)) text += (text.empty() ? "" : ", ") + choice.substr(0, choice.find('='));
@@ -132,7 +132,7 @@ void check_range(const Option& option, double value) {
     if (option.automatic.empty()) reject(option, "\"automatic\"", std::string(kind_text(option.kind)));
     return;
   }
-  // Limits of angles are printed in degrees, to six digits: whoever types what is printed means the limit.
+  // Limits of angles are printed in degrees, to six digits; a value typed as printed must be accepted as the limit.
   const double slack = option.unit == Unit::radian ? 5e-6 : 0.0;
   if (value < option.min - slack * std::abs(option.min) || value > option.max + slack * std::abs(option.max) || std::isinf(value))
     reject(option, option_number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""),
@@ -148,7 +148,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      // Two letters exchanged are one mistake.
+      // Two exchanged letters count as one error.
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
@@ -253,7 +253,7 @@ const Option& find_option(const OptionTable& table, std::string_view name, std::
 
 namespace {
 
-/// parse_number_with_unit that says which option it was.
+/// Calls parse_number_with_unit and adds the name of the option to errors.
 double number_of_text(const Option& option, std::string_view text, BareAngle bare_angle) {
   try {
     return parse_number_with_unit(text, option.unit, bare_angle);

@@ -1,5 +1,5 @@
-// One description of every option set: a plain struct with defaults, and one Schema<T> with name, unit, range and help of each member.
-// Lua tables, `--set stage.option=value`, help, manual and manifest are all fed by it. A member missing from the table does not compile.
+// Single description of every option set: a plain struct with defaults, and one Schema<T> with name, unit, range and help of each member. Lua tables, `--set
+// stage.option=value`, help, manual and manifest are all generated from it. A member missing from the table causes a compile error.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace sterna {
 
-/// "Find it yourself": the value of a double option whose default follows from the geometry or from other options.
+/// Automatic: value of a double option whose default follows from the geometry or from other options.
 inline constexpr double k_automatic = std::numeric_limits<double>::quiet_NaN();
 constexpr bool is_automatic(double value) { return value != value; }
-/// The same of an integer option (a number of things) that has a text for `automatic`: "automatic" in scripts and on the command line.
+/// Automatic value of an integer option (a count) that has a text in `automatic`: "automatic" in scripts and on the command line.
 inline constexpr int k_automatic_count = -1;
 constexpr bool is_automatic(int value) { return value == k_automatic_count; }
 
@@ -36,10 +36,10 @@ struct Field {
   double min = -k_unbounded;  ///< inclusive
   double max = k_unbounded;   ///< inclusive
   std::string_view help;
-  std::string_view automatic = {};  ///< for numbers: what k_automatic or k_automatic_count means, e.g. "50 body lengths"; empty = must have a number
+  std::string_view automatic = {};  ///< for numbers: meaning of k_automatic or k_automatic_count, e.g. "50 body lengths"; empty = a number is required
   std::string_view choices =
       {};                 ///< for strings: the allowed values, separated by blanks; empty = any. For numbers: names that stand for some: "coarse=0.5 fine=2"
-  bool required = false;  ///< the user must give it
+  bool required = false;  ///< the user must set the option
 };
 
 /// Specialise for every options struct T:
@@ -53,7 +53,7 @@ struct Schema;
 using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
 enum class OptionKind { boolean, integer, number, text };
 
-/// Type-erased view of one option of a living options struct (which must outlive it).
+/// Type-erased view of one option of an existing options struct (which must outlive the view).
 struct Option {
   std::string_view stage;
   std::string_view name;
@@ -67,13 +67,13 @@ struct Option {
   bool required = false;
   OptionValue default_value;
   std::function<OptionValue()> get;
-  std::function<void(const OptionValue&)> store;  ///< without any check; use set_option
+  std::function<void(const OptionValue&)> store;  ///< stores without any check; use set_option
 
-  /// Whether the value is k_automatic, or k_automatic_count of an integer that may be.
+  /// Returns true if the value is k_automatic, or is k_automatic_count for an integer option that allows it.
   bool is_automatic_value(const OptionValue& value) const;
-  /// "0.35", "automatic (50 body lengths)", "required"
+  /// Returns "0.35", "automatic (50 body lengths)" or "required".
   std::string default_text() const;
-  /// "1 <= x", "0 .. 1 rad", "one of a, b"; empty when anything goes
+  /// Returns "1 <= x", "0 .. 1 rad" or "one of a, b"; empty if any value is valid.
   std::string range_text() const;
 };
 
@@ -81,7 +81,7 @@ using OptionTable = std::vector<Option>;
 
 namespace detail {
 
-/// Converts to anything a schema can describe: counts the members of an aggregate.
+/// Converts to any type that a schema can describe; used to count the members of an aggregate.
 struct AnyMember {
   template <class U>
   operator U() const;  // never defined
@@ -100,7 +100,7 @@ constexpr std::size_t member_count() {
 
 }  // namespace detail
 
-/// The options of `instance`, in schema order. `instance` must outlive the table.
+/// Returns the options of `instance`, in schema order. `instance` must outlive the table.
 template <class T>
 OptionTable options_of(T& instance) {
   static_assert(detail::member_count<T>() == Schema<T>::fields.size(), "every member of the options struct needs one entry in its Schema");
@@ -139,7 +139,7 @@ OptionTable options_of(T& instance) {
   return table;
 }
 
-/// Sets one option after checking type, range and choices. An integer value is accepted for a number.
+/// Sets one option after checking type, range and choices. Integers are accepted for floating-point options.
 /// \throws Error(bad_argument) with name, value, unit and range.
 void set_option(const Option& option, const OptionValue& value);
 
@@ -147,20 +147,20 @@ void set_option(const Option& option, const OptionValue& value);
 /// \throws Error(unknown_option) with the nearest name as a suggestion; \p attempted starts the message.
 const Option& find_option(const OptionTable& table, std::string_view name, std::string_view attempted);
 
-/// Reads `text` as the option's kind: "35*deg", "35deg", "2.5mm", "1e-6", "true", "automatic" ... and sets it.
+/// Parses `text` according to the option's kind ("35*deg", "35deg", "2.5mm", "1e-6", "true", "automatic" ...) and sets the option.
 /// \throws Error(bad_argument)
 void set_option_from_text(const Option& option, std::string_view text);
 
-/// \throws Error(bad_argument) naming every required option of the table that still has no value (NaN).
+/// \throws Error(bad_argument) naming every required option of the table that has no value (NaN)
 void require_options(const OptionTable& table, std::string_view attempted);
 
-/// The candidate with the smallest edit distance, if it is small enough to be a likely misspelling; else empty.
+/// Returns the candidate with the smallest edit distance if it is small enough for a likely misspelling; else an empty string.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-/// JSON object text {"envelope": {"layers": 30, ...}, ...} of all options of the table; NaN as "automatic".
+/// Returns a JSON object {"envelope": {"layers": 30, ...}, ...} of all options of the table; NaN is written as "automatic".
 std::string options_to_json(const OptionTable& table);
 
-/// Several lines: name, default, unit, range, help of each option, for --help and help().
+/// Returns several lines with name, default, unit, range and help of each option, for --help and help().
 std::string options_help(const OptionTable& table);
 
 }  // namespace sterna

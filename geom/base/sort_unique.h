@@ -1,4 +1,4 @@
-// Lists as sets.
+// Sorted lists without duplicates.
 #pragma once
 
 #include <algorithm>

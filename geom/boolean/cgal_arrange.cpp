@@ -1,6 +1,6 @@
-// Triangles of one plane that overlap form a group; each group is one constrained triangulation (in the two coordinates in which its normal is least) of its
-// triangles' edges and of their intersections with triangles of other planes. A point that several planes share is found by each of them, exactly, and so is
-// one vertex.
+// Overlapping coplanar triangles form a group. Each group is one constrained triangulation (in the two coordinates in which its normal is smallest) of its
+// triangles' edges and of their intersections with triangles of other planes. A point shared by several planes is computed by each of them exactly, and
+// therefore becomes one vertex.
 #include "geom/boolean/cgal_arrange.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -37,7 +37,7 @@ struct Piece {
   bool is_point = false;
 };
 
-/// One plane's triangles, and what of others lies in them.
+/// Triangles of one plane, and the intersections of other triangles with that plane.
 struct Group {
   std::vector<std::uint32_t> triangles;
   std::vector<Piece> pieces;
@@ -109,7 +109,7 @@ class Arranger {
     } else if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common)) {
       piece = {segment->source(), segment->target(), false};
     } else {
-      return;  // a region: they are in one plane, which was asked before
+      return;  // a region: the triangles are coplanar, which was tested before
     }
     for (const Point3* p : {&piece.a, &piece.b}) CGAL::exact(*p);
     of_i.push_back(piece);

@@ -1,5 +1,5 @@
 // Based on: S. Loriot et al., "Polygon Mesh Processing" in the CGAL 5.5 manual, chapter Boolean operations.
-// The two meshes of each step lie in one array, because CGAL orders some of its work by their addresses: so the result is the same in every run.
+// The two meshes of each step are stored in one array, because CGAL orders some of its work by their addresses: the result is therefore the same in every run.
 #include "geom/boolean/cgal_corefine.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -18,7 +18,7 @@ using Vertex = Mesh::Vertex_index;
 using TagMap = Mesh::Property_map<Face, std::uint32_t>;
 constexpr const char* k_tag = "f:tag";
 
-/// Hands the tags of triangles to their pieces and copies.
+/// Copies the tags of triangles to their pieces and copies.
 struct TagVisitor : pmp::Corefinement::Default_visitor<Mesh> {
   const std::array<Mesh, 2>* meshes = nullptr;
   std::array<TagMap, 2> tags;
@@ -31,7 +31,7 @@ struct TagVisitor : pmp::Corefinement::Default_visitor<Mesh> {
 };
 
 void fill(Mesh& mesh, const TaggedSolid& solid) {
-  mesh.clear();  // removes property maps, too
+  mesh.clear();  // also removes property maps
   TagMap tag = mesh.add_property_map<Face, std::uint32_t>(k_tag, 0).first;
   for (const Vec3& p : solid.points) mesh.add_vertex(Kernel::Point_3(p.x, p.y, p.z));
   for (std::size_t t = 0; t < solid.triangles.size(); ++t) {
@@ -40,7 +40,7 @@ void fill(Mesh& mesh, const TaggedSolid& solid) {
   }
 }
 
-/// Evaluates the coordinates now: lazy numbers would otherwise drag the history of all earlier cuts along.
+/// Evaluates the coordinates now: lazy numbers would otherwise keep the history of all earlier cuts.
 void make_exact(const Mesh& mesh) {
   for (const Vertex v : mesh.vertices()) CGAL::exact(mesh.point(v));
 }
@@ -63,7 +63,7 @@ TaggedSolid rounded(Mesh& mesh) {
   return solid;
 }
 
-/// Empty when it worked, else why not.
+/// Returns an empty string on success, else the cause of the failure.
 std::string add_second_to_first(std::array<Mesh, 2>& meshes) {
   TagVisitor visitor;
   visitor.meshes = &meshes;

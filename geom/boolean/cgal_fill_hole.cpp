@@ -25,7 +25,7 @@ using Flat =
 using FillMesh = CGAL::Surface_mesh<FillKernel::Point_3>;
 constexpr int k_unknown = -1;
 
-/// Even-odd: each constraint crossed on the way from outside changes the side.
+/// Marks the inside by the even-odd rule: each constraint crossed on the way from outside changes the side.
 void mark_inside(Flat& flat) {
   for (const auto f : flat.all_face_handles()) f->info() = k_unknown;
   std::vector<Flat::Face_handle> now{flat.infinite_face()}, later;
@@ -121,7 +121,7 @@ HolePatch fill_flat(const std::vector<std::vector<Vec3>>& loops, const Vec3& nor
       for (const Vec3& p : loop) {
         const std::size_t n_before = flat.number_of_vertices();
         rim.push_back(flat.insert(flat_point(p)));
-        if (flat.number_of_vertices() == n_before) return {};  // it touches itself
+        if (flat.number_of_vertices() == n_before) return {};  // the loop touches itself
         rim.back()->info() = number++;
       }
       for (std::size_t i = 0; i < rim.size(); ++i) flat.insert_constraint(rim[i], rim[(i + 1) % rim.size()]);
@@ -144,7 +144,7 @@ HolePatch fill_curved(const HoleRim& rim, bool is_smooth) {
     if (patch.triangles.empty()) patch = fill_by_loop(rim);
     return patch;
   } catch (const CGAL::Failure_exception&) {
-    return {};  // the caller says which hole stays
+    return {};  // the caller reports the hole that remains
   }
 }
 

@@ -1,4 +1,4 @@
-// Triangles for the holes of surfaces. One of the doors to CGAL: its headers stay in cgal_fill_hole.cpp.
+// Triangulates holes in surfaces. One of the interfaces to CGAL, whose headers stay in cgal_fill_hole.cpp.
 #pragma once
 
 #include <array>
@@ -11,23 +11,24 @@
 namespace sterna {
 
 struct HolePatch {
-  std::vector<Vec3> points;                             ///< new ones; numbered behind the loop's
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty when nothing was found; sense: a triangle runs along loop[i] -> loop[i + 1]
+  std::vector<Vec3> points;                             ///< new points; numbered after those of the loop
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty if no triangulation was found; orientation: a triangle runs along loop[i] -> loop[i + 1]
 };
 
-/// Fills the region that closed loops in one plane enclose (even-odd: a loop in another is the rim of what stays open) by a constrained Delaunay triangulation
-/// without new points. Loops are numbered through. \pre loops do not touch nor cross; they are projected along `normal`. Empty when they do cross.
+/// Fills the region enclosed by closed loops in one plane (even-odd rule: a loop inside another bounds a hole) by a constrained Delaunay triangulation without
+/// new points. The points of the loops are numbered consecutively. The result is empty if loops cross.
+/// \pre loops neither touch nor cross; they are projected along `normal`
 HolePatch fill_flat(const std::vector<std::vector<Vec3>>& loops, const Vec3& normal);
 
-/// The rim's surroundings: triangles of the surface about the hole with points of their own; the first loop.size() points are the loop's.
+/// Neighbourhood of the hole: triangles of the surface around it with their own points; the first loop.size() points are those of the loop.
 struct HoleRim {
   std::vector<Vec3> points;
   std::uint32_t n_loop = 0;  ///< the hole runs along points 0 -> 1 -> ... -> n_loop - 1 -> 0; surface triangles have those edges reversed
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< a consistent, manifold neighbourhood, may be empty
 };
 
-/// Triangulates the loop with least area and bend; with `is_smooth`, new points as dense as the rim's are added and placed so that the surface goes on without
-/// a kink (Liepa 2003, by CGAL). Where the neighbourhood is not manifold, without new points. O(n^3) for n loop points.
+/// Triangulates the loop with minimum area and bending. With `is_smooth`, new points are added with the spacing of the boundary points, and positioned so that
+/// the surface continues without a kink (Liepa 2003, by CGAL). No points are added if the neighbourhood is not manifold. O(n^3) for n loop points.
 HolePatch fill_curved(const HoleRim& rim, bool is_smooth);
 
 }  // namespace sterna

@@ -16,7 +16,7 @@ using WrapKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using WrapPoint = WrapKernel::Point_3;
 using WrapMesh = CGAL::Surface_mesh<WrapPoint>;
 
-/// Points between two looks at the clock of progress.
+/// Number of points between two progress updates.
 constexpr std::int64_t k_points_per_step = 64;
 
 /// Counts points: progress, stop, limit.

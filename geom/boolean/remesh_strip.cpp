@@ -1,9 +1,10 @@
-// Problem: exact cuts leave edges of any length and needles along the curve. Each round measures how far every vertex is from the curve (measure_strip), then
-// splits edges that are long there (split_long), collapses short ones (collapse_short), flips (flip_edges) and smooths (smooth); at last what still is a sliver
-// is dealt with one by one (remove_slivers). All loops go in order of length and number, and each has a fixed number of rounds: deterministic and bounded.
+// Problem: exact cuts leave edges of any length and sliver triangles along the curve. Each round measures the distance of every vertex from the curve
+// (measure_strip), then splits edges that are long for their distance (split_long), collapses short ones (collapse_short), flips (flip_edges) and smooths
+// (smooth). Finally, remaining slivers are processed one by one (remove_slivers). All loops run in order of length and number, and each has a fixed number of
+// rounds: deterministic and bounded.
 //
-// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004, for the kind of rounds; the tests of each step are
-// strip_mesh.h's.
+// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004, for the structure of the rounds; the tests of each step are
+// those of strip_mesh.h.
 #include "geom/boolean/remesh_strip.h"
 
 #include <algorithm>
@@ -19,24 +20,24 @@ namespace {
 constexpr int k_rounds = 5;
 constexpr int k_flip_sweeps = 3;
 constexpr int k_sliver_sweeps = 4;
-/// An edge is long beyond this multiple of the local length, short below this share: a split leaves halves that are not short again.
+/// An edge is long beyond this multiple of the local length, and short below this fraction; the halves of a split edge are therefore not short.
 constexpr double k_long = 1.5;
 constexpr double k_short = 0.6;
-/// Vertices nearer than this share of the input's edges are one: parts meant to share a plane, off by rounding.
+/// Vertices nearer than this fraction of the input's edge lengths are merged: parts intended to share a plane, apart by rounding.
 constexpr double k_merge = 1e-3;
-/// rad; a collapse may leave an angle of this size though others were better: 15 degrees.
+/// rad; a collapse may leave an angle of this size even if other angles were larger: 15 degrees.
 constexpr double k_fair_angle = 0.26;
-/// rad; a flip must gain this much, so that equal diagonals are not flipped for ever.
+/// rad; minimum gain of a flip, so that equal diagonals are not flipped forever.
 constexpr double k_flip_gain = 1e-3;
-/// rad; below it a triangle is worth a step of its own: 12 degrees.
+/// rad; triangles with a smaller angle are processed individually: 12 degrees.
 constexpr double k_poor_angle = 0.21;
-/// cos of 1 degree: around an input vertex that may move, normals agree within it.
+/// cos of 1 degree: normals around a movable input vertex agree within it.
 constexpr double k_flat = 0.99985;
 
 using StripVertex = std::uint32_t;
 using EdgeEnds = std::array<StripVertex, 2>;
 
-/// An edge with what decides its turn.
+/// An edge with its sorting key.
 struct RankedEdge {
   double key;
   EdgeEnds ends;
@@ -96,7 +97,7 @@ class StripRemesher {
 
  private:
   static std::vector<char> find_curve(const StripInput& input) {
-    // A vertex whose triangles belong to two solids lies on the curve.
+    // A vertex whose triangles belong to two solids is on the curve.
     constexpr std::uint32_t k_none = 0xffffffffu;
     std::vector<std::uint32_t> solid(input.points.size(), k_none);
     std::vector<char> is_on_curve(input.points.size(), 0);
@@ -116,7 +117,7 @@ class StripRemesher {
   }
   double tolerance(StripVertex a, StripVertex b) const { return options_.deviation * std::min(local_[a].longest, local_[b].longest); }
 
-  /// Shortest paths along edges from the curve: lengths grow from the curve's, up to the input's own. Paths end beyond the strip's width.
+  /// Computes shortest paths along edges from the curve: lengths grow from the curve's up to those of the input. Paths end beyond the strip's width.
   void measure_strip() {
     const std::size_t n = mesh_.points.size();
     local_ = base_;
@@ -150,7 +151,7 @@ class StripRemesher {
     }
   }
 
-  /// Edges with an end that may change, once each.
+  /// Returns the edges with an end that may change, each once.
   template <class Accept>
   std::vector<RankedEdge> edges_where(const Accept& accept) const {
     std::vector<RankedEdge> found;
@@ -222,7 +223,7 @@ class StripRemesher {
 
   bool flip(const EdgeEnds& e) { return !mesh_.is_kept_edge(e[0], e[1]) && mesh_.flip(e[0], e[1], k_flip_gain, tolerance(e[0], e[1])); }
 
-  /// An input vertex may leave its place only in a plane: elsewhere it carries the shape.
+  /// Returns true if the vertex may move. An input vertex may move only in a plane: elsewhere it defines the shape.
   bool is_free(StripVertex v) const {
     if (mesh_.star[v].empty() || !may_change(v) || curve_[v]) return false;
     const StripTriangle& first = mesh_.triangles[mesh_.star[v].front()];
@@ -254,7 +255,7 @@ class StripRemesher {
       ++n_flipped_;
       return true;
     }
-    // Whatever is not worse than this triangle: the worst of its surroundings improves.
+    // Accept any result better than this triangle: the worst angle of its neighbourhood improves.
     const double least = mesh_.min_angle(t) + k_flip_gain;
     for (const RankedEdge& edge : edges)
       if (collapse(edge.ends[0], edge.ends[1], least) || collapse(edge.ends[1], edge.ends[0], least)) return true;
@@ -291,8 +292,8 @@ class StripRemesher {
   }
 
   const UnionOptions& options_;
-  std::vector<char> curve_;        ///< per vertex: on a curve of intersection
-  std::vector<LocalLength> base_;  ///< per vertex: of the input
+  std::vector<char> curve_;        ///< per vertex: on an intersection curve
+  std::vector<LocalLength> base_;  ///< per vertex: lengths of the input
   StripMesh mesh_;
   const TriangleTree& reference_;
   std::vector<char> is_new_;

@@ -1,4 +1,4 @@
-// Private to geom/boolean: better triangles along the curves in which parts cross. The rest of the surface stays as it is.
+// Private to geom/boolean: remeshes a strip along the intersection curves of the parts. The rest of the surface is unchanged.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace sterna {
 
-/// What the remesher asks of the input around a vertex.
+/// Edge lengths of the input around a vertex, used as limits by the remesher.
 struct LocalLength {
-  double shortest = 0.0;  ///< m; edges below a share of it are collapsed
+  double shortest = 0.0;  ///< m; edges below a fraction of it are collapsed
   double longest = 0.0;   ///< m; edges above a multiple of it are split
 };
 
 struct StripInput {
   std::vector<Vec3> points;
   std::vector<StripTriangle> triangles;
-  std::vector<std::uint32_t> solid;  ///< per triangle: where two differ, there is the curve
-  std::vector<LocalLength> length;   ///< per vertex: of the input triangles that its triangles are pieces of
+  std::vector<std::uint32_t> solid;  ///< per triangle: the intersection curve consists of the edges between different solids
+  std::vector<LocalLength> length;   ///< per vertex: lengths of the input triangles of which its triangles are pieces
 };
 
 struct StripOutput {
@@ -29,9 +29,9 @@ struct StripOutput {
   std::vector<char> is_in_strip;  ///< per triangle
 };
 
-/// Rounds of splitting, collapsing, flipping and smoothing within options.strip_width local edge lengths of the curve; lengths grow from those of the curve to
-/// those of the input. Kept edges (borders of regions, ridges) stay polylines of their own vertices and midpoints. Never adds a crossing; farther than
-/// options.deviation local edge lengths from the input no triangle comes. Serial; ends after a fixed number of rounds. Fills the figures of the strip in
+/// Runs rounds of splitting, collapsing, flipping and smoothing within options.strip_width local edge lengths of the curve. Edge lengths grow from those of the
+/// curve to those of the input. Kept edges (borders of regions, ridges) remain polylines of their own vertices and midpoints. Never adds a crossing; no
+/// triangle is farther than options.deviation local edge lengths from the input. Serial; ends after a fixed number of rounds. Fills the strip statistics in
 /// `report`.
 /// \pre closed, manifold
 StripOutput remesh_strip(StripInput input, const UnionOptions& options, UnionReport& report, const RunContext& context);

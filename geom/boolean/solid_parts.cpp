@@ -45,7 +45,7 @@ LocalLength length_of(const std::array<Point, 3>& c) {
   return {.shortest = std::min({a, b, d}), .longest = std::max({a, b, d})};
 }
 
-/// Components of one part, turned outwards, appended to `all`.
+/// Appends the components of one part, oriented outwards, to `all`.
 void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patch>& patches, SolidParts& all, std::int64_t& n_turned,
                 const RunContext& context) {
   const Topology topology(part.mesh, context);
@@ -54,7 +54,7 @@ void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patc
   const Components components = connected_components(part.mesh, topology);
   const std::size_t first = all.solids.size();
   all.solids.resize(first + components.count);
-  // Each solid has vertices of its own, also where two touch; numbered by first use.
+  // Each solid has its own vertices, even if two solids touch; numbered by first use.
   std::vector<std::map<VertexId, std::uint32_t>> numbers(components.count);
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> regions;
   for (const TriangleId t : part.mesh.triangles.ids()) {
@@ -89,7 +89,7 @@ void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patc
   }
 }
 
-/// Every pair of triangles that meet: an error within one solid, a link between two.
+/// Processes every pair of intersecting triangles: an error within one solid, a link between two.
 void find_links(SolidParts& all, const RunContext& context) {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles(all.facets.size());
@@ -126,7 +126,7 @@ void find_groups(SolidParts& all) {
   }
 }
 
-/// A component's name without its description.
+/// Returns a component's name without its description.
 std::string short_name(const SolidParts& parts, std::uint32_t solid) { return parts.names[solid].substr(0, parts.names[solid].find(" (")); }
 
 }  // namespace
@@ -153,7 +153,7 @@ double volume_of(const std::vector<Vec3>& points, const std::vector<std::array<s
 }
 
 void add_crossing_places(ErrorInfo& info, const SolidParts& parts, const std::vector<std::array<std::uint32_t, 2>>& crossings) {
-  // Facets by tag: where they are in their solids.
+  // Index of each facet (by tag) in its solid.
   std::vector<std::uint32_t> place_in_solid(parts.facets.size());
   for (const Solid& solid : parts.solids)
     for (std::uint32_t i = 0; i < solid.surface.tag.size(); ++i) place_in_solid[solid.surface.tag[i]] = i;
@@ -163,7 +163,7 @@ void add_crossing_places(ErrorInfo& info, const SolidParts& parts, const std::ve
     return std::array<Vec3, 3>{surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]};
   };
   info.n_places = static_cast<std::int64_t>(crossings.size());
-  std::set<std::uint32_t> shown;  // one place for each facet, so that the list does not stay with one
+  std::set<std::uint32_t> shown;  // one location per facet, so that the list is not filled by a single one
   for (const auto& pair : crossings) {
     const std::uint32_t smaller = parts.facets[pair[0]].length.longest <= parts.facets[pair[1]].length.longest ? pair[0] : pair[1];
     const auto c = corners_of(smaller);

@@ -1,5 +1,5 @@
-// An exchange removes some triangles and puts others into the same hole. It is made only if no new triangle turns away from the input triangle that it stands
-// for, leaves the reference by more than the tolerance, or (exactly) crosses any other triangle that those before it did not cross.
+// An exchange removes some triangles and fills the hole with others. It is made only if no new triangle turns away from the input triangle that it represents,
+// leaves the reference by more than the tolerance, or (exactly) crosses any other triangle that the removed ones did not cross.
 #include "geom/boolean/strip_mesh.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace sterna {
 namespace {
 
-/// Smallest cell, as a power of two relative to nothing: below it lie only triangles without size.
+/// Smallest cell, as an absolute power of two: only triangles of negligible size are below it.
 constexpr int k_least_exponent = -60;
 
 double min_angle_of(const Vec3& a, const Vec3& b, const Vec3& c) { return std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)}); }
@@ -63,7 +63,7 @@ void TriangleGrid::remove(std::uint32_t triangle, const Box& box) {
       }
 }
 
-// ---- Looking ----
+// ---- Queries ----
 
 StripMesh::StripMesh(std::vector<Vec3> given_points, std::vector<StripTriangle> given_triangles, const StripLimits& limits, const TriangleTree& reference)
     : points(std::move(given_points)),
@@ -134,7 +134,7 @@ std::size_t StripMesh::count_crossings(std::span<const std::uint32_t> set) const
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t other : near) {
       if (other == t || !overlap(box, box_of(other))) continue;
-      if (other < t && std::find(set.begin(), set.end(), other) != set.end()) continue;  // counted from the other's side
+      if (other < t && std::find(set.begin(), set.end(), other) != set.end()) continue;  // counted for the other triangle
       if (triangles_cross(points, triangles[t].v, triangles[other].v)) ++n;
     }
   }
@@ -233,7 +233,7 @@ bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, const CollapseLim
   if (!left || !right) return false;
   const bool is_merge = limits.is_one_place || distance(points[from], points[to]) < limits.merge;
   if (!is_merge && !is_way_along_kept_edges(from, to, limits.tolerance)) return false;
-  // The link condition: only the two triangles vanish, the surface stays a closed manifold.
+  // Link condition: only the two triangles vanish, and the surface remains a closed manifold.
   const std::vector<std::uint32_t> around_from = neighbours(from), around_to = neighbours(to);
   std::vector<std::uint32_t> common;
   std::set_intersection(around_from.begin(), around_from.end(), around_to.begin(), around_to.end(), std::back_inserter(common));

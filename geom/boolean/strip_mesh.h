@@ -1,4 +1,5 @@
-// For geom/boolean and surfmesh/wrap: a closed triangulation that changes by small exchanges of triangles, each of which is proved harmless before it is made.
+// For geom/boolean and surfmesh/wrap: a closed triangulation that is changed by local exchanges of triangles, each of which is verified to be valid before it
+// is made.
 #pragma once
 
 #include <array>
@@ -13,12 +14,12 @@
 
 namespace sterna {
 
-/// Triangles by place: hashed cells of sizes 2^k, each triangle in the cells of about its own size.
+/// Spatial index of triangles: hashed cells of sizes 2^k, each triangle in the cells of about its own size.
 class TriangleGrid {
  public:
   void insert(std::uint32_t triangle, const Box& box);
   void remove(std::uint32_t triangle, const Box& box);
-  /// Candidates whose boxes may overlap, some of them several times.
+  /// Visits candidates whose boxes may overlap `box`, some of them several times.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const;
 
@@ -37,66 +38,67 @@ class TriangleGrid {
   static std::array<Cell, 2> range_of(const Box& box, int exponent);
   Level& level(int exponent);
 
-  std::vector<Level> levels_;  ///< by first use
+  std::vector<Level> levels_;  ///< in order of first use
 };
 
-/// One triangle as the remesher sees it.
+/// A triangle with the data that the remesher needs.
 struct StripTriangle {
   std::array<std::uint32_t, 3> v{};
-  std::uint32_t region = 0;  ///< what it lies on: of one input part, one patch
-  Vec3 normal;               ///< unit, of the input triangle that it is a piece of; where triangles were merged, between theirs
+  std::uint32_t region = 0;  ///< the input part and patch that it lies on
+  Vec3 normal;               ///< unit normal of the input triangle that it is a piece of; after merging, between the normals of the merged triangles
 };
 
-/// What an exchange must respect.
+/// Limits of all exchanges.
 struct StripLimits {
-  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle may turn further from its input
+  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle may rotate further away from its input
 };
 
-/// What a collapse must respect.
+/// Limits of a collapse.
 struct CollapseLimits {
-  double least_angle = 0.0;   ///< rad; no triangle may get a smaller one, unless the worst of those that change gets better
-  double longest = 0.0;       ///< m, of new edges
-  double tolerance = 0.0;     ///< m, from the reference, and of kept lines from where they were
-  double merge = 0.0;         ///< m; two vertices nearer than this are one place: neither kept lines nor angles keep them apart
-  bool is_one_place = false;  ///< the caller knows that the two may be joined as if they were that near
+  double least_angle = 0.0;   ///< rad; no triangle may get a smaller angle, unless the smallest angle of the changed triangles increases
+  double longest = 0.0;       ///< m; limit of new edges
+  double tolerance = 0.0;     ///< m; largest distance from the reference, and of kept lines from their original position
+  double merge = 0.0;         ///< m; two vertices nearer than this are treated as one: neither kept lines nor angles prevent their merging
+  bool is_one_place = false;  ///< the caller has verified that the two vertices may be joined as if they were nearer than `merge`
 };
 
-/// Vertices and triangles are never renumbered; dead ones stay as holes.
+/// Mesh with local operations. Vertices and triangles are never renumbered; removed ones leave unused slots.
 class StripMesh {
  public:
-  /// `reference`: the surface to stay near; must outlive this.
+  /// `reference`: the surface that limits the deviation; must outlive this object.
   /// \pre closed, manifold
   StripMesh(std::vector<Vec3> points, std::vector<StripTriangle> triangles, const StripLimits& limits, const TriangleTree& reference);
 
   std::vector<Vec3> points;
   std::vector<StripTriangle> triangles;
   std::vector<char> is_alive;                    ///< per triangle
-  std::vector<std::vector<std::uint32_t>> star;  ///< living triangles at each vertex; empty: the vertex is gone
+  std::vector<std::vector<std::uint32_t>> star;  ///< existing triangles at each vertex; empty: the vertex was removed
 
   std::array<Vec3, 3> corners(std::uint32_t t) const;
-  /// Smallest angle, rad; 0 without area.
+  /// Returns the smallest angle, rad; 0 for zero area.
   double min_angle(std::uint32_t t) const { return min_angle(triangles[t].v); }
   double min_angle(const std::array<std::uint32_t, 3>& v) const;
-  /// The triangle with the directed edge a -> b; none when there is no such edge.
+  /// Returns the triangle with the directed edge a -> b; empty if there is no such edge.
   std::optional<std::uint32_t> triangle_at(std::uint32_t a, std::uint32_t b) const;
   std::uint32_t opposite(std::uint32_t t, std::uint32_t a, std::uint32_t b) const;
-  /// A border of regions (so also the curve in which parts cross) or a ridge.
+  /// Returns true if the edge is a border of regions (including intersection curves of parts) or a ridge.
   bool is_kept_edge(std::uint32_t a, std::uint32_t b) const;
-  /// Neighbouring vertices, ascending.
+  /// Returns the neighbouring vertices, ascending.
   std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
   std::vector<std::uint32_t> kept_neighbours(std::uint32_t v) const;
 
-  /// Each changes the mesh and returns true, or leaves it as it was. `tolerance` (m): farthest from the reference. Puts the other diagonal.
+  /// The following operations change the mesh and return true, or leave it unchanged and return false. `tolerance` (m): largest distance from the reference.
+  /// flip replaces the edge by the other diagonal.
   /// \pre the edge is not kept
   bool flip(std::uint32_t a, std::uint32_t b, double min_gain, double tolerance);
-  /// Puts `from` where `to` is and joins the two. A vertex of kept edges goes along them only, one of a corner nowhere.
+  /// Moves `from` to `to` and merges the two. A vertex on kept edges can only move along them; a corner cannot move.
   bool collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits);
-  /// New vertex in the middle of an edge; its number.
+  /// Inserts a new vertex at the midpoint of an edge and returns its index.
   std::optional<std::uint32_t> split(std::uint32_t a, std::uint32_t b);
-  /// Moves a vertex without kept edges where that improves the smallest angle around it.
+  /// Moves a vertex that is not on kept edges if that increases the smallest angle around it.
   bool move(std::uint32_t v, const Vec3& to, double tolerance);
 
-  /// Pairs of triangles among `set` and all others that cross.
+  /// Returns the number of crossing pairs between triangles of `set` and all others.
   std::size_t count_crossings(std::span<const std::uint32_t> set) const;
 
  private:
@@ -104,12 +106,12 @@ class StripMesh {
     std::vector<std::uint32_t> removed;
     std::vector<StripTriangle> added;
   };
-  /// Triangles thinner than `negligible` (m) have no normal.
+  /// Triangles thinner than `negligible` (m) are not tested, since they have no normal.
   bool are_normals_sound(const Exchange& exchange, double negligible = 0.0) const;
-  /// Whether the kept edges at `from` let it go to `to`.
+  /// Returns true if the kept edges at `from` allow moving it to `to`.
   bool is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const;
   bool is_near_reference(const Exchange& exchange, double tolerance) const;
-  /// Makes it; unmakes it when it brings new crossings, or leaves as many as there were (`may_leave`: that is enough).
+  /// Applies the exchange. Reverts it if it causes new crossings, or does not reduce their number (with `may_leave` an equal number is accepted).
   bool exchange_without_crossing(const Exchange& exchange, bool may_leave = false);
   void apply(const Exchange& exchange, std::vector<std::uint32_t>& added);
   void revert(const Exchange& exchange, const std::vector<std::uint32_t>& added);

@@ -1,6 +1,5 @@
-// Steps: the closed components of all parts (find_solids); the exact union of those that hang together by crossings (unite_group); groups inside other solids
-// vanish (is_inside_another); hollows are dropped (drop_cavities); the strips along the curves are remeshed (remesh_strip); the result is proved free of
-// crossings.
+// Steps: the closed components of all parts (find_solids); the exact union of the groups connected by crossings (unite_group); removal of groups inside other
+// solids (is_inside_another); removal of cavities (drop_cavities); remeshing of the strips along the curves (remesh_strip); final test for crossings.
 #include "geom/boolean/union_meshes.h"
 
 #include <algorithm>
@@ -26,9 +25,9 @@ namespace sterna {
 namespace {
 
 constexpr std::string_view k_attempted = "uniting surfaces";
-/// Shares of the progress, from Martlet2 (19 solids, 12 k triangles).
+/// Fractions of the progress, measured on Martlet2 (19 solids, 12 k triangles).
 constexpr double k_find_end = 0.15, k_unite_end = 0.5, k_remesh_end = 0.85;
-/// Share of the permitted distance that is recommended where the geometry changes by more than k_reported_change.
+/// Fraction of the permitted distance that is recommended if the geometry changes by more than k_reported_change.
 constexpr double k_closer = 0.1;
 
 TriMesh tri_mesh_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -79,11 +78,11 @@ TaggedSolid unite_group(const SolidParts& parts, const std::vector<std::uint32_t
   return std::move(united.surface);
 }
 
-/// Winding numbers about the solids; a hierarchy is built for those that are asked.
+/// Winding numbers about the solids; hierarchies are built on demand.
 class Insides {
  public:
   Insides(const SolidParts& parts, const RunContext& context) : parts_(parts), context_(context), trees_(parts.solids.size()) {}
-  /// Groups do not cross, so one vertex stands for all.
+  /// Returns true if the group is inside another solid. Groups do not cross, so one vertex represents the group.
   bool is_inside_another(const std::vector<std::uint32_t>& group, std::uint32_t& container) {
     const Vec3 p = parts_.solids[group.front()].surface.points.front();
     for (std::uint32_t s = 0; s < parts_.solids.size(); ++s) {
@@ -134,7 +133,7 @@ std::string short_number(double value) {
   return text.data();
 }
 
-/// Components of the result with normals inwards are hollows.
+/// Removes cavities: components of the result with normals inwards.
 void drop_cavities(TaggedSolid& surface, const UnionOptions& options, UnionReport& report, const RunContext& context) {
   const TriMesh mesh = tri_mesh_of(surface.points, surface.triangles);
   const Components components = connected_components(mesh, Topology(mesh, context));
@@ -160,7 +159,7 @@ void drop_cavities(TaggedSolid& surface, const UnionOptions& options, UnionRepor
   surface = std::move(kept);
 }
 
-/// In the order of the input, which exact cutting has shuffled.
+/// Builds the input of the remesher in the order of the input triangles, which exact cutting has changed.
 StripInput strip_input(const TaggedSolid& surface, const SolidParts& parts) {
   std::vector<std::uint32_t> order(surface.triangles.size());
   for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
@@ -195,7 +194,7 @@ void measure_curves(const StripInput& input, UnionReport& report) {
   report.curve_length = length.value();
 }
 
-/// Vertices by first use, patches in the order of the parts, those without triangles dropped.
+/// Assembles the mesh: vertices by first use, patches in the order of the parts, without patches that have no triangles.
 TriMesh assemble(const std::vector<Vec3>& points, const std::vector<StripTriangle>& triangles, const SolidParts& parts) {
   std::vector<char> is_used(parts.region_patch.size(), 0);
   for (const StripTriangle& t : triangles) is_used[t.region] = 1;
@@ -241,7 +240,7 @@ std::vector<Vec3> samples_of(const TriMesh& mesh) {
   return samples;
 }
 
-/// Rounding the exact points may have left crossings that no step could remove.
+/// Tests for crossings that rounding of the exact points left and no step removed.
 void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const auto& t : mesh.triangles) triangles.push_back({t[0].value(), t[1].value(), t[2].value()});
@@ -302,7 +301,7 @@ double largest_change(const Extent& before, const Extent& after) {
   return std::max(std::abs(relative_change(before.area, after.area)), std::abs(relative_change(before.volume, after.volume)));
 }
 
-/// "enclosed volume 0.32 -> 0.318 m3 (-0.6 %), area ..."
+/// Returns "enclosed volume 0.32 -> 0.318 m3 (-0.6 %), area ...".
 std::string change_text(const Extent& before, const Extent& after) {
   const auto text = [](double a, double b, const char* unit) {
     return short_number(a) + " -> " + short_number(b) + " " + unit + " (" + short_number(100.0 * relative_change(a, b)) + " %)";
@@ -310,7 +309,7 @@ std::string change_text(const Extent& before, const Extent& after) {
   return "enclosed volume " + text(before.volume, after.volume, "m3") + ", area " + text(before.area, after.area, "m2");
 }
 
-/// On coarse curved surfaces the permitted distance from the input is a noticeable part of the volume.
+/// Warns if the geometry changed noticeably: on coarse curved surfaces the permitted distance from the input can be a significant part of the volume.
 void warn_of_changed_geometry(const TriMesh& exact, const TriMesh& remeshed, const UnionOptions& options, const RunContext& context) {
   const Extent before = extent_of(exact), after = extent_of(remeshed);
   if (largest_change(before, after) <= k_reported_change) return;

@@ -7,8 +7,8 @@
 
 namespace sterna {
 
-/// Patches of each part as the result of unite_meshes() names them, in the order of the parts: a name that several parts use gets the name of the part in
-/// front.
+/// Returns the patches of each part as named in the result of unite_meshes(), in the order of the parts: a name used by several parts gets the name of the part
+/// as a prefix.
 std::vector<std::vector<Patch>> result_patches(const std::vector<UnionPart>& parts);
 
 }  // namespace sterna

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* k_aircraft_attempt = "uniting the components";
 
-/// Numbers of a model in a part of it; parts number in the order in which they meet things.
+/// Maps numbers of a model to those of a part; parts are numbered in order of first use.
 template <class Id, class T>
 class Renumbering {
  public:
@@ -75,7 +75,7 @@ std::vector<Model> split_solids(const Model& components) {
 
 std::vector<Model> unite_touching(std::span<const Model> solids, const UniteOptions& options, const RunContext& context) {
   if (solids.size() < 2) return {solids.begin(), solids.end()};
-  std::vector<std::size_t> group(solids.size());  // the first of those that hang together
+  std::vector<std::size_t> group(solids.size());  // the first solid of each connected group
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (const PartContact& contact : find_contacts(solids, context).contacts) {
     if (contact.kind == ContactKind::apart) continue;

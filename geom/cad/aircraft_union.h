@@ -1,4 +1,4 @@
-// An aircraft's components made one wetted surface: parts taken apart, contacts looked at, then united.
+// Unites an aircraft's components into one wetted surface: splits the parts, checks their contacts, then unites them.
 #pragma once
 
 #include <span>
@@ -13,20 +13,19 @@ namespace sterna {
 
 namespace cad {
 
-/// One model for each solid, in their order; all faces keep their surfaces, each part has the components of its own faces alone.
-/// \throws Error(open_surface) with places when a face belongs to no solid
+/// Returns one model for each solid, in their order; all faces keep their surfaces, and each part has only the components of its own faces.
+/// \throws Error(open_surface) with locations if a face belongs to no solid
 std::vector<Model> split_solids(const Model& components);
 
-/// Solids that cross, touch or lie inside others are united; those that stay apart stay as they are. Each result is one solid, in the order of the first part
-/// of each.
+/// Unites solids that cross, touch or lie inside others; the other solids are unchanged. Each result is one solid, in the order of the first part of each.
 /// \throws Error of find_contacts and unite
 std::vector<Model> unite_touching(std::span<const Model> solids, const UniteOptions& options, const RunContext& context);
 
-/// The union of all solids of a model (make_components, a CAD file), as unite does it. What looks hard about the contacts of the parts goes to the log as
-/// warnings before anything is united, and into report.doubts. A model of one solid is returned as it is.
-/// \throws Error(bad_argument) for no solid at all; else as split_solids and unite
+/// Returns the union of all solids of a model (make_components, a CAD file), as unite does. Contacts that may be difficult to unite or mesh are logged as
+/// warnings before anything is united, and stored in report.doubts. A model of one solid is returned unchanged.
+/// \throws Error(bad_argument) if there is no solid; else as split_solids and unite
 UniteResult unite_aircraft(const Model& components, const UniteOptions& options, const RunContext& context);
-/// The same after make_components.
+/// Calls make_components, then unites as above.
 UniteResult unite_aircraft(const Aircraft& aircraft, const UniteOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -1,4 +1,4 @@
-// The CAD formats by name, extension and contents.
+// Detection of CAD formats by name, extension and contents.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@ namespace sterna::cad {
 enum class CadFormat { step, iges, brep };
 std::string_view to_string(CadFormat format);
 
-/// By the extension of a file's name, ".gz" peeled off: .step .stp .iges .igs .brep .egads; nothing for others.
+/// Returns the format by file name extension, without ".gz": .step .stp .iges .igs .brep .egads; empty for others.
 std::optional<CadFormat> format_of_name(std::string_view file_name);
 
-/// By the first bytes of a file (at least 80 are needed for IGES); nothing when they are of none of the three.
+/// Returns the format by the first bytes of a file (at least 80 are needed for IGES); empty if they match none of the three formats.
 std::optional<CadFormat> format_of_bytes(std::string_view bytes);
 
 }  // namespace sterna::cad

@@ -11,20 +11,20 @@
 namespace sterna::cad {
 namespace {
 
-/// Share by which area and volume may differ: what translating curves costs is a hundredth of it.
+/// Relative tolerance of area and volume: a hundred times the error from translating curves.
 constexpr double k_same_written = 1e-6;
-/// Area of a body that is none, of the square of the model's size.
+/// Area below which a body is ignored, relative to the square of the model's size.
 constexpr double k_no_extent = 1e-12;
-/// Intervals of an edge for its length.
+/// Intervals of an edge for computing its length.
 constexpr int k_edge_intervals = 16;
 
-/// A closed solid, or all open shells and loose faces: formats keep these in different ways.
+/// A closed solid, or all open shells and loose faces together: formats store the latter in different ways.
 struct WrittenBody {
   std::string name;
   bool is_closed = false;
   std::size_t n_faces = 0;
   double area = 0.0, volume = 0.0;
-  double slack = 0.0;  ///< m2: edges by their tolerances
+  double slack = 0.0;  ///< m2: uncertainty from the tolerances of edges
 };
 
 double length_of_edge(const ModelEdge& edge) {
@@ -47,7 +47,7 @@ double diagonal_of(const Model& model) {
   return distance(low, high);
 }
 
-/// The closed solids in their order, then all else as one.
+/// Returns the closed solids in their order, then all other faces as one body.
 std::vector<WrittenBody> bodies_of(const Model& model, const RunContext& context) {
   const ModelMeasures measures = model_measures(model, context);
   std::vector<bool> is_open(model.faces.size(), true);
@@ -74,7 +74,7 @@ std::vector<WrittenBody> bodies_of(const Model& model, const RunContext& context
     if (is_open[f.index()]) add(f, open);
   if (open.n_faces > 0) bodies.push_back(std::move(open));
   const double size = diagonal_of(model);
-  std::erase_if(bodies, [&](const WrittenBody& body) { return body.area <= k_no_extent * size * size; });  // faces that are but lines
+  std::erase_if(bodies, [&](const WrittenBody& body) { return body.area <= k_no_extent * size * size; });  // faces that are degenerate to lines
   return bodies;
 }
 
@@ -97,7 +97,7 @@ std::vector<std::string> differences_of_file(const Model& model, const std::stri
   const std::vector<WrittenBody> before = bodies_of(model, context);
   std::vector<WrittenBody> after = bodies_of(file.model, context);
   const double size = diagonal_of(model);
-  // Solids around the fluid have normals inwards; STEP and IGES do not store that.
+  // Solids around the fluid have normals inwards; STEP and IGES do not store the orientation.
   const auto volume_of = [&](const WrittenBody& body) { return format == CadFormat::brep ? body.volume : std::abs(body.volume); };
   const auto is_same = [&](const WrittenBody& a, const WrittenBody& b) {
     return a.is_closed == b.is_closed && (a.n_faces == b.n_faces || !a.is_closed) && std::abs(a.area - b.area) <= k_same_written * a.area + a.slack &&

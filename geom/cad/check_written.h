@@ -1,4 +1,4 @@
-// Inside geom/cad only: a written file read again and compared with the model, solid by solid.
+// Inside geom/cad only: reads a written file again and compares it with the model, solid by solid.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace sterna::cad {
 
-/// What differs between a model and its file, read again without healing: faces, area and volume of each closed solid (to 1e-6, and what the tolerances of the
-/// model's edges leave open; STEP and IGES: its magnitude), area of all open shells and loose faces. One sentence for each, with the solid's name; empty: the
-/// file holds the model.
+/// Returns the differences between a model and its file, read again without healing: number of faces, area and volume of each closed solid (to 1e-6, plus the
+/// uncertainty from the tolerances of the model's edges; STEP and IGES: magnitude of the volume), area of all open shells and loose faces. One sentence for
+/// each difference, with the solid's name; empty: the file represents the model.
 /// \throws Error(cancelled)
 std::vector<std::string> differences_of_file(const Model& model, const std::string& bytes, CadFormat format, const std::string& name,
                                              const RunContext& context);
 
-/// Names of closed solids whose faces point inwards, as of a tunnel around its fluid.
+/// Returns the names of closed solids whose faces point inwards, such as a tunnel around its fluid.
 std::vector<std::string> solids_around_fluid(const Model& model, const RunContext& context);
 
 }  // namespace sterna::cad

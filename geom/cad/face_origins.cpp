@@ -90,7 +90,7 @@ std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<
     if (surface == from_surface && place.IsEqual(from_place)) face.surface = from.surface;
     of_face.push_back(*origin);
   }
-  for (ModelSolid& solid : model.solids) {  // a body that is apart has the name of its own component
+  for (ModelSolid& solid : model.solids) {  // a separate body is named after its own component
     const auto is_named = [&](FaceId f) { return model.components[model.faces[f].component].name == solid.name; };
     if (std::none_of(solid.faces.begin(), solid.faces.end(), is_named)) solid.name = model.components[model.faces[solid.faces.front()].component].name;
   }

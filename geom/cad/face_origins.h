@@ -1,4 +1,4 @@
-// Inside geom/cad only: which faces of the arguments the faces of a boolean's result are pieces of, and what they keep of them.
+// Inside geom/cad only: maps the faces of a boolean's result to the argument faces of which they are pieces, and restores their attributes.
 #pragma once
 
 #include <memory>
@@ -23,31 +23,31 @@ struct BooleanPart {
   std::string name() const { return part_name(*model); }
 };
 
-/// Where a face of the result came from.
+/// Origin of a face of the result.
 struct FaceOrigin {
   std::size_t part = 0;
   FaceId face;
 };
 using FaceOrigins = NCollection_DataMap<TopoDS_Shape, FaceOrigin, TopTools_ShapeMapHasher>;
 
-/// With shape, volume and area.
-/// \throws Error(open_surface) with places unless every solid is closed
+/// Returns a part with its shape, volume and area.
+/// \throws Error(open_surface) with locations unless every solid is closed
 BooleanPart boolean_part(const Model& model, const std::string& attempted, const RunContext& context);
 
-/// Faces of the parts' shapes and their pieces after `operation`; faces that coincide belong to the first part.
+/// Returns the origins of the faces after `operation`: faces of the parts' shapes and their pieces; coincident faces belong to the first part.
 FaceOrigins origins_of(BRepBuilderAPI_MakeShape& operation, std::span<const BooleanPart> parts);
 
-/// A result with names, colours, layers and components of the parts' faces.
+/// Returns the result with names, colours, layers and components of the parts' faces.
 LabelledShape labelled(const TopoDS_Shape& shape, const FaceOrigins& origins, std::span<const BooleanPart> parts);
 
-/// Gives faces of a model made by `labelled` the roles, kinds, components' kinds and, where it is the same, the very surface of what they came from; `of_face`
-/// gets the origin of each. \returns what is wrong; empty: nothing
+/// Restores attributes of a model made by `labelled`: roles, kinds, kinds of components and, if the geometry is the same, the original surface object of the
+/// faces. `of_face` receives the origin of each face. \returns description of the problem; empty: none
 std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<const BooleanPart> parts, std::vector<FaceOrigin>& of_face);
 
-/// Middles of the free edges.
+/// Returns the midpoints of the free edges.
 std::vector<ErrorPlace> open_places(const Model& model);
 
-/// Each solid is closed, and there is one.
+/// Returns true if there is at least one solid and all solids are closed.
 bool is_closed_model(const Model& model);
 
 }  // namespace sterna::cad

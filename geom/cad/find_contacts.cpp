@@ -1,5 +1,5 @@
-// Steps: triangles of every part with their parameters; pairs of parts whose boxes are near: crossing triangles and the angles there, else nearest places, else
-// inside; groups of parts that hang together; gaps of the others; how much of each part is outside of all others.
+// Steps: triangulate every part with parameters; for pairs of parts whose boxes are near: crossing triangles and their angles, else nearest points, else
+// inside; groups of connected parts; gaps between groups; fraction of each part outside of all others.
 #include "geom/cad/find_contacts.h"
 
 #include <BRepBuilderAPI_Copy.hxx>
@@ -29,35 +29,35 @@
 namespace sterna::cad {
 namespace {
 
-/// Distance of the triangles from the surface, of the part's longest side: a wing's thickness is twenty times that.
+/// Deviation of the triangles from the surface, relative to the part's longest side: a wing's thickness is twenty times larger.
 constexpr double k_deflection = 1e-3;
-/// Turn of the surface within a triangle, radians: a leading edge has a few triangles around it.
+/// Angle of the surface within a triangle, radians: a leading edge has a few triangles around it.
 constexpr double k_turn = 0.5;
-/// Parts nearer than this share of the larger part's size touch: the first fuzzy tolerances of the union close it.
+/// Parts nearer than this fraction of the larger part's size touch: the first fuzzy tolerances of the union close the gap.
 constexpr double k_touch = 1e-6;
-/// Rounds of projecting to and fro that a distance is improved by; each halves the error at worst on surfaces that are not parallel.
+/// Number of alternating projections that refine a distance; each at least halves the error on surfaces that are not parallel.
 constexpr int k_rounds = 30;
-/// What reaches no farther out of a container, of the body's longest side, stands on its wall.
+/// Overhang up to which a body counts as standing on a container's wall, relative to the body's longest side.
 constexpr double k_standing = 1e-4;
-/// Longest side of the pieces that are sampled, of the part's longest side.
+/// Longest side of the sampled pieces, relative to the part's longest side.
 constexpr double k_sample = 1.0 / 48.0;
-/// Direction of the rays that tell inside from outside: along no axis or plane that aircraft are built with.
+/// Direction of the rays of the inside test: not along any axis or plane commonly used in aircraft.
 constexpr Vec3 k_ray{0.2872, 0.5417, 0.7900};
-/// Hits of a ray that are nearer to each other, of the part's size, are one: through an edge, both its triangles are hit.
+/// Ray hits nearer to each other than this, relative to the part's size, count once: a ray through an edge hits both of its triangles.
 constexpr double k_same_hit = 1e-12;
-/// Crossing pairs of facets that are looked at in one chunk.
+/// Crossing pairs of facets per chunk.
 constexpr std::size_t k_chunk = 64;
-constexpr int k_digits = 4;  ///< of numbers in messages
+constexpr int k_digits = 4;  ///< significant digits of numbers in messages
 
 using Facet = std::array<Point, 3>;
 
-/// Triangles of a part, each with its face and the parameters of its corners.
+/// Triangulation of a part, each triangle with its face and the parameters of its corners.
 struct Skin {
   const Model* model = nullptr;
   TriMesh mesh;
-  std::vector<Uv> at;                      ///< of the vertices
-  std::vector<FaceId> face_of;             ///< of the triangles
-  std::vector<std::uint32_t> triangle_at;  ///< of the vertices: one of their triangles
+  std::vector<Uv> at;                      ///< parameters of the vertices
+  std::vector<FaceId> face_of;             ///< face of each triangle
+  std::vector<std::uint32_t> triangle_at;  ///< per vertex: one of its triangles
   std::unique_ptr<TriangleTree> tree;
   Box box;
   double deflection = 0.0;
@@ -106,7 +106,7 @@ Skin skin_of(const Model& part, const RunContext& context) {
   const CadShape::Content& content = shape->content();
   run_occt({.attempted = "looking at the contacts of \"" + part_name(part) + "\""}, context, [&](const Message_ProgressRange&) {
     skin.deflection = k_deflection * longest_side(content.shape);
-    BRepBuilderAPI_Copy copy(content.shape, false, false);  // triangles are kept in the shape: ours stays as it is
+    BRepBuilderAPI_Copy copy(content.shape, false, false);  // triangulations are stored in the shape: the copy leaves ours unchanged
     const BRepMesh_IncrementalMesh mesher(copy.Shape(), skin.deflection, false, k_turn, context.threads() > 1);
     for (const FaceId f : part.faces.ids()) add_face(skin, f, TopoDS::Face(copy.ModifiedShape(content.faces[f.index()])));
   });
@@ -128,7 +128,7 @@ Box box_of(const Facet& facet) {
   return box;
 }
 
-/// Parameters of a point near a triangle, from those of its corners.
+/// Returns the parameters of a point near a triangle, interpolated from those of its corners.
 Uv parameters(const Skin& skin, std::uint32_t t, const Point& p) {
   const Facet f = skin.facet(t);
   const TriangleVertices& v = skin.mesh.triangles[TriangleId(t)];
@@ -140,7 +140,7 @@ Uv parameters(const Skin& skin, std::uint32_t t, const Point& p) {
   return {p0.u + b * (p1.u - p0.u) + c * (p2.u - p0.u), p0.v + b * (p1.v - p0.v) + c * (p2.v - p0.v)};
 }
 
-/// Outward unit normal of the surface itself; nothing at a pole.
+/// Returns the outward unit normal of the surface; empty at a pole.
 std::optional<Vec3> normal_at(const Skin& skin, std::uint32_t t, const Point& p) {
   const ModelFace& face = skin.model->faces[skin.face_of[t]];
   const SurfaceDerivatives d = face.surface->derivatives(parameters(skin, t, p));
@@ -149,7 +149,7 @@ std::optional<Vec3> normal_at(const Skin& skin, std::uint32_t t, const Point& p)
   return face.is_reversed ? -normalized(n) : normalized(n);
 }
 
-/// Middle of what two crossing triangles have in common, as far as edges show it.
+/// Returns the centre of the intersection of two crossing triangles, estimated from the piercing edges.
 Point common_place(const Facet& a, const Facet& b) {
   Point sum;
   int n = 0;
@@ -170,9 +170,9 @@ Point common_place(const Facet& a, const Facet& b) {
   return n > 0 ? sum / n : (a[0] + a[1] + a[2]) / 3.0;  // coplanar
 }
 
-/// The flattest crossing of some triangles.
+/// The crossing with the smallest angle among some triangles.
 struct Flattest {
-  bool is_found = false;  ///< any crossing at all
+  bool is_found = false;  ///< at least one crossing exists
   double angle = 0.5 * std::numbers::pi;
   bool is_crevice = false;
   Point place;
@@ -234,7 +234,7 @@ void visit_pieces(const Facet& facet, double size, const Visit& visit) {
   }
 }
 
-/// Counts how often a ray leaves the part, less how often it enters it. Samples may err where rays graze it.
+/// Returns true if a ray from the point leaves the part more often than it enters it. May be wrong where rays graze the part.
 bool is_inside(const Skin& skin, const Point& p) {
   const double same = k_same_hit * skin.deflection / k_deflection;
   int depth = 0, last_sign = 0;
@@ -250,13 +250,13 @@ bool is_inside(const Skin& skin, const Point& p) {
   return depth > 0;
 }
 
-/// The nearest face of a container from outside.
+/// The face of a container nearest to an outside point.
 struct WayOut {
   FaceId face;
   double distance = 0.0;
 };
 
-/// Nothing where the point is inside of the container, or within its triangles' distance from the surface and inside of that.
+/// Returns nothing if the point is inside the container, or within the triangulation's deviation from the surface and inside the surface.
 std::optional<WayOut> way_out(const Skin& container, const Point& p) {
   if (is_inside(container, p)) return std::nullopt;
   const NearestHit hit = container.tree->nearest(p);
@@ -270,10 +270,10 @@ std::optional<WayOut> way_out(const Skin& container, const Point& p) {
   return WayOut{id, norm(out)};
 }
 
-/// Areas of a part by where they are.
+/// Areas of a part by location.
 struct Shares {
   double outside = 0.0, unsure = 0.0;
-  std::vector<double> inside;  ///< of each other part
+  std::vector<double> inside;  ///< per other part: area inside it
   void add(const Shares& other) {
     outside += other.outside;
     unsure += other.unsure;
@@ -281,7 +281,7 @@ struct Shares {
   }
 };
 
-/// Samples part i; `near`: the parts whose boxes overlap its own.
+/// Samples part i; `near`: the parts whose boxes overlap its box.
 Shares shares_of(const std::vector<Skin>& skins, std::size_t i, const std::vector<std::size_t>& near, const RunContext& context) {
   const Skin& skin = skins[i];
   const double size = k_sample * skin.deflection / k_deflection;
@@ -328,7 +328,7 @@ struct Nearest {
   std::uint32_t triangle_a = 0, triangle_b = 0;
 };
 
-/// Parameters of all corners of a face's triangles.
+/// Returns the box of the parameters of all corners of a face's triangles.
 ParameterBox box_of_face(const Skin& skin, FaceId face) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   ParameterBox box{{inf, -inf}, {inf, -inf}};
@@ -343,7 +343,7 @@ ParameterBox box_of_face(const Skin& skin, FaceId face) {
   return box;
 }
 
-/// Nearest places of two parts: of the corners of the triangles, then to and fro between the surfaces.
+/// Finds the nearest points of two parts: first among the corners of the triangles, then by alternating projections between the surfaces.
 Nearest nearest_places(const Skin& a, const Skin& b, double limit, const RunContext& context) {
   Nearest best;
   const auto look = [&](const Skin& from, const Skin& to, bool is_swapped) {
@@ -373,7 +373,7 @@ Nearest nearest_places(const Skin& a, const Skin& b, double limit, const RunCont
   return best;
 }
 
-/// The contact of two parts that are near; nothing where they are apart.
+/// Returns the contact of two parts whose boxes are near; nothing if they are apart.
 std::optional<PartContact> contact_of(const std::vector<Skin>& skins, std::size_t i, std::size_t j, const RunContext& context) {
   const Skin &a = skins[i], &b = skins[j];
   const double reach = 2.0 * (a.deflection + b.deflection);
@@ -403,7 +403,7 @@ std::optional<PartContact> contact_of(const std::vector<Skin>& skins, std::size_
   return std::nullopt;
 }
 
-/// For each part the first one of its group.
+/// Returns for each part the first part of its group.
 std::vector<std::size_t> groups_of(std::size_t n, const std::vector<PartContact>& contacts) {
   std::vector<std::size_t> group(n);
   std::iota(group.begin(), group.end(), std::size_t{0});
@@ -415,7 +415,7 @@ std::vector<std::size_t> groups_of(std::size_t n, const std::vector<PartContact>
   return group;
 }
 
-/// Joins group by group to its nearest neighbour, the first group that is without the largest part first, until all are one.
+/// Connects group by group with its nearest neighbour, starting with the first group that does not contain the largest part, until all are one.
 void add_gaps(const std::vector<Skin>& skins, std::vector<PartContact>& contacts, const RunContext& context) {
   const auto largest =
       static_cast<std::size_t>(std::max_element(skins.begin(), skins.end(), [](const Skin& a, const Skin& b) { return a.area < b.area; }) - skins.begin());

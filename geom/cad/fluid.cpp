@@ -1,5 +1,5 @@
-// Steps: solids of the bodies, united where they touch; how each meets the container; those that reach its faces are cut off it in one boolean, which is
-// judged; the others are put beside the result; everything is turned so that normals point into the fluid.
+// Steps: solids of the bodies, united where they touch; the relation of each to the container; bodies that reach its faces are subtracted from it in one
+// boolean, which is checked; the others are added to the result; finally all normals are oriented into the fluid.
 #include "geom/cad/fluid.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace sterna::cad {
 namespace {
 
 constexpr const char* k_fluid_attempt = "taking the bodies out of their container";
-/// A body with less of its area inside only touches the container from outside, as far as samples tell.
+/// A body with a smaller fraction of its area inside only touches the container from outside, to the accuracy of the samples.
 constexpr double k_least_inside = 1e-3;
 
 [[noreturn]] void fail_fluid(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
@@ -29,7 +29,7 @@ constexpr double k_least_inside = 1e-3;
   throw Error(std::move(info));
 }
 
-/// The container with its material outside: a solid of the fluid's shape.
+/// Returns the container with its material outside, as a solid of the fluid's shape.
 Model solid_container(const Model& container, const RunContext& context) {
   if (container.solids.size() != 1)
     fail_fluid(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {},
@@ -39,7 +39,7 @@ Model solid_container(const Model& container, const RunContext& context) {
   return solid;
 }
 
-/// How the bodies meet the container: part 0 is the container, part i body i - 1.
+/// Relation of the bodies to the container: part 0 is the container, part i is body i - 1.
 struct Meeting {
   std::vector<std::size_t> cut, inside;  ///< parts
   ContactReport contacts;
@@ -74,13 +74,13 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
   return meeting;
 }
 
-/// \throws Error where bodies reach out of the container that may not
+/// \throws Error if bodies reach out of the container without permission
 void require_leave(const std::vector<Model>& parts, const Meeting& meeting, const MayPass& may_pass, const RunContext& context) {
   if (!may_pass || meeting.cut.empty()) return;
   const StageTimer timer(context, "fluid/contacts");
   std::vector<Model> bodies;
   for (const std::size_t i : meeting.cut) bodies.push_back(parts[i]);
-  // Of each component what is farthest out.
+  // The farthest overhang of each component.
   std::vector<Overhang> worst;
   for (Overhang& overhang : find_overhangs(parts.front(), bodies, context)) {
     if (may_pass(overhang)) continue;
@@ -103,7 +103,7 @@ void require_leave(const std::vector<Model>& parts, const Meeting& meeting, cons
           worst.front().component + "\" } }; stings made by sting{} need not be");
 }
 
-/// Sets what is wrong with a cut, and its volume.
+/// Sets the description of a defective cut, and its volume.
 void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const RunContext& context) {
   if (result.model.faces.empty()) return;  // a body fills the container
   UniteTry& outcome = result.outcome;
@@ -128,7 +128,7 @@ void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const 
   }
 }
 
-/// A corner of each solid's faces that came from bodies, or of any.
+/// Returns one corner per solid, on a face from a body if there is one, else on any face.
 std::vector<ErrorPlace> pieces_of(const Model& model, const std::vector<SolidMeasures>& measures) {
   std::vector<ErrorPlace> places;
   for (const SolidId s : model.solids.ids()) {

@@ -1,4 +1,4 @@
-// The fluid in a container with bodies: a wind tunnel's test section with the model, its sting and struts, of exact geometry.
+// The fluid in a container with bodies, from exact geometry: a wind tunnel's test section with the model, its sting and struts.
 #pragma once
 
 #include <functional>
@@ -35,12 +35,12 @@ struct Schema<FluidOptions> {
 };
 
 struct FluidReport {
-  std::vector<UniteTry> tries;      ///< of the cut; the last one was taken; none where no body reaches the container's faces
-  double volume = 0.0;              ///< of the fluid, m^3
+  std::vector<UniteTry> tries;      ///< attempts of the cut; the last one was accepted; empty if no body reaches the container's faces
+  double volume = 0.0;              ///< volume of the fluid, m^3
   double container_volume = 0.0;    ///< m^3
   std::vector<std::string> cut;     ///< bodies that reach the container's faces
   std::vector<std::string> inside;  ///< bodies that do not
-  std::vector<ErrorPlace> doubts;   ///< what is hard to mesh: bodies nearly tangent to the container, in words
+  std::vector<ErrorPlace> doubts;   ///< contacts that are difficult to mesh: descriptions of bodies nearly tangent to the container
 };
 
 struct FluidDomain {
@@ -50,16 +50,17 @@ struct FluidDomain {
 
 namespace cad {
 
-/// Whether faces may reach out of the container, where they are cut off.
+/// Returns true if the faces may extend out of the container, where they are cut off.
 using MayPass = std::function<bool(const Overhang&)>;
 
-/// Container minus bodies. Solids of the bodies that touch are united first. Bodies inside stay as they are; those that pass through the container's faces, or
-/// stand on them, are cut off there, and their openings in these faces; what reaches out without leave (find_overhangs) is an error. Without `may_pass` all
-/// may. Faces keep names, components, roles, kinds, colours and surfaces; normals point into the fluid: those of the container inwards, those of bodies
-/// outwards. The container may be given with normals either way. Solids of the result: the container with what was cut, then each body inside. Proven like a
-/// union: valid, closed, volume and what is left of each part's area as they must be. The same bytes for any number of threads.
-/// \throws Error(open_surface) for open parts; Error(bad_argument) naming a body, with its place, that lies outside of the container, fills it, or cuts the
-/// fluid in two, or parts that would be cut off, with how far they reach out; Error(geometry_failed) after the last tolerance or past the time limit;
+/// Returns the container minus the bodies. Solids of the bodies that touch are united first. Bodies inside stay unchanged. Bodies that pass through the
+/// container's faces, or stand on them, are cut off there, which leaves openings in these faces. An overhang (find_overhangs) that is not permitted is an
+/// error; without `may_pass` all are permitted. Faces keep names, components, roles, kinds, colours and surfaces. Normals point into the fluid: those of the
+/// container inwards, those of bodies outwards. The container may be given with either orientation. Solids of the result: the container with the cut bodies,
+/// then each body inside. The result is verified like a union: valid, closed, with the expected volume and remaining area of each part. The same bytes for any
+/// number of threads.
+/// \throws Error(open_surface) for open parts; Error(bad_argument) naming a body, with its location, that lies outside the container, fills it, or divides the
+/// fluid in two, or parts that would be cut off, with the length of their overhang; Error(geometry_failed) after the last tolerance or past the time limit;
 /// Error(cancelled)
 FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, const FluidOptions& options, const RunContext& context,
                          const MayPass& may_pass = {});

@@ -1,5 +1,5 @@
-// Steps: where each face lies to the plane; solids beyond it left out, the others united; what crosses it cut by a half space; faces beyond it and in it left
-// out; free edges into the plane.
+// Steps: side of each face relative to the plane; removal of solids beyond it, union of the others; cut of faces that cross it by a half space; removal of
+// faces beyond it and in it; projection of free edges into the plane.
 #include "geom/cad/half_model.h"
 
 #include <algorithm>
@@ -24,23 +24,23 @@ namespace sterna::cad {
 namespace {
 
 constexpr const char* k_half_attempt = "taking half of the model";
-/// What is nearer to the plane than this share of the longest side is in it: where surface meshers and CAD systems split aircraft, they are a hundred times
+/// Geometry nearer to the plane than this fraction of the longest side is in it: where surface meshers and CAD systems split aircraft, it is a hundred times
 /// nearer.
 constexpr double k_tolerance_share = 1e-6;
-/// An edge of a face that lies in the plane may be off by this many times its own tolerance.
+/// Allowed distance from the plane of an edge of a face in the plane, as a multiple of the edge's tolerance.
 constexpr double k_edge_tolerances = 2.0;
 /// Intervals of an edge at whose ends its distance to the plane is measured.
 constexpr int k_edge_samples = 24;
-/// The box that stands for the half space is larger than the model by this share of its size.
+/// The box that represents the half space is larger than the model by this fraction of its size.
 constexpr double k_margin = 0.25;
 constexpr std::string_view k_half_space = "half space";
 
 struct Plane {
   std::size_t axis = 1;
   double at = 0.0;
-  double side = 1.0;       ///< of the half that is kept
+  double side = 1.0;       ///< sign of the half that is kept
   double tolerance = 0.0;  ///< metres
-  /// Positive on the side that is kept.
+  /// Returns the height above the plane, positive on the side that is kept.
   double height(const Point& p) const { return side * (p[axis] - at); }
   std::string name() const { return std::string(1, "xyz"[axis]) + " = " + number_text(at); }
 };
@@ -96,7 +96,7 @@ Plane plane_of(const HalfModelOptions& options, const std::vector<MeasureBox>& b
   return plane;
 }
 
-/// Largest distance of an edge from the plane, by samples, and where that is.
+/// Returns the largest distance of an edge from the plane, from samples, and its location.
 std::pair<double, Point> distance_of(const ModelEdge& edge, const Plane& plane) {
   std::pair<double, Point> largest{-1.0, {}};
   for (int i = 0; i <= k_edge_samples; ++i) {
@@ -121,7 +121,7 @@ bool is_in_plane(const ModelEdge& edge, const Plane& plane) {
   return distance_of(edge, plane).first <= std::max(plane.tolerance, k_edge_tolerances * edge.tolerance);
 }
 
-/// \throws Error(open_surface) where free edges are off the plane
+/// \throws Error(open_surface) if free edges are off the plane
 void require_rim_in_plane(const Model& model, const Plane& plane, const std::string& hint) {
   std::vector<ErrorPlace> places;
   const auto uses = uses_of_edges(model);
@@ -134,7 +134,7 @@ void require_rim_in_plane(const Model& model, const Plane& plane, const std::str
     fail_half(ErrorCode::open_surface, std::to_string(places.size()) + " free edges are not in the plane " + plane.name(), std::move(places), hint);
 }
 
-/// The solids that are not wholly beyond the plane, as one model: united where there are several.
+/// Returns the solids that are not entirely beyond the plane, as one model; several solids are united.
 Model without_other_half(const Model& model, const Plane& plane, const HalfModelOptions& options, HalfModelReport& report, const RunContext& context) {
   std::vector<Model> parts;
   for (Model& part : split_solids(model)) {
@@ -159,7 +159,7 @@ Model half_space(const Plane& plane, const MeasureBox& box) {
   return make_box(std::string(k_half_space), low, high);
 }
 
-/// Sets what is wrong with a cut, and its volume.
+/// Sets the description of a defective cut, and its volume.
 void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const RunContext& context) {
   UniteTry& outcome = result.outcome;
   std::vector<double> areas(parts.size(), 0.0);
@@ -175,7 +175,7 @@ void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const
     outcome.problem = number_text(area) + " m^2 of faces are left, but should be " + number_text(least) + " to " + number_text(most);
 }
 
-/// The corner that is off the plane by the least, where a cut that fails says no place: faces there touch the plane, or run along it.
+/// Returns the corner nearest to the plane but not in it, for cuts that fail without a location: faces there touch the plane, or run along it.
 ErrorPlace nearest_to(const Plane& plane, const Model& model) {
   double least = std::numeric_limits<double>::infinity();
   Point nearest;
@@ -187,7 +187,7 @@ ErrorPlace nearest_to(const Plane& plane, const Model& model) {
   return {nearest, "the corner nearest to the plane, " + number_text(least) + " m off"};
 }
 
-/// The part of a closed model in the half space, without the faces that close it in the plane.
+/// Returns the part of a closed model in the half space, without the faces that close it in the plane.
 Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, const HalfModelOptions& options, const RunContext& context) {
   const std::vector<Model> models = {model, half_space(plane, box)};
   std::vector<BooleanPart> parts;
@@ -215,7 +215,7 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
   return select_faces(result->model, [&](FaceId f) { return origins[f.index()].part == 0; });
 }
 
-/// As cut_at. OpenCASCADE fails where the seam of a closed face lies in the plane: such faces are split into halves then, which may lie on one side each.
+/// As cut_at. OpenCASCADE fails if the seam of a closed face lies in the plane: such faces are then split into halves, each of which may be on one side.
 Model cut_or_split(const Model& model, const Plane& plane, const MeasureBox& box, const HalfModelOptions& options, HalfModelReport& report,
                    const RunContext& context) {
   try {
@@ -231,7 +231,7 @@ Model cut_or_split(const Model& model, const Plane& plane, const MeasureBox& box
   }
 }
 
-/// Free edges and their corners into the plane. \pre they are within the tolerance
+/// Moves free edges and their corners into the plane. \pre they are within the tolerance
 void flatten_rim(Model& model, const Plane& plane, HalfModelReport& report) {
   std::map<const Curve*, CurvePtr> curves;
   const auto flatten_corner = [&](CornerId c) {
@@ -280,7 +280,7 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   if (half.report.n_faces_cut > 0) half.model = cut_or_split(half.model, plane, hull(boxes), options, half.report, context);
   sides = sides_of(half.model, plane, context);
   half.report.n_flat_faces = count(sides, Side::in_plane);
-  // After a cut borders may be off the plane by what the cut tolerates, but nothing is beyond.
+  // After a cut, borders may deviate from the plane by the tolerance of the cut, but no face is beyond.
   half.model = select_faces(half.model, [&](FaceId f) { return sides[f.index()] == Side::kept || sides[f.index()] == Side::across; });
   require_rim_in_plane(half.model, plane,
                        half.report.was_half ? "a half model is open at its plane of symmetry alone"

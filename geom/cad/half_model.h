@@ -1,4 +1,4 @@
-// Half of a model, cut at a plane of symmetry: open there, with a rim that is in the plane to the last bit.
+// Half of a model, cut at a plane of symmetry: open there, with a boundary that lies exactly in the plane, to the last bit.
 #pragma once
 
 #include <string>
@@ -43,14 +43,14 @@ struct Schema<HalfModelOptions> {
 
 struct HalfModelReport {
   bool was_half = false;              ///< nothing was beyond the plane
-  std::size_t n_solids_left_out = 0;  ///< wholly beyond the plane
+  std::size_t n_solids_left_out = 0;  ///< solids entirely beyond the plane
   bool was_united = false;
-  std::size_t n_faces_cut = 0;    ///< that cross the plane; 0: edges of the model lie along it, faces were but chosen
-  std::size_t n_faces_split = 0;  ///< closed faces that were made halves, because their seams lie in the plane
-  std::size_t n_flat_faces = 0;   ///< in the plane, left out
+  std::size_t n_faces_cut = 0;    ///< faces that cross the plane; 0: edges of the model lie along it, so faces were only selected
+  std::size_t n_faces_split = 0;  ///< closed faces that were split into halves, because their seams lie in the plane
+  std::size_t n_flat_faces = 0;   ///< faces in the plane, removed
   std::size_t n_rim_edges = 0;
   double rim_length = 0.0;     ///< m
-  double largest_shift = 0.0;  ///< m: of the rim, into the plane
+  double largest_shift = 0.0;  ///< m: largest displacement of the boundary into the plane
 };
 
 struct HalfModel {
@@ -60,13 +60,13 @@ struct HalfModel {
 
 namespace cad {
 
-/// The half of a model on one side of a plane x, y or z = constant. Solids wholly beyond it are left out first, those that remain are united where there are
-/// several; faces that cross the plane are cut, those in it left out, and the rim's edges and corners put into the plane exactly: coordinates of points on them
-/// are `at` to the last bit. A model that is open in the plane already, or closed by faces in it, and has nothing beyond, is taken as it is. Names, components,
-/// roles, kinds and surfaces are kept.
+/// Returns the half of a model on one side of a plane x, y or z = constant. Solids entirely beyond it are removed first; several remaining solids are united.
+/// Faces that cross the plane are cut, faces in it are removed. The edges and corners of the boundary are moved into the plane exactly: coordinates of points
+/// on them are `at` to the last bit. A model that is already open in the plane, or closed by faces in it, with nothing beyond, is used unchanged. Names,
+/// components, roles, kinds and surfaces are kept.
 /// \post every free edge is in the plane
-/// \throws Error(bad_argument) when the model does not reach the plane or has nothing on the side that is kept; Error(open_surface) with places for free edges
-/// elsewhere, and for open models that cross the plane; Error(geometry_failed) where the cut fails; all of unite; Error(cancelled)
+/// \throws Error(bad_argument) if the model does not reach the plane or has nothing on the kept side; Error(open_surface) with locations for free edges
+/// elsewhere, and for open models that cross the plane; Error(geometry_failed) if the cut fails; all errors of unite; Error(cancelled)
 HalfModel half_model(const Model& model, const HalfModelOptions& options, const RunContext& context);
 
 }  // namespace cad

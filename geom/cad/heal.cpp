@@ -35,24 +35,24 @@
 namespace sterna::cad {
 namespace {
 
-/// Gaps that sewing tries to close when the user gives none, as shares of the longest side. Up from the resolution of the usual modellers; 1e-5 of an airliner
-/// is 0.6 mm: above that, thin trailing edges would be sewn together.
+/// Gaps that sewing tries to close if the user sets no tolerance, relative to the longest side. Starts at the resolution of common modellers; 1e-5 of an
+/// airliner is 0.6 mm: larger tolerances would sew thin trailing edges together.
 constexpr std::array<double, 3> k_sew_ladder = {1e-7, 1e-6, 1e-5};
-/// Sewing beyond this share of the shortest edge joins its two ends.
+/// Sewing beyond this fraction of the shortest edge merges its two ends.
 constexpr double k_sew_of_shortest_edge = 0.25;
-/// Edges and faces below this share of the longest side carry no shape that a mesh could show.
+/// Edges and faces below this fraction of the longest side have no shape that a mesh could resolve.
 constexpr double k_small_share = 1e-6;
-/// Tolerances may grow to this share of the longest side while borders are mended.
+/// Limit of tolerances while borders are repaired, relative to the longest side.
 constexpr double k_max_tolerance_share = 1e-4;
-/// Two faces are one where area, centre and box agree to this share of the face's size.
+/// Two faces are identical if area, centre and box agree to this fraction of the face's size.
 constexpr double k_same_face = 1e-6;
-/// A step that removes small things may change neither the area nor the volume by more than this share: what STEP has to keep.
+/// A step that removes small entities may change neither the area nor the volume by more than this fraction: the required accuracy of STEP.
 constexpr double k_extent_change = 1e-6;
 
-/// Mending that changes an area or a volume by more than this share is told.
+/// A repair that changes an area or a volume by more than this fraction is reported.
 constexpr double k_told_change = 1e-3;
 
-/// OpenCASCADE's keys for what it mends, in our words; what is not here is told by its key.
+/// OpenCASCADE's message keys of repairs, in our words; other messages are reported by their key.
 constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
     {"FixWire.FixDegenerated.MSG0", "edge at a pole marked as degenerate"},
     {"FixWire.FixDegenerated.MSG5", "edge at a pole marked as degenerate"},
@@ -83,7 +83,7 @@ constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
     {"FixAdvSolid.FixOrientation.MSG20", "solid turned right side out"},
 }};
 
-/// Takes down what OpenCASCADE's fixers tell, in the order in which they tell it.
+/// Collects the messages of OpenCASCADE's fixers in their order.
 class MendNotes : public ShapeExtend_BasicMsgRegistrator {
  public:
   explicit MendNotes(CadReport& report) : report_(report) {
@@ -121,7 +121,7 @@ bool is_same_box(const Bnd_Box& a, const Bnd_Box& b) {
   return a.CornerMin().Distance(b.CornerMin()) <= tolerance && a.CornerMax().Distance(b.CornerMax()) <= tolerance;
 }
 
-/// Labels go where their faces went.
+/// Transfers labels to the new faces.
 template <class NewShape>
 void move_labels(FaceLabels& labels, const TopoDS_Shape& before, const NewShape& new_shape) {
   for (TopExp_Explorer f(before, TopAbs_FACE); f.More(); f.Next()) {
@@ -134,7 +134,7 @@ void move_labels(FaceLabels& labels, const TopoDS_Shape& before, const NewShape&
   }
 }
 
-/// Faces that occur twice in a part, or loose beside it. Contacts between solids are no doubles.
+/// Removes faces that occur twice in a part, or loose beside it. Contacts between solids are not duplicates.
 void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
   struct Known {
     Bnd_Box box;
@@ -168,7 +168,7 @@ void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
   std::erase_if(labelled.parts, [](const ShapePart& part) { return part.shape.IsNull() || !TopExp_Explorer(part.shape, TopAbs_FACE).More(); });
 }
 
-/// Area of all faces, and volume where a shape is closed, else 0.
+/// Area of all faces, and volume if a shape is closed, else 0.
 struct Extent {
   double area = 0.0, volume = 0.0;
 };
@@ -180,7 +180,7 @@ std::string changed_text(const char* what, double before, double after, const ch
   return std::string(what) + " from " + number_text(before) + " to " + number_text(after) + " " + unit;
 }
 
-/// A warning where mending changed the area or the volume of a part by more than is rounding: what a wrong border cost is lost without a word else.
+/// Warns if a repair changed the area or the volume of a part by more than rounding; the effect of a wrong border would otherwise be lost silently.
 void tell_change(const std::string& name, const Extent& before, const Extent& after, const Point& place, CadReport& report) {
   const std::string area = changed_text("its area", before.area, after.area, "m^2");
   const std::string volume = before.volume != 0.0 && after.volume == 0.0 ? "it is no longer closed"
@@ -191,7 +191,7 @@ void tell_change(const std::string& name, const Extent& before, const Extent& af
                             volume + "; compare with the program that wrote the file, heal = false reads it as it is");
 }
 
-/// Faces, borders and shells that OpenCASCADE's check rejects.
+/// Repairs faces, borders and shells that OpenCASCADE's check rejects.
 void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
   Message_ProgressScope parts(progress, "mending", static_cast<double>(labelled.parts.size()));
   for (ShapePart& part : labelled.parts) {
@@ -224,14 +224,14 @@ bool has_small_edges(const TopoDS_Shape& shape, double small) {
   return false;
 }
 
-/// Spots and strips: the area is less than that of a band as narrow as `small` along half the border.
+/// Returns true if there are spot or strip faces: the area is less than that of a band of width `small` along half the border.
 bool has_small_faces(const TopoDS_Shape& shape, double small) {
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next())
     if (measure(f.Current()).area < 0.5 * small * length_of(f.Current())) return true;
   return false;
 }
 
-/// Every edge joins two faces, or a face with itself, and none is used more often.
+/// Returns true if every edge joins two faces, or a face with itself, and none is used more often.
 bool is_closed(const TopoDS_Shape& shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
@@ -240,7 +240,7 @@ bool is_closed(const TopoDS_Shape& shape) {
   return true;
 }
 
-/// About the middle of the box: a narrow gap far from the reference would count as volume. Nothing for what is open.
+/// Computes the volume about the middle of the box: relative to a distant reference point a narrow gap would count as volume. Nothing for open shapes.
 double volume_of(const TopoDS_Shape& shape, const gp_Pnt& about) {
   if (!is_closed(shape)) return 0.0;
   GProp_GProps properties(about);
@@ -256,8 +256,8 @@ Extent extent_of(const TopoDS_Shape& shape) {
 
 bool is_same_extent(double before, double after) { return std::abs(after - before) <= k_extent_change * before; }
 
-/// Takes the result of a step that drops small things, unless it changed area or volume: then the step harmed more than it mended. A strip along a long
-/// trailing edge is such a case: less of the area than it is of the volume of a thin wing.
+/// Accepts the result of a step that removes small entities, unless it changed area or volume: then the step did more harm than good. A strip along a long
+/// trailing edge is such a case: a smaller fraction of the area than of the volume of a thin wing.
 void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result, const Handle(ShapeBuild_ReShape) & changes, std::size_t n_notes_before,
             const char* what, CadReport& report) {
   if (result.IsNull()) return;
@@ -314,7 +314,7 @@ int count_free_edges(const std::vector<TopoDS_Shape>& shapes) {
   return n_free;
 }
 
-/// Without those that are so small that sewing may swallow them.
+/// Returns the length of the shortest edge, ignoring edges so small that sewing may remove them.
 double shortest_edge(const std::vector<TopoDS_Shape>& shapes, double small) {
   double shortest = Precision::Infinite();
   for (const TopoDS_Shape& shape : shapes)
@@ -341,8 +341,8 @@ std::vector<TopoDS_Shape> open_shapes(const LabelledShape& labelled) {
   return open;
 }
 
-/// Open shells and loose faces of all parts, joined where their edges meet by the first tolerance that leaves fewest free. `may_drop`: what is smaller than
-/// the tolerance goes.
+/// Sews open shells and loose faces of all parts with the first tolerance that leaves the fewest free edges. `may_drop`: entities smaller than the tolerance
+/// are removed.
 void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& open, const std::vector<double>& tolerances, bool may_drop, CadReport& report,
                     const Message_ProgressRange& progress, const RunContext& context) {
   const int n_before = count_free_edges(open);
@@ -381,7 +381,8 @@ void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& op
   for (TopExp_Explorer f(best->SewedShape(), TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) add(f.Current());
 }
 
-/// First by tolerances that are small against the model; then pairs of edges that share their ends but bulge apart, by the gap that is found between them.
+/// Joins faces first by tolerances that are small relative to the model; then pairs of edges that share their ends but bulge apart, by the gap found between
+/// them.
 void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress,
                 const RunContext& context) {
   Message_ProgressScope steps(progress, "joining", 2.0);
@@ -395,7 +396,7 @@ void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double s
   if (const double gap = k_margin * gap_of_pairs(open, small); gap > 0.0) sew_open_parts(labelled, open, {gap}, false, report, steps.Next(), context);
 }
 
-/// Closed shells become solids whose faces look outwards.
+/// Makes solids of closed shells, with faces oriented outwards.
 void make_solids(LabelledShape& labelled, CadReport& report) {
   for (ShapePart& part : labelled.parts) {
     if (part.shape.ShapeType() == TopAbs_SHELL && is_closed(part.shape)) {

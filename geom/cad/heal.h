@@ -1,4 +1,4 @@
-// Inside geom/cad only: mends what translators and other systems left.
+// Inside geom/cad only: repairs defects left by translators and other CAD systems.
 #pragma once
 
 #include "geom/cad/occt_shape.h"
@@ -8,9 +8,9 @@ class Message_ProgressRange;
 
 namespace sterna::cad {
 
-/// Steps, each told in `report.mended`: doubled faces dropped; borders, seams, degenerate edges and orientation of faces (ShapeFix); small edges and faces;
-/// free faces joined (sewing, tolerances from small to large until nothing more closes, then edges that share their ends); flat openings capped if wanted;
-/// closed shells made solids, turned outwards. Labels follow their faces. Call it inside run_occt.
+/// Heals a shape in steps, each reported in `report.mended`: removes duplicate faces; repairs borders, seams, degenerate edges and orientation of faces
+/// (ShapeFix); removes small edges and faces; joins free faces (sewing, tolerances from small to large until nothing more closes, then edges that share their
+/// ends); caps flat openings if requested; makes closed shells solids, oriented outwards. Labels follow their faces. Call it inside run_occt.
 void heal(LabelledShape& labelled, const ReadCadOptions& options, CadReport& report, const Message_ProgressRange& progress, const RunContext& context);
 
 }  // namespace sterna::cad

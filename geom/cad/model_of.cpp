@@ -1,5 +1,5 @@
-// From OpenCASCADE's topology to the columns of a Model. Steps: collect the faces of every part once; give every edge its curves; corners, edges and borders by
-// identity (IsSame); names from labels, then from the parts.
+// Converts OpenCASCADE's topology to the columns of a Model. Steps: collect the faces of every part once; give every edge its curves; corners, edges and
+// borders by identity (IsSame); names from labels, then from the parts.
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
@@ -22,11 +22,11 @@
 namespace sterna::cad {
 namespace {
 
-/// Largest distance between an edge's curve and its image in a face that is taken as the same edge without asking OpenCASCADE to improve it, metres: the
-/// resolution of OpenCASCADE (Precision::Confusion).
+/// Largest distance between an edge's curve and its image in a face that is accepted without OpenCASCADE's improvement, metres: the resolution of OpenCASCADE
+/// (Precision::Confusion).
 constexpr double k_same_parameter = 1e-7;
 
-/// Intervals of an edge at whose ends the distance to its faces is measured; OpenCASCADE's own check looks at 23 places.
+/// Intervals of an edge at whose ends the distance to its faces is measured; OpenCASCADE's own check uses 23 points.
 constexpr int k_tolerance_samples = 24;
 
 Point model_point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
@@ -75,7 +75,7 @@ class ModelBuilder {
     for (TopExp_Explorer f(part.shape, TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) add_face(TopoDS::Face(f.Current()), part, component);
   }
 
-  /// Every edge that is not a pole is used twice, once in each direction as seen from outside.
+  /// Returns true if every edge that is not a pole is used twice, once in each direction as seen from outside.
   bool is_closed(const ModelSolid& solid) const {
     std::map<EdgeId, std::pair<int, int>> uses;
     for (const FaceId f : solid.faces)
@@ -128,7 +128,7 @@ class ModelBuilder {
     result.layer = !label.layer.empty() ? label.layer : part.label.layer;
   }
 
-  /// Files state tolerances that are too small: what is measured counts.
+  /// Increases a tolerance to the measured distance, since tolerances stated in files are often too small.
   static void widen_tolerance(ModelEdge& edge, const Surface& surface, const ParameterCurve& parameter) {
     if (edge.is_degenerate()) return;
     for (int i = 0; i <= k_tolerance_samples; ++i) {
@@ -149,8 +149,8 @@ class ModelBuilder {
     return border;
   }
 
-  /// Edges head to tail: by corner, and where several edges leave a corner (seams) by parameter. Edges inside or outside of the border (INTERNAL, EXTERNAL) are
-  /// no part of it.
+  /// Returns the edges head to tail: by corner, and where several edges leave a corner (seams) by parameter. Edges inside or outside of the border (INTERNAL,
+  /// EXTERNAL) are excluded.
   std::vector<WireEdge> edges_in_order(const TopoDS_Wire& wire, const TopoDS_Face& forward) const {
     std::vector<WireEdge> edges;
     for (TopoDS_Iterator it(wire); it.More(); it.Next()) {

@@ -1,5 +1,5 @@
-// Every B-spline is refined by knots until it has k_pieces pieces along each direction; the poles that carry a piece contain it. Pairs whose pieces' boxes,
-// with_margin by the tolerances, are apart everywhere are dropped.
+// Every B-spline is refined by knots until it has k_pieces pieces along each direction; the poles of a piece enclose it. Pairs are dropped if the boxes of all
+// their pieces, enlarged by the tolerances, are disjoint.
 #include "geom/cad/near_pairs.h"
 
 #include <BOPDS_DS.hxx>
@@ -49,7 +49,7 @@ Box with_margin(Box box, double margin) {
   return box;
 }
 
-/// Knots to insert so that [from, to] has k_pieces pieces or more. Edges may run beyond their spline by a rounding, where no knot can be.
+/// Returns knots to insert so that [from, to] has k_pieces pieces or more. Edges may extend beyond their spline by rounding, where no knot can be inserted.
 std::vector<double> finer_knots(const TColStd_Array1OfReal& knots, double from, double to) {
   from = std::max(from, knots.First());
   to = std::min(to, knots.Last());
@@ -77,7 +77,7 @@ void insert_knots(const std::vector<double>& added, const Insert& insert) {
   insert(knots, multiplicities);
 }
 
-/// First pole (from 1) of each piece that has a part in [from, to].
+/// Returns the first pole (from 1) of each piece that overlaps [from, to].
 std::vector<int> first_poles(const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& multiplicities, int degree, double from, double to) {
   std::vector<int> firsts;
   int place = 0;
@@ -88,7 +88,7 @@ std::vector<int> first_poles(const TColStd_Array1OfReal& knots, const TColStd_Ar
   return firsts;
 }
 
-/// Boxes of the pieces of an edge; one box where it is no B-spline.
+/// Returns the boxes of the pieces of an edge; one box if it is not a B-spline.
 std::vector<Box> pieces_of(const TopoDS_Edge& edge, const Bnd_Box& whole, double margin) {
   TopLoc_Location place;
   double from = 0.0, to = 0.0;
@@ -167,12 +167,12 @@ class NearPairs : public BOPDS_Iterator {
     const Bnd_Box& whole = myDS->ShapeInfo(index).Box();
     const bool is_face = shape.ShapeType() == TopAbs_FACE;
     const double tolerance = is_face ? BRep_Tool::Tolerance(TopoDS::Face(shape)) : BRep_Tool::Tolerance(TopoDS::Edge(shape));
-    // Twice what OpenCASCADE widens its own boxes by.
+    // Twice the margin by which OpenCASCADE enlarges its own boxes.
     const double margin = 2.0 * (tolerance + std::max(fuzzy, Precision::Confusion()));
     std::vector<Box> boxes;
     try {
       boxes = is_face ? pieces_of(TopoDS::Face(shape), whole, margin) : pieces_of(TopoDS::Edge(shape), whole, margin);
-    } catch (const Standard_Failure&) {  // a spline that takes no more knots: its box alone is no less right
+    } catch (const Standard_Failure&) {  // a spline that accepts no more knots: its whole box is also correct
       boxes = {box_of(whole)};
     }
     tree = std::make_unique<BoxTree>(std::move(boxes), context_);

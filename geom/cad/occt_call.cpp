@@ -21,10 +21,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longest text of OpenCASCADE that is passed on; readers may complain about every entity of a file.
+/// Longest OpenCASCADE message that is passed on; readers may report a problem for every entity of a file.
 constexpr std::size_t k_max_words = 600;
 
-/// Keeps what OpenCASCADE complains about instead of printing it.
+/// Collects OpenCASCADE's error messages instead of printing them.
 class ComplaintPrinter : public Message_Printer {
  public:
   std::string take() { return std::move(words_); }
@@ -40,7 +40,7 @@ class ComplaintPrinter : public Message_Printer {
   mutable std::string words_;
 };
 
-/// Passes a stop and the time limit on to OpenCASCADE, and its progress to us.
+/// Passes a stop and the time limit to OpenCASCADE, and its progress to us.
 class StopIndicator : public Message_ProgressIndicator {
  public:
   StopIndicator(const RunContext& context, double time_limit) : context_(context), start_(Clock::now()), time_limit_(time_limit) {}
@@ -57,7 +57,7 @@ class StopIndicator : public Message_ProgressIndicator {
   double time_limit_;
 };
 
-/// OpenCASCADE's messenger talks to us alone while one of these lives.
+/// During its lifetime OpenCASCADE's messenger passes its messages only to us.
 class QuietMessenger {
  public:
   QuietMessenger() : messenger_(Message::DefaultMessenger()), printers_(messenger_->Printers()), complaints_(new ComplaintPrinter) {
@@ -76,7 +76,7 @@ class QuietMessenger {
 };
 
 std::mutex& occt_mutex() {
-  static std::mutex mutex;  // OpenCASCADE's translators share static parameters: a lock of the process is the only remedy
+  static std::mutex mutex;  // OpenCASCADE's translators share static parameters: only a process-wide lock helps
   return mutex;
 }
 
@@ -101,7 +101,7 @@ void run_occt(const OcctTask& task, const RunContext& context, const std::functi
   };
   try {
     work(indicator->Start());
-  } catch (const Error&) {  // a translator that was stopped half way looks like one that failed
+  } catch (const Error&) {  // a translator that was stopped cannot be distinguished from one that failed
     refuse_when_late();
     throw;
   } catch (const Standard_OutOfMemory&) {

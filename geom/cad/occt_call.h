@@ -1,5 +1,5 @@
-// Inside geom/cad only: every use of OpenCASCADE that may fail runs in here, so that its exceptions become Errors, its messages stay off the terminal,
-// and a stop or a time limit reaches it.
+// Inside geom/cad only: runs all OpenCASCADE calls that may fail, converts their exceptions to Errors, keeps their messages off the terminal, and applies stop
+// requests and time limits.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,9 @@ struct OcctTask {
   std::string hint = {};
 };
 
-/// Runs `work` and translates what it throws. One call at a time in the whole process: translators and the messenger of OpenCASCADE are global.
-/// OpenCASCADE asks for a stop only where it reports progress; `work` calls context.check_stop() between its steps.
-/// \throws Error(geometry_failed) with OpenCASCADE's own words, Error(cancelled) on a stop, Error(geometry_failed) past the time limit.
+/// Runs `work` and translates its exceptions. One call at a time in the whole process, because translators and the messenger of OpenCASCADE are global.
+/// OpenCASCADE checks for a stop only where it reports progress; `work` calls context.check_stop() between its steps.
+/// \throws Error(geometry_failed) with OpenCASCADE's message, Error(cancelled) on a stop, Error(geometry_failed) past the time limit.
 void run_occt(const OcctTask& task, const RunContext& context, const std::function<void(const Message_ProgressRange&)>& work);
 
 }  // namespace sterna::cad

@@ -1,4 +1,4 @@
-// Same parameters on both sides: parameter curves of a face stay valid whichever side evaluates.
+// Parameters are the same on both sides, so parameter curves of a face are valid for both evaluators.
 #include "geom/cad/occt_geometry.h"
 
 #include <Geom2d_BSplineCurve.hxx>
@@ -51,7 +51,7 @@ Uv to_uv(const gp_Pnt2d& p) { return {p.X(), p.Y()}; }
 gp_Pnt to_gp(const Point& p) { return {p.x, p.y, p.z}; }
 gp_Pnt2d to_gp(Uv p) { return {p.u, p.v}; }
 
-/// Knots repeated as often as they count, from distinct knots and multiplicities (arrays from 1).
+/// Returns the knots repeated by multiplicity, from distinct knots and multiplicities (arrays from 1).
 std::vector<double> flat_knots(const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& counts) {
   std::vector<double> flat;
   for (int i = knots.Lower(); i <= knots.Upper(); ++i) flat.insert(flat.end(), static_cast<std::size_t>(counts(i)), knots(i));
@@ -63,7 +63,7 @@ std::vector<double> weights_unless_equal(std::vector<double> weights) {
   return weights;
 }
 
-/// Distinct knots and how often each is repeated.
+/// Distinct knots and their multiplicities.
 struct KnotList {
   TColStd_Array1OfReal knots;
   TColStd_Array1OfInteger counts;
@@ -99,7 +99,7 @@ Handle(Spline) spline_of(const NurbsCurveForm<P>& form) {
   return new Spline(poles, weights, knots.knots, knots.counts, form.degree);
 }
 
-/// Pieces of a B-spline or Bezier curve as our form.
+/// Converts the pieces of a B-spline or Bezier curve to our form.
 template <class P, class Spline, class Convert>
 NurbsCurveForm<P> form_of_spline(const Spline& spline, const Convert& convert) {
   NurbsCurveForm<P> form{.degree = spline.Degree(), .knots = flat_knots(spline.Knots(), spline.Multiplicities()), .poles = {}, .weights = {}};
@@ -127,13 +127,13 @@ Interval clamped(double from, double to, Interval range) {
   return {Precision::IsInfinite(from) ? range.from : from, Precision::IsInfinite(to) ? range.to : to};
 }
 
-/// Our NURBS have all of their first and last knots: degree + 1 of them. OpenCASCADE allows fewer.
+/// Our NURBS have fully clamped knots: degree + 1 equal knots at each end. OpenCASCADE allows fewer.
 bool is_clamped(const std::vector<double>& knots, int degree) {
   const std::size_t n = static_cast<std::size_t>(degree) + 1;
   return knots.size() >= 2 * n && knots[n - 1] == knots.front() && knots[knots.size() - n] == knots.back();
 }
 
-/// A curve of a kind that we have not. Geom classes evaluate without caches of their own, so that many threads may ask.
+/// A curve of a kind without our own type. Geom classes evaluate without their own caches, so that many threads may call it.
 class OcctCurve final : public Curve {
  public:
   OcctCurve(Handle(Geom_Curve) curve, Interval range) : curve_(std::move(curve)), domain_(clamped(curve_->FirstParameter(), curve_->LastParameter(), range)) {}
@@ -172,11 +172,11 @@ class OcctParameterCurve final : public ParameterCurve {
   Interval domain_;
 };
 
-/// Step of the differences that stand in where OpenCASCADE has no derivative (offset surfaces at poles), as a share of the domain: third root of the
-/// rounding unit, rounded.
+/// Step of the differences used where OpenCASCADE has no derivative (offset surfaces at poles), as a fraction of the domain: third root of the rounding unit,
+/// rounded.
 constexpr double k_difference_step = 1e-5;
 
-/// Offset surfaces and others that we have not.
+/// Offset surfaces and others without our own type.
 class OcctSurface final : public Surface {
  public:
   OcctSurface(Handle(Geom_Surface) surface, const ParameterBox& box) : surface_(std::move(surface)) {
@@ -265,13 +265,13 @@ gp_Ax3 axes_of(const Frame& frame) {
   return axes;
 }
 
-/// Directions and radii that differ by less are equal: rounding.
+/// Directions and radii that differ by less are treated as equal (rounding).
 constexpr double k_equal = 1e-14;
 
 }  // namespace
 
 CurvePtr curve_of(const Handle(Geom_Curve) & curve, Interval range) {
-  // A trimmed curve has the parameters of its basis; the edge's range says which part counts.
+  // A trimmed curve has the parameters of its basis; the edge's range selects the part.
   if (const Handle(Geom_TrimmedCurve) trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve); !trimmed.IsNull()) return curve_of(trimmed->BasisCurve(), range);
   if (const Handle(Geom_Line) line = Handle(Geom_Line)::DownCast(curve); !line.IsNull() && range.length() > 0.0)
     return std::make_shared<LineCurve>(to_point(line->Lin().Location()), to_vec(gp_Vec(line->Lin().Direction())), range);
@@ -352,7 +352,7 @@ SurfacePtr surface_of(const Handle(Geom_Surface) & surface, const ParameterBox& 
       spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
       double u1 = 0.0, u2 = 0.0, v1 = 0.0, v2 = 0.0;
       spline->Bounds(u1, u2, v1, v2);
-      spline->Segment(u1, u2, v1, v2);  // inserts the end knots that are missing
+      spline->Segment(u1, u2, v1, v2);  // inserts missing end knots
       form = form_of(*spline);
     }
     if (is_clamped(form.knots_u, form.degree_u) && is_clamped(form.knots_v, form.degree_v))
@@ -370,7 +370,7 @@ Handle(Geom_Curve) geom_of(const Curve& curve) {
     const gp_Ax2 axes(to_gp(ellipse->centre()), to_dir(cross(ellipse->x(), ellipse->y())), to_dir(ellipse->x()));
     if (std::abs(major - minor) <= k_equal * major) return new Geom_Circle(axes, major);
     if (major > minor) return new Geom_Ellipse(axes, major, minor);
-    return {};  // the parameter of OpenCASCADE's ellipse begins at its major axis
+    return {};  // the parameter of OpenCASCADE's ellipse starts at its major axis
   }
   if (const auto form = curve.exact_nurbs()) return spline_of<Geom_BSplineCurve, TColgp_Array1OfPnt>(*form);
   return {};
@@ -393,7 +393,7 @@ Handle(Geom2d_Curve) geom_of(const ParameterCurve& curve) {
   return {};
 }
 
-/// Planes and round surfaces; null for others.
+/// Returns planes and round surfaces; null for others.
 static Handle(Geom_Surface) analytic_of(const Surface& surface) {
   if (const auto* plane = dynamic_cast<const PlaneSurface*>(&surface)) return new Geom_Plane(axes_of(plane->frame()));
   if (const auto* round = dynamic_cast<const CylinderSurface*>(&surface)) return new Geom_CylindricalSurface(axes_of(round->frame()), round->radius());
@@ -403,7 +403,7 @@ static Handle(Geom_Surface) analytic_of(const Surface& surface) {
   if (const auto* round = dynamic_cast<const TorusSurface*>(&surface)) {
     const Frame& f = round->frame();
     if (round->major_radius() >= round->minor_radius()) return new Geom_ToroidalSurface(axes_of(f), round->major_radius(), round->minor_radius());
-    // A spindle: as a torus OpenCASCADE's STEP writer would approximate it; the revolved circle has the same parameters.
+    // A spindle torus: OpenCASCADE's STEP writer would approximate it as a torus; the revolved circle has the same parameters.
     const gp_Ax2 circle(to_gp(f.origin + round->major_radius() * f.x), to_dir(cross(f.x, f.z)), to_dir(f.x));
     return new Geom_SurfaceOfRevolution(new Geom_Circle(circle, round->minor_radius()), gp_Ax1(to_gp(f.origin), to_dir(cross(f.x, f.y))));
   }

@@ -79,7 +79,7 @@ std::string status_text(BRepCheck_Status status) {
   return {};
 }
 
-/// Texts of the faults of one shape alone, or as a part of `within`.
+/// Adds the texts of the faults of one shape alone, or as a part of `within`.
 void add_faults(const BRepCheck_ListOfStatus& list, const std::string& what, const TopoDS_Shape& at, std::vector<ErrorPlace>& faults) {
   for (const BRepCheck_Status status : list) {
     if (status == BRepCheck_NoError) continue;

@@ -1,4 +1,4 @@
-// Inside geom/cad only: shapes of OpenCASCADE together with the names that its topology does not carry.
+// Inside geom/cad only: shapes of OpenCASCADE together with the names that their topology does not carry.
 #pragma once
 
 #include <NCollection_DataMap.hxx>
@@ -25,12 +25,12 @@ struct CadShape::Content {
 
 namespace cad {
 
-/// What a file says about a face beside its geometry.
+/// Attributes of a face in a file apart from its geometry.
 struct FaceLabel {
   std::string name;
   std::optional<std::array<float, 3>> colour;
   std::string layer;
-  std::string component = {};  ///< overrules that of the part: sewing joins faces of several
+  std::string component = {};  ///< takes precedence over the component of the part: sewing joins faces of several
   bool is_empty() const { return name.empty() && !colour && layer.empty(); }
 };
 
@@ -39,10 +39,10 @@ struct ShapePart {
   TopoDS_Shape shape;
   std::string component;  ///< name of the instance it belongs to; may be empty
   std::string name;       ///< its own name; may be empty
-  FaceLabel label;        ///< of all its faces that have none of their own
+  FaceLabel label;        ///< label of all its faces without their own label
 };
 
-/// Faces by their identity (IsSame: the same geometry at the same placement).
+/// Labels of faces, keyed by identity (IsSame: the same geometry at the same placement).
 using FaceLabels = NCollection_DataMap<TopoDS_Shape, FaceLabel, TopTools_ShapeMapHasher>;
 
 struct LabelledShape {
@@ -50,18 +50,18 @@ struct LabelledShape {
   FaceLabels labels;
 };
 
-/// The model of labelled shapes, with model.shape set. Faces of solids come first, in the order of the parts. Every edge gets its curves in space and in the
-/// faces (built where missing, made to agree in parameter).
-/// \throws Error(geometry_failed) with the place of a face or edge that has no geometry.
+/// Converts labelled shapes to a model, with model.shape set. Faces of solids come first, in the order of the parts. Every edge gets its curves in space and in
+/// the faces (built if missing, with consistent parameters).
+/// \throws Error(geometry_failed) with the location of a face or edge that has no geometry.
 Model model_of(const LabelledShape& labelled, const std::string& attempted, const RunContext& context);
 
-/// A point on the shape: of an edge half way along it, of a face its centre in the parameters, of others their first vertex.
+/// Returns a point on the shape: the middle of an edge, the parametric centre of a face, the first vertex of other shapes.
 Point place_of(const TopoDS_Shape& shape);
 
-/// All parts in one compound.
+/// Returns all parts in one compound.
 TopoDS_Shape compound_of(const std::vector<ShapePart>& parts);
 
-/// Longest side of the bounding box, metres; 0 for an empty shape.
+/// Returns the longest side of the bounding box, metres; 0 for an empty shape.
 double longest_side(const TopoDS_Shape& shape);
 
 }  // namespace cad

@@ -26,11 +26,11 @@
 namespace sterna::cad {
 namespace {
 
-/// Places along an edge where its distance to another is measured.
+/// Sample points along an edge where its distance to another is measured.
 constexpr int k_samples = 16;
-/// Ends of a pair coincide to this share of the edge's length.
+/// Ends of a pair coincide to this fraction of the edge's length.
 constexpr double k_same_end = 1e-4;
-/// Joining beyond this share of the shortest free edge would join its ends.
+/// Joining beyond this fraction of the shortest free edge would merge its ends.
 constexpr double k_of_shortest_edge = 0.25;
 
 struct FreeEdge {
@@ -64,7 +64,7 @@ bool have_same_ends(const FreeEdge& a, const FreeEdge& b, double tolerance) {
   return (near(0.0, 0.0) && near(1.0, 1.0)) || (near(0.0, 1.0) && near(1.0, 0.0));
 }
 
-/// Largest distance of places on `a` from `b`.
+/// Returns the largest distance of sample points of `a` from `b`.
 double distance_of(const FreeEdge& a, const FreeEdge& b) {
   double largest = 0.0;
   for (int i = 0; i <= k_samples; ++i) {
@@ -77,7 +77,7 @@ double distance_of(const FreeEdge& a, const FreeEdge& b) {
   return largest;
 }
 
-/// Edges that run to and fro enclose nothing: the area of such a face is below this share of its border's square.
+/// Edges that run back and forth enclose no area: that of such a face is below this fraction of the square of its border's length.
 constexpr double k_no_area = 1e-8;
 bool has_area(const TopoDS_Face& face) {
   GProp_GProps area, border;
@@ -86,7 +86,7 @@ bool has_area(const TopoDS_Face& face) {
   return std::abs(area.Mass()) > k_no_area * border.Mass() * border.Mass();
 }
 
-/// The faces of an open part and its caps as one shell, oriented alike.
+/// Returns the faces of an open part and its caps as one shell, consistently oriented.
 TopoDS_Shape shell_with(const TopoDS_Shape& part, const std::vector<TopoDS_Face>& caps) {
   BRep_Builder builder;
   TopoDS_Shell shell;
@@ -118,7 +118,7 @@ double gap_of_pairs(const std::vector<TopoDS_Shape>& shapes, double small) {
 
 void cap_openings(LabelledShape& labelled, CadReport& report) {
   std::size_t n_caps = 0, n_rims = 0;
-  std::optional<Point> bent;  // a rim that no flat face closes
+  std::optional<Point> bent;  // an open boundary that no flat face closes
   for (ShapePart& part : labelled.parts) {
     if (part.shape.ShapeType() == TopAbs_SOLID) continue;
     TopoDS_Compound faces;

@@ -1,4 +1,4 @@
-// The reader as its steps: translate, unit, mend, model, report.
+// Steps of the reader: translate, unit, repair, model, report.
 #include "geom/cad/read_cad.h"
 
 #include <BRepGProp.hxx>
@@ -24,14 +24,14 @@ namespace sterna {
 namespace cad {
 namespace {
 
-/// Sizes between which an aircraft, a rotor or a wind-tunnel model is expected, metres; outside the unit is doubted, never changed.
+/// Expected size range of an aircraft, a rotor or a wind-tunnel model, metres; outside it a warning about the unit is issued, but the unit is never changed.
 constexpr double k_smallest_size = 0.3;
 constexpr double k_largest_size = 400.0;
-/// A model smaller than this whose numbers would be an aircraft in metres is doubted too.
+/// A warning is also issued for a smaller model whose numbers would be an aircraft in metres.
 constexpr double k_small_size = 2.0;
 constexpr Interval k_aircraft = {5.0, 120.0};
 
-/// Shares of a read that translation and mending take, from the files of docs/cad_files.md.
+/// Fractions of the reading time for translation and repair, from the files of docs/cad_files.md.
 constexpr double k_translate_share = 50.0;
 constexpr double k_heal_share = 50.0;
 
@@ -41,7 +41,7 @@ std::string number(double value) {
   return text;
 }
 
-/// Doubts about the unit: a header that says mm over numbers that are metres is seen in real files.
+/// Warns of an implausible unit: files whose header says mm although the numbers are metres occur in practice.
 void doubt_unit(double size, bool is_given, CadReport& report) {
   const bool looks_like_metres = size < k_small_size && k_aircraft.contains(size / report.unit);
   if (is_given || size <= 0.0 || (size >= k_smallest_size && size <= k_largest_size && !looks_like_metres)) return;
@@ -50,7 +50,7 @@ void doubt_unit(double size, bool is_given, CadReport& report) {
                             ": if that is in another unit, give `unit` (1 for m, 0.001 for mm)");
 }
 
-/// Loose faces and shells go by the name of the file where they have no other.
+/// Names loose faces and shells after the file if they have no other name.
 void name_after_file(LabelledShape& labelled, const std::string& source) {
   std::string stem = source.substr(source.find_last_of('/') + 1);
   if (stem.ends_with(".gz")) stem.resize(stem.size() - 3);
@@ -67,7 +67,7 @@ void name_after_file(LabelledShape& labelled, const std::string& source) {
   }
 }
 
-/// What is said of a part is said of its faces, so that they can be joined with faces of other parts.
+/// Copies the labels of parts to their faces, so that these can be joined with faces of other parts.
 void label_faces(LabelledShape& labelled) {
   for (const ShapePart& part : labelled.parts)
     for (TopExp_Explorer f(part.shape, TopAbs_FACE); f.More(); f.Next()) {
@@ -85,7 +85,7 @@ double length_of(const TopoDS_Edge& edge) {
   return properties.Mass();
 }
 
-/// Largest distance from its plane, as a share of its length, of an opening that counts as flat.
+/// Largest distance of a flat opening from its plane, relative to its length.
 constexpr double k_flat = 1e-4;
 
 /// Groups free edges by common corners.
@@ -119,7 +119,7 @@ std::vector<CadOpening> openings_of(const Model& model, const std::vector<CadFre
     }
     std::sort(opening.edges.begin(), opening.edges.end());
     for (const Point& p : samples) opening.place += p / static_cast<double>(samples.size());
-    // The plane through the middle and the two samples that span most.
+    // The plane through the centre and the two samples with the largest span.
     const Point far = *std::max_element(samples.begin(), samples.end(),
                                         [&](const Point& a, const Point& b) { return distance(a, opening.place) < distance(b, opening.place); });
     for (const Point& p : samples)
@@ -155,7 +155,7 @@ void count_names(const LabelledShape& labelled, CadReport& report) {
   for (FaceLabels::Iterator it(labelled.labels); it.More(); it.Next()) report.n_named_faces += !it.Value().name.empty();
 }
 
-/// Normals of closed solids that lie in no other one point into them: the fluid is there.
+/// Orients the normals of closed solids that are not inside another one inwards: the fluid is inside them.
 void turn_inwards(Model& model, const std::string& attempted, CadReport& report, const RunContext& context) {
   std::vector<SolidId> closed;
   std::vector<Model> parts;

@@ -1,4 +1,4 @@
-// CAD files into models: STEP, IGES and BREP with names, colours, layers and units, mended where they need it, with a report of each thing that was mended.
+// Reads CAD files into models: STEP, IGES and BREP with names, colours, layers and units, repaired where necessary, with a report of each repair.
 #pragma once
 
 #include <cstddef>
@@ -68,44 +68,44 @@ struct Schema<ReadCadOptions> {
   };
 };
 
-/// One thing that healing changed.
+/// One repair made by healing.
 struct CadMend {
   std::string what;  ///< "small edge removed"
   Point place;
-  double value = 0.0;  ///< metres: the gap or length that was mended; 0 where it has none
+  double value = 0.0;  ///< metres: the gap or length that was repaired; 0 if not applicable
 };
 
-/// Where a shell is open.
+/// Free edge of an open shell.
 struct CadFreeEdge {
   EdgeId edge;
   FaceId face;
-  Point place;  ///< half way along the edge
+  Point place;  ///< midpoint of the edge
   double length = 0.0;
 };
 
-/// Free edges that hang together.
+/// Connected free edges.
 struct CadOpening {
   std::vector<EdgeId> edges;
-  bool is_loop = false;  ///< each corner has two of them
-  bool is_flat = false;  ///< in a plane, to 1e-4 of the length: `cap` would close a loop
-  Point place;           ///< middle of its corners
-  Vec3 normal;           ///< of the plane, where flat
-  double length = 0.0;   ///< of all edges, metres
+  bool is_loop = false;  ///< each corner has two free edges
+  bool is_flat = false;  ///< in a plane, to 1e-4 of the length: `cap` would close a flat loop
+  Point place;           ///< mean of its corners
+  Vec3 normal;           ///< normal of the plane, if flat
+  double length = 0.0;   ///< total length of the edges, metres
 };
 
 struct CadReport {
   cad::CadFormat format = cad::CadFormat::step;
-  std::string file_unit;  ///< as the file names it; "none" for BREP
+  std::string file_unit;  ///< name of the unit in the file; "none" for BREP
   double unit = 1.0;      ///< metres for 1 unit of the file, as applied
   std::size_t n_faces = 0;
   std::size_t n_closed = 0;       ///< closed solids
   std::size_t n_open = 0;         ///< shells with free edges, and loose faces
-  std::size_t n_named_parts = 0;  ///< solids, shells and instances with names of the file
+  std::size_t n_named_parts = 0;  ///< solids, shells and instances with names from the file
   std::size_t n_named_faces = 0;
   std::vector<CadMend> mended;
   std::vector<CadFreeEdge> free_edges;
-  std::vector<CadOpening> openings;  ///< the free edges once more, by what hangs together
-  std::vector<ErrorPlace> faults;    ///< what OpenCASCADE's check still objects to
+  std::vector<CadOpening> openings;  ///< the same free edges grouped by connectivity
+  std::vector<ErrorPlace> faults;    ///< faults still reported by OpenCASCADE's check
   std::vector<std::string> warnings;
   bool is_closed() const { return n_open == 0 && n_closed > 0; }
 };
@@ -117,15 +117,15 @@ struct CadFile {
 
 namespace cad {
 
-/// Reads the bytes of a file, unpacked. `source` is its name for messages; its stem names components that have no other name. A file without a single face is
-/// refused. Placed instances of assemblies become components of their own, named after the instance, else the product; faces without a name get that of their
-/// component. What cannot be closed is no error: it is listed in the report, and each warning also goes to the log.
+/// Reads the uncompressed bytes of a file. `source` is its name for messages; its stem is the name of components that have none. A file without faces is
+/// rejected. Placed instances of assemblies become separate components, named after the instance, else the product; faces without a name get the name of their
+/// component. Shells that cannot be closed are not an error: they are listed in the report, and each warning also goes to the log.
 /// \throws Error file_malformed, geometry_failed (OpenCASCADE gave up, the time limit), cancelled.
 CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::string& source, const ReadCadOptions& options, const RunContext& context);
 
 }  // namespace cad
 
-/// Several lines for people: format, unit, faces, solids, names, closed or not, what was mended, where it is open.
+/// Returns a human-readable report of several lines: format, unit, faces, solids, names, closed or not, repairs, openings.
 std::string to_text(const CadReport& report);
 
 }  // namespace sterna

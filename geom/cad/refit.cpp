@@ -16,7 +16,7 @@ namespace {
 bool is_exact(const Surface& surface) { return !geom_of(surface).IsNull(); }
 bool is_exact(const Curve& curve) { return !geom_of(curve).IsNull(); }
 
-/// Distinct surfaces or curves without a form, in the order in which the model names them, with what replaces them.
+/// Distinct surfaces or curves without an exact form, in the order of the model, with their replacements.
 template <class Geometry>
 struct Refits {
   std::vector<const Geometry*> originals;
@@ -29,7 +29,7 @@ struct Refits {
       originals.push_back(geometry);
     }
   }
-  /// Replaces the handle; the error of what was put in its place.
+  /// Replaces the handle and returns the error of the replacement.
   double replace(std::shared_ptr<const Geometry>& handle) const {
     const auto place = places.find(handle.get());
     if (place == places.end()) return 0.0;

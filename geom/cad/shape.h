@@ -1,4 +1,4 @@
-// The bridge between a Model and OpenCASCADE: the same faces, edges and corners in both, by number.
+// Interface between a Model and OpenCASCADE: the same faces, edges and corners in both, by number.
 #pragma once
 
 #include <functional>
@@ -12,13 +12,14 @@
 
 namespace sterna {
 
-/// What OpenCASCADE holds of a Model: a compound of solids, shells and loose faces whose i-th face is face i of the Model. Immutable and shared; opaque,
-/// since OpenCASCADE's headers stay inside geom/cad.
+/// The OpenCASCADE representation of a Model: a compound of solids, shells and loose faces whose i-th face is face i of the Model. Immutable and shared;
+/// opaque, since OpenCASCADE's headers stay inside geom/cad.
 class CadShape {
  public:
   struct Content;  ///< occt_shape.h
   explicit CadShape(std::unique_ptr<const Content> content);
-  /// What `make` gives (never null) when it is first asked for: of a model whose geometry is known before its shape is. cad::shape_of asks.
+  /// Creates a shape lazily: `make` (whose result is never null) is called at the first use by cad::shape_of. For models whose geometry is available before the
+  /// shape.
   explicit CadShape(std::function<std::shared_ptr<const CadShape>()> make);
   ~CadShape();
   CadShape(const CadShape&) = delete;
@@ -30,17 +31,17 @@ class CadShape {
   std::unique_ptr<const Content> content_;
   std::function<std::shared_ptr<const CadShape>()> make_;
   mutable std::once_flag is_made_;
-  mutable std::shared_ptr<const CadShape> made_;  ///< by make_
+  mutable std::shared_ptr<const CadShape> made_;  ///< result of make_
 };
 
 namespace cad {
 
-/// The shape of a model: model.shape where there is one, else built from its surfaces, edges and borders without any approximation: B-splines by exact_nurbs,
-/// planes and quadrics likewise where they have that form. Edges stay shared, seams and poles keep their meaning; solids that are closed become solids.
-/// \throws Error(geometry_failed) naming the face or edge that has no exact form, or that OpenCASCADE's check rejects, with its place.
+/// Returns the shape of a model: model.shape if set, else built from its surfaces, edges and borders without any approximation: B-splines by exact_nurbs,
+/// planes and quadrics as such if they have that form. Edges stay shared, seams and poles keep their meaning; closed solids become solids.
+/// \throws Error(geometry_failed) naming the face or edge that has no exact form, or that OpenCASCADE's check rejects, with its location.
 std::shared_ptr<const CadShape> shape_of(const Model& model, const RunContext& context);
 
-/// Faults of a shape by OpenCASCADE's own check (BRepCheck), one text for each faulty face, edge or corner with its place; empty: valid.
+/// Returns the faults of a shape found by OpenCASCADE's check (BRepCheck), one text with location for each faulty face, edge or corner; empty: valid.
 std::vector<ErrorPlace> faults_of(const CadShape& shape);
 
 }  // namespace cad

@@ -1,4 +1,4 @@
-// From a Model to OpenCASCADE's topology: corners, edges, faces with their curves, then solids; nothing is approximated.
+// Converts a Model to OpenCASCADE's topology: corners, edges, faces with their curves, then solids; nothing is approximated.
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -82,7 +82,7 @@ class ShapeBuilder {
 
   const EdgeUse& use_at(const EdgeUsePlace& place) const { return model_.faces[place.face].borders[place.border][place.place]; }
 
-  /// The curve of one use; both uses of a seam go together, when the first of them is met.
+  /// Adds the curve of one use; both uses of a seam are added together, at the first of them.
   void add_parameter_curve(EdgeId e, const std::vector<EdgeUsePlace>& uses, std::size_t i) {
     const FaceId face = uses[i].face;
     const auto same_face = [&](const EdgeUsePlace& other) { return other.face == face; };
@@ -161,7 +161,7 @@ class ShapeBuilder {
 
 std::shared_ptr<const CadShape> shape_of(const Model& model, const RunContext& context) {
   if (model.shape) {
-    static_cast<void>(model.shape->content());  // where it is yet to be made: now, as that may use OpenCASCADE, which is not to be entered twice
+    static_cast<void>(model.shape->content());  // builds a lazy shape now, since that may use OpenCASCADE, which must not be entered twice
     return model.shape;
   }
   std::shared_ptr<const CadShape> shape;

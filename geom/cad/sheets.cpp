@@ -1,5 +1,5 @@
-// Steps: which parts are closed solids; of each other part: is it meant by the option, else flat, on a solid's edges, or within solids; a warning for what
-// goes.
+// Steps: find the parts that are closed solids; for each other part: test if the option selects it, else if it is flat, on a solid's edges, or within solids;
+// warn for each removed part.
 #include "geom/cad/sheets.h"
 
 #include <BRepAdaptor_Curve.hxx>
@@ -25,12 +25,12 @@
 namespace sterna::cad {
 namespace {
 
-/// Distance from its plane, of its size, of a sheet that counts as flat.
+/// Largest distance of a flat sheet from its plane, relative to its size.
 constexpr double k_flat_share = 1e-5;
-/// Distance from a solid's surface, of the model's size, within which a point is on it.
+/// Distance from a solid's surface within which a point is on it, relative to the model's size.
 constexpr double k_on_share = 1e-5;
 constexpr int k_sheet_samples = 8;
-/// Area, of the square of the model's size, of a sheet that is but a line.
+/// Area of a sheet that is degenerate to a line, relative to the square of the model's size.
 constexpr double k_no_sheet_area = 1e-10;
 
 bool is_closed_solid(const TopoDS_Shape& shape) {
@@ -44,7 +44,7 @@ bool is_closed_solid(const TopoDS_Shape& shape) {
   return true;
 }
 
-/// Points on all edges and in the middle of all faces.
+/// Returns points on all edges and in the middle of all faces.
 std::vector<gp_Pnt> samples_of(const TopoDS_Shape& sheet) {
   std::vector<gp_Pnt> points;
   TopTools_IndexedMapOfShape edges;

@@ -16,7 +16,7 @@ namespace sterna::cad {
 namespace {
 
 constexpr const char* k_split_attempt = "splitting closed faces";
-/// Areas and volumes before and after agree to this share.
+/// Areas and volumes before and after must agree to this fraction.
 constexpr double k_same_split = 1e-6;
 
 bool has_seam(const Model& model) {
@@ -47,7 +47,7 @@ std::optional<Model> split_closed_faces(const Model& model, const RunContext& co
   try {
     run_occt({.attempted = k_split_attempt}, context, [&](const Message_ProgressRange&) {
       const CadShape::Content& content = shape->content();
-      BRepBuilderAPI_Copy copy(content.shape, false);  // OpenCASCADE adds curves to the edges of what it splits
+      BRepBuilderAPI_Copy copy(content.shape, false);  // OpenCASCADE adds curves to the edges of the shapes that it splits
       ShapeUpgrade_ShapeDivideClosed divide(copy.Shape());
       divide.SetNbSplitPoints(1);
       divide.SetSurfaceSegmentMode(false);

@@ -1,4 +1,4 @@
-// Inside geom/cad only: faces on closed surfaces as halves, without seams.
+// Inside geom/cad only: splits faces on closed surfaces into halves without seams.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace sterna::cad {
 
-/// The same model with each face that has a seam split along it and half a turn away; names, roles, kinds and components stay. Nothing where no face has a
-/// seam, where OpenCASCADE fails, or where the result is not the same: areas and volumes to 1e-6, no free edge that was none.
-/// \throws Error of shape_of, Error(cancelled)
+/// Returns the model with each face that has a seam split along the seam and half a turn away; names, roles, kinds and components are kept. Returns nothing if
+/// no face has a seam, if OpenCASCADE fails, or if the result differs: areas and volumes to 1e-6, no new free edge.
+/// \throws errors of shape_of, Error(cancelled)
 std::optional<Model> split_closed_faces(const Model& model, const RunContext& context);
 
 }  // namespace sterna::cad

@@ -1,5 +1,5 @@
-// Steps for each face on a closed surface: loops without seams; their course in the parameters, unwrapped; is the natural border meant, and would it be lost;
-// an angle that no hole crosses; the surface turned there; a loop along the seam.
+// Steps for each face on a closed surface: loops without seams; their course in the parameters, unwrapped; test for a natural border that would be lost; an
+// angle that no hole crosses; rotation of the surface to that angle; a loop along the seam.
 #include "geom/cad/step_faces.h"
 
 #include <BRep_Tool.hxx>
@@ -54,35 +54,34 @@ namespace {
 
 using StepEdge = Handle(StepShape_OrientedEdge);
 
-/// Intervals of an edge between places at which its course in the parameters of the face is followed: less than a quarter of a turn each for any edge that
-/// turns up to eight times.
+/// Intervals of an edge at which its course in the parameters of the face is sampled: less than a quarter turn each for any edge that turns up to eight times.
 constexpr int k_edge_places = 32;
-/// A longer step between two of these places, as a share of the period, passes through a pole.
+/// A longer step between two samples, relative to the period, passes through a pole.
 constexpr double k_largest_step = 0.3;
-/// An end of a surface narrower than this share of the surface is a pole.
+/// An end of a surface narrower than this fraction of the surface is a pole.
 constexpr double k_pole_share = 1e-6;
-/// Least distance between a seam and the holes, as a share of the period: less would make needles.
+/// Smallest distance between a seam and the holes, relative to the period: a smaller one would produce sliver triangles.
 constexpr double k_free_share = 1e-3;
 
 /// A surface that is closed in one direction and has a pole at both ends of the other.
 struct PoledSurface {
   Handle(Geom_Surface) surface;
   bool is_u = true;                 ///< closed in u, poles at the ends of v
-  double from = 0.0, period = 0.0;  ///< of the closed direction
+  double from = 0.0, period = 0.0;  ///< range of the closed direction
   std::array<gp_Pnt, 2> poles;
-  double pole_size = 0.0;  ///< nearer places are a pole, where the parameter around means nothing
+  double pole_size = 0.0;  ///< nearer points belong to a pole, where the circumferential parameter is undefined
   gp_Pnt2d at(double around, double along) const { return is_u ? gp_Pnt2d(around, along) : gp_Pnt2d(along, around); }
 };
 
-/// Edges head to tail around a hole, seams left out, and where the loop lies.
+/// Edges head to tail around a hole, without seams, and the location of the loop.
 struct Hole {
   std::vector<StepEdge> edges;
-  Handle(StepShape_FaceBound) bound;  ///< of the file; null where seams were cut out of it
+  Handle(StepShape_FaceBound) bound;  ///< bound in the file; null if seams were cut out of it
   bool orientation = true;
   double low = 0.0, high = 0.0;  ///< unwrapped, in the closed direction
   double winding = 0.0;          ///< in periods
   double area = 0.0;             ///< in the parameters, counterclockwise positive
-  bool meets_pole = false;       ///< the course jumps from one meridian to another, so winding and area mean nothing
+  bool meets_pole = false;       ///< the course jumps from one meridian to another, so winding and area are undefined
 };
 
 double spread(const Handle(Geom_Surface) & surface, const PoledSurface& poled, double along) {
@@ -122,12 +121,12 @@ std::optional<PoledSurface> poled_surface(const Handle(Geom_Surface) & surface) 
   return std::nullopt;
 }
 
-/// Translates raw faces, one at a time, to know the edges' curves.
+/// Translates raw faces, one at a time, to obtain the curves of their edges.
 class FaceReader {
  public:
   explicit FaceReader(const Handle(StepData_StepModel) & model) : process_(new Transfer_TransientProcess(model->NbEntities())) {}
 
-  /// Follows an edge in its direction of use: points of it in space.
+  /// Collects points in space along an edge in its direction of use.
   bool points_of(const StepEdge& use, std::vector<gp_Pnt>& points) {
     const Handle(StepShape_EdgeCurve) curve = Handle(StepShape_EdgeCurve)::DownCast(use->EdgeElement());
     if (curve.IsNull() || !tool_->IsBound(curve)) return false;
@@ -159,7 +158,7 @@ class FaceReader {
 Handle(StepShape_Vertex) start_of(const StepEdge& use) { return use->EdgeStart(); }
 Handle(StepShape_Vertex) end_of(const StepEdge& use) { return use->EdgeEnd(); }
 
-/// Edges of a loop that are not used twice by it, head to tail. False where they do not close.
+/// Collects the edges of a loop that it does not use twice, head to tail. Returns false if they do not close.
 bool holes_of(const Handle(StepShape_FaceBound) & bound, const Handle(StepShape_EdgeLoop) & loop, std::vector<Hole>& holes) {
   std::vector<StepEdge> edges;
   for (int i = 1; i <= loop->NbEdgeList(); ++i) {
@@ -197,7 +196,7 @@ bool follow(Hole& hole, const PoledSurface& poled, FaceReader& reader) {
     uv = surface->ValueOfUV(point, Precision::Confusion());
     double step = around_of(uv) - around;
     step -= poled.period * std::round(step / poled.period);
-    // At the pole itself the parameter is any: two small steps may stand for the jump.
+    // At the pole itself the parameter is arbitrary: two small steps may represent the jump.
     hole.meets_pole = hole.meets_pole || std::abs(step) > k_largest_step * poled.period || point.Distance(poled.poles[0]) <= poled.pole_size ||
                       point.Distance(poled.poles[1]) <= poled.pole_size;
     around += step;
@@ -211,20 +210,20 @@ bool follow(Hole& hole, const PoledSurface& poled, FaceReader& reader) {
   return true;
 }
 
-/// Where a seam crosses no hole: the surface's own seam where that is free, else the middle of the widest gap.
+/// Returns an angle where a seam crosses no hole: the surface's own seam if possible, else the middle of the widest gap.
 std::optional<double> free_angle(const std::vector<Hole>& holes, const PoledSurface& poled) {
   const double margin = k_free_share * poled.period;
   struct Span {
     double from, to;
   };
-  std::vector<Span> spans;  // from within a period, sorted
+  std::vector<Span> spans;  // starting within one period, sorted
   for (const Hole& hole : holes) {
     const double shift = poled.period * std::floor((hole.low - margin - poled.from) / poled.period);
     spans.push_back({hole.low - margin - shift, hole.high + margin - shift});
   }
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.from < b.from; });
   double reach = spans.empty() ? poled.from : -Precision::Infinite();
-  for (const Span& span : spans) reach = std::max(reach, span.to - poled.period);  // those that run over the end cover the start
+  for (const Span& span : spans) reach = std::max(reach, span.to - poled.period);  // spans that extend over the end cover the start
   if (reach < poled.from && (spans.empty() || spans.front().from > poled.from)) return poled.from;
   double best = 0.0, best_gap = 0.0;
   for (std::size_t i = 0; i <= spans.size(); ++i) {
@@ -239,7 +238,7 @@ std::optional<double> free_angle(const std::vector<Hole>& holes, const PoledSurf
   return best;
 }
 
-/// The same surface with its seam elsewhere; null for kinds that cannot be turned.
+/// Returns the same surface with its seam elsewhere; null for kinds that cannot be rotated.
 Handle(Geom_Surface) turned(const PoledSurface& poled, double angle) {
   if (angle == poled.from) return poled.surface;
   const Handle(Geom_Surface) copy = Handle(Geom_Surface)::DownCast(poled.surface->Copy());
@@ -281,7 +280,7 @@ Handle(StepShape_FaceBound) bound_of(const std::vector<StepEdge>& edges, bool or
   return bound;
 }
 
-/// A loop up the seam of the surface and down again.
+/// Returns a loop up the seam of the surface and back down.
 Handle(StepShape_FaceBound) seam_bound(const Handle(Geom_Surface) & surface, bool is_u) {
   double u1 = 0.0, u2 = 0.0, v1 = 0.0, v2 = 0.0;
   surface->Bounds(u1, u2, v1, v2);
@@ -361,7 +360,7 @@ class SeamGiver {
   FaceReader reader_;
 };
 
-/// Units of the file, as OpenCASCADE sets them when it translates a shape: what is made here is in the same numbers then.
+/// Sets the units of the file as OpenCASCADE does when it translates a shape: geometry created here is then in the same units.
 void set_units(const Handle(StepData_StepModel) & model) {
   for (int i = 1; i <= model->NbEntities(); ++i) {
     Handle(StepRepr_GlobalUnitAssignedContext) units;
@@ -390,7 +389,7 @@ SeamReport give_seams(const Handle(StepData_StepModel) & model) {
     Outcome outcome = Outcome::failed;
     try {
       outcome = giver.treat(face);
-    } catch (const Standard_Failure&) {  // a curve or surface that OpenCASCADE cannot make: its reader is going to say so
+    } catch (const Standard_Failure&) {  // a curve or surface that OpenCASCADE cannot create: its reader will report it
     }
     if (outcome == Outcome::changed) ++report.n_changed;
     if (outcome != Outcome::failed) continue;

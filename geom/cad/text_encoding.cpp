@@ -10,7 +10,7 @@ namespace {
 
 unsigned byte_value(char c) { return static_cast<unsigned char>(c); }
 
-/// Pairs of GB 2312 alone: all of GBK would take any accented letter with the one behind it for a character.
+/// Tests for pairs of GB 2312 only: with all of GBK any accented letter and its successor would count as a character.
 bool is_gb2312(std::string_view bytes) {
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     if (byte_value(bytes[i]) < 0x80u) continue;

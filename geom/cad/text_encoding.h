@@ -1,4 +1,4 @@
-// Text of files that do not name their encoding.
+// Decoding of text from files that do not declare their encoding.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@ namespace sterna::cad {
 
 bool is_utf8(std::string_view bytes);
 
-/// The text as UTF-8. Valid UTF-8 (so all ASCII) stays. Else GBK, where every byte above 127 belongs to a pair that is a Chinese character or sign of GB 2312;
-/// in names of European languages accented letters stand alone. All else is taken as Latin-1.
+/// Returns the text as UTF-8. Valid UTF-8 (including all ASCII) is unchanged. Otherwise the text is decoded as GBK if every byte above 127 belongs to a pair
+/// that is a Chinese character or symbol of GB 2312; in names of European languages accented letters are single bytes. All other text is decoded as Latin-1.
 std::string utf8_of_bytes(std::string_view bytes);
 
 }  // namespace sterna::cad

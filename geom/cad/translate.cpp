@@ -1,4 +1,4 @@
-// STEP and IGES through OpenCASCADE's extended documents (XDE), which keep names, colours, layers and assemblies; BREP as it is.
+// Reads STEP and IGES through OpenCASCADE's extended documents (XDE), which keep names, colours, layers and assemblies; BREP directly.
 #include "geom/cad/translate.h"
 
 #include <fcntl.h>
@@ -50,7 +50,7 @@ namespace {
   throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + source, .problem = problem, .hint = hint});
 }
 
-/// Names as UTF-8, whatever their bytes were: OpenCASCADE takes each byte for a letter where a file says nothing of its letters.
+/// Converts names of any encoding to UTF-8: OpenCASCADE converts each byte to a character if a file does not declare its encoding.
 std::string utf8(const TCollection_ExtendedString& text) {
   std::string bytes;
   for (int i = 1; i <= text.Length(); ++i) {
@@ -61,7 +61,7 @@ std::string utf8(const TCollection_ExtendedString& text) {
   return utf8_of_bytes(bytes);
 }
 
-/// Names that translators put where the file has none.
+/// Returns true for names that translators generate if the file has none.
 bool is_made_up(const std::string& name) {
   return name.empty() || name == "NONE" || name == "None" || name.starts_with("Open CASCADE") || name.starts_with("=>[") || name == "SOLID" ||
          name == "SHELL" || name == "COMPOUND" || name == "FACE" || name == "Unnamed" || name.find_first_not_of(" \t") == std::string::npos;
@@ -76,7 +76,7 @@ std::string name_of(const TDF_Label& label) {
   return is_made_up(name) ? std::string() : name;
 }
 
-/// Walks a document: assemblies down to their parts, each with the placement and the names on the way.
+/// Traverses a document: assemblies down to their parts, each with the accumulated placement and names.
 class DocumentWalk {
  public:
   explicit DocumentWalk(const Handle(TDocStd_Document) & document)
@@ -119,7 +119,7 @@ class DocumentWalk {
     const auto placed = [&](const TopoDS_Shape& s) { return s.Moved(place); };
     TDF_LabelSequence parts;
     XCAFDoc_ShapeTool::GetSubShapes(label, parts);
-    // Names of solids and shells within a product, and labels of faces; what is said of a solid holds for its faces.
+    // Names of solids and shells within a product, and labels of faces; labels of a solid apply to its faces.
     NCollection_DataMap<TopoDS_Shape, FaceLabel, TopTools_ShapeMapHasher> of_parts;
     for (const TDF_Label& part : parts) {
       const TopoDS_Shape sub = XCAFDoc_ShapeTool::GetShape(part);
@@ -142,7 +142,7 @@ class DocumentWalk {
     for (TopExp_Explorer s(whole, TopAbs_SOLID); s.More(); s.Next()) add(s.Current());
     for (TopExp_Explorer s(whole, TopAbs_SHELL, TopAbs_SOLID); s.More(); s.Next()) add(s.Current());
     for (TopExp_Explorer s(whole, TopAbs_FACE, TopAbs_SHELL); s.More(); s.Next()) add(s.Current());
-    if (whole.ShapeType() == TopAbs_FACE && !product.empty()) {  // IGES: the name of the top level is the face's own
+    if (whole.ShapeType() == TopAbs_FACE && !product.empty()) {  // IGES: the name at the top level is that of the face
       FaceLabel own = merged;
       own.name = product;
       result_.labels.Bind(whole, own);
@@ -150,7 +150,7 @@ class DocumentWalk {
     }
   }
 
-  /// Several instances of a product are several components.
+  /// Creates a component name; several instances of a product are several components.
   std::string unique_component(const std::string& name) {
     if (name.empty()) return {};
     const int count = ++counts_[name];
@@ -177,7 +177,7 @@ class DocumentWalk {
   LabelledShape result_;
 };
 
-/// Bytes as a stream, without a copy.
+/// Stream over bytes, without a copy.
 class ByteStream : public std::streambuf {
  public:
   explicit ByteStream(std::string_view bytes) {
@@ -195,7 +195,7 @@ class ByteStream : public std::streambuf {
   pos_type seekpos(pos_type position, std::ios_base::openmode mode) override { return seekoff(off_type(position), std::ios_base::beg, mode); }
 };
 
-/// Bytes under a name that OpenCASCADE's IGES reader, which knows no streams, can open.
+/// Bytes with a file name that OpenCASCADE's IGES reader, which does not support streams, can open.
 class MemoryFile {
  public:
   MemoryFile(std::string_view bytes, const std::string& source) : descriptor_(memfd_create("sterna-cad", MFD_CLOEXEC)) {
@@ -231,7 +231,7 @@ Handle(TDocStd_Document) new_document() {
 
 void set_common_parameters() {
   STEPCAFControl_Controller::Init();
-  IGESCAFControl_Reader().WS();  // makes the parameters of IGES known
+  IGESCAFControl_Reader().WS();  // registers the IGES parameters
   XCAFDoc_ShapeTool::SetAutoNaming(false);
   Interface_Static::SetCVal("xstep.cascade.unit", "M");
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
@@ -244,7 +244,7 @@ std::size_t count_shapes(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   return n;
 }
 
-/// Shells of the file of which fewer faces came than it has, and closed ones that fell apart: borders that were read wrongly.
+/// Returns shells for which fewer faces were read than the file contains, and closed shells that fell apart: wrongly read borders.
 std::vector<std::string> losses_of(const STEPControl_Reader& reader) {
   std::vector<std::string> losses;
   const Handle(StepData_StepModel) model = reader.StepModel();
@@ -253,7 +253,7 @@ std::vector<std::string> losses_of(const STEPControl_Reader& reader) {
     const Handle(StepShape_ConnectedFaceSet) shell = Handle(StepShape_ConnectedFaceSet)::DownCast(model->Value(i));
     if (shell.IsNull() || shell->CfsFaces().IsNull()) continue;
     const TopoDS_Shape came = TransferBRep::ShapeResult(process, shell);
-    if (came.IsNull()) continue;  // of no solid or model of shells that is translated, or merged into one
+    if (came.IsNull()) continue;  // not part of a translated solid or shell model, or merged into one
     const auto n_file = static_cast<std::size_t>(shell->NbCfsFaces());
     const std::size_t n_faces = count_shapes(came, TopAbs_FACE), n_shells = count_shapes(came, TopAbs_SHELL);
     const std::string name = "the shell #" + std::to_string(model->IdentLabel(shell)) + " of " + std::to_string(n_file) + " faces";
@@ -286,7 +286,7 @@ Translated translate_step(std::string_view bytes, const std::string& source, con
   return result;
 }
 
-/// Whether the last record is that of the terminate section: a file of the fixed format says in column 73 what section a record belongs to.
+/// Returns true if the last record belongs to the terminate section: in the fixed format column 73 gives the section of a record.
 bool has_iges_end(std::string_view bytes) {
   constexpr std::size_t k_section_column = 72;
   const std::size_t last = bytes.find_last_not_of(" \t\r\n");
@@ -316,7 +316,7 @@ Translated translate_iges(std::string_view bytes, const std::string& source, con
 }
 
 Translated translate_brep(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
-  // OpenCASCADE's reader prints to the terminal what it misses.
+  // OpenCASCADE's reader prints missing sections to the terminal.
   for (const std::string_view section : {"\nLocations ", "\nCurve2ds ", "\nCurves ", "\nPolygon3D ", "\nSurfaces ", "\nTriangulations ", "\nTShapes "})
     if (bytes.find(section) == std::string_view::npos)
       malformed(source, "no section \"" + std::string(section.substr(1, section.size() - 2)) + "\"", "is it complete, and text rather than binary BREP?");
@@ -334,7 +334,7 @@ Translated translate_brep(std::string_view bytes, const std::string& source, con
   return result;
 }
 
-/// Metres for one unit as STEP spells it in FileUnits; 0 where we do not know it.
+/// Returns metres per unit for STEP unit names as in FileUnits; 0 for unknown units.
 double metres_of(const std::string& unit) {
   static const std::map<std::string, double> k_units = {
       {"METRE", 1.0},       {"MILLIMETRE", 1e-3}, {"CENTIMETRE", 1e-2}, {"DECIMETRE", 0.1}, {"KILOMETRE", 1e3}, {"MICROMETRE", 1e-6},

@@ -1,4 +1,4 @@
-// Inside geom/cad only: files of each format into labelled shapes, metres. The bytes are those of an unpacked file.
+// Inside geom/cad only: translates files of each format into labelled shapes, metres. The bytes are those of an uncompressed file.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ struct Translated {
   LabelledShape labelled;
   std::string file_unit;
   double unit = 1.0;                     ///< metres for 1 unit of the file, already applied
-  SeamReport seams = {};                 ///< STEP alone
-  std::vector<std::string> losses = {};  ///< by the file's own topology, one sentence each; STEP alone
+  SeamReport seams = {};                 ///< STEP only
+  std::vector<std::string> losses = {};  ///< losses according to the file's own topology, one sentence each; STEP only
 };
 
-/// \throws Error(file_malformed), and whatever OpenCASCADE throws; call it inside run_occt.
+/// \throws Error(file_malformed), and all exceptions of OpenCASCADE; call it inside run_occt.
 Translated translate(std::string_view bytes, CadFormat format, const std::string& source, const Message_ProgressRange& progress);
 
 /// Scales everything about the origin; labels follow.

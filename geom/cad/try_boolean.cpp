@@ -1,4 +1,4 @@
-// Steps of a try: intersections, build, origins of the faces, model, judgement.
+// Steps of an attempt: intersections, build, origins of the faces, model, check.
 #include "geom/cad/try_boolean.h"
 
 #include <BRepAlgoAPI_BooleanOperation.hxx>
@@ -19,9 +19,9 @@
 namespace sterna::cad {
 namespace {
 
-/// Share of a try's progress that finding intersections is.
+/// Fraction of an attempt's progress for finding intersections.
 constexpr double k_intersect_share = 0.9;
-/// Letters of what OpenCASCADE says of an error.
+/// Longest error text of OpenCASCADE, in characters.
 constexpr std::size_t k_longest_error = 200;
 
 TopTools_ListOfShape list_of(std::span<const BooleanPart> parts) {
@@ -39,7 +39,7 @@ BOPAlgo_Operation occt_operation(BooleanOperation operation) {
   return BOPAlgo_UNKNOWN;
 }
 
-/// ": BOPAlgo_AlertIntersectionFailed", OpenCASCADE's own words; empty: it has none.
+/// Returns ": BOPAlgo_AlertIntersectionFailed", OpenCASCADE's error text; empty if there is none.
 std::string errors_of(const BRepAlgoAPI_BooleanOperation& operation) {
   std::ostringstream stream;
   operation.DumpErrors(stream);
@@ -49,7 +49,7 @@ std::string errors_of(const BRepAlgoAPI_BooleanOperation& operation) {
   return text.empty() ? text : ": " + text;
 }
 
-/// An operation whose intersections are known.
+/// Runs an operation whose intersections have been computed.
 void run_operation(const BooleanTask& task, const std::vector<BooleanPart>& parts, double tolerance, const RunContext& context,
                    const Message_ProgressRange& progress, const std::function<void(BRepAlgoAPI_BooleanOperation&)>& take) {
   Message_ProgressScope steps(progress, nullptr, 1.0);
@@ -99,7 +99,7 @@ BooleanTry try_once(const BooleanTask& task, const std::vector<BooleanPart>& par
   } catch (const Error& error) {
     if (error.code() != ErrorCode::geometry_failed) throw;
     result.is_late = std::chrono::duration<double>(Clock::now() - start).count() > task.time_limit;
-    result.outcome.problem = error.info().problem;  // a larger tolerance may do
+    result.outcome.problem = error.info().problem;  // a larger tolerance may succeed
     result.outcome.places = error.info().places;
   }
   return result;
@@ -156,7 +156,7 @@ std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<Boole
     tries.push_back(result.outcome);
     if (result.outcome.problem.empty()) return result;
     context.debug(task.attempted + " with tolerance " + std::to_string(tolerance) + " m: " + result.outcome.problem);
-    // No larger tolerance makes it faster.
+    // A larger tolerance is not faster.
     if (result.is_late)
       throw Error({.code = ErrorCode::geometry_failed,
                    .attempted = task.attempted + " (" + names_of(parts) + ")",

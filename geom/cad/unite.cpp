@@ -1,5 +1,5 @@
-// OpenCASCADE's general fuse with growing tolerances, after a look at the contacts. Steps of a try: intersections, fuse, origins of the faces, model, proof.
-// When no tolerance is enough, pairs that touch are tried one by one, to name the one that fails.
+// OpenCASCADE's general fuse with increasing tolerances, after a check of the contacts. Steps of an attempt: intersections, fuse, origins of the faces, model,
+// verification. If no tolerance is sufficient, pairs that touch are tried one by one, to name the pair that fails.
 #include "geom/cad/unite.h"
 
 #include <BRepBndLib.hxx>
@@ -23,7 +23,7 @@ using Part = BooleanPart;
 
 using Try = BooleanTry;
 
-/// \returns what is wrong with the volume; empty: nothing
+/// \returns description of a wrong volume; empty: none
 std::string volume_objection(const std::vector<Part>& parts, double volume) {
   double sum = 0.0, largest = 0.0;
   for (const Part& part : parts) {
@@ -35,7 +35,7 @@ std::string volume_objection(const std::vector<Part>& parts, double volume) {
          number_text(sum);
 }
 
-/// The first part of which too much or too little is left.
+/// Returns a description of the first part with too much or too little remaining area.
 std::string area_objection(const std::vector<Part>& parts, const std::vector<double>& areas) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartExposure& exposure = parts[p].exposure;
@@ -47,7 +47,7 @@ std::string area_objection(const std::vector<Part>& parts, const std::vector<dou
   return {};
 }
 
-/// What is wrong with a result; empty: nothing.
+/// Returns a description of a defective result; empty: none.
 std::string objection(Try& result, const std::vector<Part>& parts, const RunContext& context) {
   std::vector<double> areas(parts.size(), 0.0);
   if (std::string unsound = measure_result(result, "result", areas, context); !unsound.empty()) return unsound;
@@ -70,7 +70,7 @@ bool is_near(const Part& a, const Part& b, double gap) {
   return !box_a.IsOut(box_b);
 }
 
-/// Two parts, with what of each lies outside of the other.
+/// Returns two parts, each with its area outside of the other.
 std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context) {
   const std::array<Model, 2> models{*a.model, *b.model};
   const ContactReport found = find_contacts(models, context);
@@ -83,7 +83,7 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
 [[noreturn]] void blame(const std::vector<Part>& parts, const UniteOptions& options, double size, const UniteReport& report, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = "uniting " + std::to_string(parts.size()) + " parts"};
   const UniteTry* blamed = &report.tries.back();
-  std::vector<ErrorPlace> contacts;  // where OpenCASCADE names no place
+  std::vector<ErrorPlace> contacts;  // locations to report if OpenCASCADE gives none
   const auto add_contacts = [&](const auto& is_blamed) {
     for (const PartContact& contact : report.contacts)
       if (is_blamed(contact)) contacts.push_back({contact.place, "\"" + parts[contact.first].name() + "\" and \"" + parts[contact.second].name() + "\" meet"});

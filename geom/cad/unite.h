@@ -1,4 +1,4 @@
-// Boolean union of closed parts: one wetted surface of all of them, every face of which knows where it came from.
+// Boolean union of closed parts into one wetted surface; every face keeps a reference to its original face.
 #pragma once
 
 #include <span>
@@ -33,21 +33,21 @@ struct Schema<UniteOptions> {
   };
 };
 
-/// One tolerance that was tried.
+/// Attempt with one tolerance.
 struct UniteTry {
   double tolerance = 0.0;  ///< metres
-  std::string problem;     ///< empty: it was taken
+  std::string problem;     ///< empty: it was accepted
   std::vector<ErrorPlace> places;
 };
 
 struct UniteReport {
-  std::vector<UniteTry> tries;        ///< the last one was taken
-  double volume = 0.0;                ///< of the union, m^3
-  double sum_of_volumes = 0.0;        ///< of the parts: the difference is what overlaps
-  double largest_volume = 0.0;        ///< of a part
-  std::size_t n_bodies = 0;           ///< closed solids that do not touch; 1 where everything is connected
-  std::vector<PartContact> contacts;  ///< how the parts meet, found before anything is united
-  std::vector<ErrorPlace> doubts;     ///< what of that is hard to unite or to mesh, in words: gaps, nearly tangent joins, parts inside others
+  std::vector<UniteTry> tries;        ///< the last one was accepted
+  double volume = 0.0;                ///< volume of the union, m^3
+  double sum_of_volumes = 0.0;        ///< sum over the parts: the difference from `volume` is the overlap
+  double largest_volume = 0.0;        ///< volume of the largest part
+  std::size_t n_bodies = 0;           ///< closed solids that do not touch; 1 if everything is connected
+  std::vector<PartContact> contacts;  ///< contacts of the parts, found before anything is united
+  std::vector<ErrorPlace> doubts;     ///< descriptions of contacts that are difficult to unite or mesh: gaps, nearly tangent joins, parts inside others
 };
 
 struct UniteResult {
@@ -57,13 +57,13 @@ struct UniteResult {
 
 namespace cad {
 
-/// The union of closed models. Each result face keeps component, role, name, colour, layer and, by handle, the surface of the face it is a part of; inner faces
-/// are gone; faces that coincide belong to the first part. Doubts about the contacts are logged as warnings before anything is united. The result is proven:
-/// valid (OpenCASCADE's check), closed, its volume between that of the largest part and the sum of all, and of every part as much area is left as samples of it
-/// lie outside of the others. The same bytes for any number of threads.
+/// Returns the union of closed models. Each result face keeps component, role, name, colour, layer and, by handle, the surface of the face that it is a part
+/// of; inner faces are removed; coincident faces belong to the first part. Doubtful contacts are logged as warnings before anything is united. The result is
+/// verified: it is valid (OpenCASCADE's check) and closed, its volume lies between that of the largest part and the sum of all, and the remaining area of every
+/// part matches the fraction of its samples outside the others. The same bytes for any number of threads.
 /// \pre every part is closed
-/// \throws Error(open_surface) naming a part that is not; Error(geometry_failed) after the last tolerance, naming the pair of components that alone does not
-/// unite, where there is one, with the place, or past the time limit of a try; Error(cancelled)
+/// \throws Error(open_surface) naming a part that is not; Error(geometry_failed) after the last tolerance or past the time limit of an attempt, naming the pair
+/// of components that fails to unite on its own, if there is one, with the location; Error(cancelled)
 UniteResult unite(std::span<const Model> parts, const UniteOptions& options, const RunContext& context);
 
 }  // namespace cad

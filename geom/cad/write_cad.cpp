@@ -1,4 +1,4 @@
-// Steps: splines for what has no exact form, the shape without placements, an extended document (XDE) that carries names, colours and layers, the format's
+// Steps: splines for geometry without an exact form, the shape without placements, an extended document (XDE) with names, colours and layers, the format's
 // writer, a header without date.
 #include "geom/cad/write_cad.h"
 
@@ -42,11 +42,11 @@
 namespace sterna::cad {
 namespace {
 
-/// Stands where formats want a date: files of the same model have the same bytes.
+/// Placeholder for the date required by formats: files of the same model have the same bytes.
 constexpr const char* k_step_date = "1970-01-01T00:00:00";
 constexpr const char* k_iges_date = "19700101.000000";
 
-/// Documents would take placed shapes for instances of an assembly; a spindle torus would be approximated.
+/// Returns true if a copy of the shape is needed: documents would treat placed shapes as instances of an assembly; a spindle torus would be approximated.
 bool needs_own_shape(const CadShape::Content& content) {
   return std::any_of(content.faces.begin(), content.faces.end(), [](const TopoDS_Face& face) {
     const Handle(Geom_ToroidalSurface) torus = Handle(Geom_ToroidalSurface)::DownCast(BRep_Tool::Surface(face));
@@ -56,7 +56,7 @@ bool needs_own_shape(const CadShape::Content& content) {
 
 TCollection_ExtendedString extended(const std::string& text) { return TCollection_ExtendedString(text.c_str(), true); }
 
-/// One free shape for each solid, shell and loose face, with labels on faces that say more than it.
+/// Creates one free shape for each solid, shell and loose face, with labels on faces whose attributes differ from it.
 class DocumentMaker {
  public:
   DocumentMaker(const Model& model, const CadShape::Content& content)
@@ -88,7 +88,7 @@ class DocumentMaker {
       const bool is_whole = content_.faces[f.index()].IsSame(shape);
       if (face.name == name && !face.colour && face.layer.empty()) continue;
       const TDF_Label sub = is_whole ? label : shapes_->AddSubShape(label, content_.faces[f.index()]);
-      if (sub.IsNull()) continue;  // it was in another solid before
+      if (sub.IsNull()) continue;  // it was in a previous solid
       if (face.name != name) TDataStd_Name::Set(sub, extended(face.name));
       if (face.colour) colours_->SetColor(sub, Quantity_Color((*face.colour)[0], (*face.colour)[1], (*face.colour)[2], Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
       if (!face.layer.empty()) layers_->SetLayer(sub, extended(face.layer));
@@ -114,7 +114,7 @@ std::string step_bytes(const Handle(TDocStd_Document) & document, const std::str
   Interface_Static::SetCVal("write.step.unit", "M");
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   Interface_Static::SetCVal("write.step.product.name", name.c_str());
-  static const std::map<std::string, int> k_schemas = {{"ap203", 3}, {"ap214", 4}, {"ap242", 5}};  // OpenCASCADE's numbers of write.step.schema
+  static const std::map<std::string, int> k_schemas = {{"ap203", 3}, {"ap214", 4}, {"ap242", 5}};  // OpenCASCADE's values of write.step.schema
   Interface_Static::SetIVal("write.step.schema", k_schemas.at(options.step_schema));
   STEPCAFControl_Writer writer;
   writer.SetNameMode(true);
@@ -123,7 +123,7 @@ std::string step_bytes(const Handle(TDocStd_Document) & document, const std::str
   writer.SetPropsMode(false);
   if (!writer.Transfer(document, STEPControl_AsIs, nullptr, progress)) refuse(name, "OpenCASCADE cannot translate the shape to STEP");
   const Handle(StepData_StepModel) model = writer.ChangeWriter().Model();
-  static_cast<void>(give_seams(model));  // other programs read with OpenCASCADE, too; what stays wrong is found by reading back
+  static_cast<void>(give_seams(model));  // other programs also read with OpenCASCADE; remaining errors are found by reading the file back
   APIHeaderSection_MakeHeader header(model);
   const auto text = [](const char* t) { return new TCollection_HAsciiString(t); };
   header.SetName(text(name.c_str()));
@@ -143,7 +143,7 @@ std::string iges_bytes(const Handle(TDocStd_Document) & document, const std::str
   Interface_Static::SetCVal("write.iges.unit", "M");
   Interface_Static::SetIVal("write.iges.brep.mode", 1);
   IGESCAFControl_Writer writer;
-  writer.SetNameMode(false);  // OpenCASCADE writes names in the order of addresses: other bytes each time
+  writer.SetNameMode(false);  // OpenCASCADE writes names in the order of addresses: the bytes would differ between runs
   writer.SetColorMode(true);
   writer.SetLayerMode(true);
   if (!writer.Transfer(document, progress)) refuse(name, "OpenCASCADE cannot translate the shape to IGES");
@@ -159,7 +159,7 @@ std::string iges_bytes(const Handle(TDocStd_Document) & document, const std::str
   return stream.str();
 }
 
-/// Longest side of the box of the corners.
+/// Returns the longest side of the box of the corners.
 double size_of(const Model& model) {
   if (model.corners.size() == 0) return 0.0;
   Point low = model.corners[CornerId(0)].point, high = low;
@@ -170,7 +170,7 @@ double size_of(const Model& model) {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-/// Share of the longest side that refitting may lose: a tenth of what sewing of other programs closes.
+/// Largest error of refitting, relative to the longest side: a tenth of the sewing tolerance of other programs.
 constexpr double k_refit_share = 1e-6;
 
 Model exact_for_export(const Model& model, const std::string& name, const WriteCadOptions& options, const RunContext& context) {

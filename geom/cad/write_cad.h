@@ -1,4 +1,4 @@
-// Models into CAD files: STEP, IGES, BREP; metres, names where the format has them, the same bytes for the same model.
+// Writes models to CAD files: STEP, IGES, BREP; metres, names if the format supports them, the same bytes for the same model.
 #pragma once
 
 #include <string>
@@ -32,10 +32,12 @@ struct Schema<WriteCadOptions> {
 
 namespace cad {
 
-/// The bytes of a file. What has no exact form (deformed models, functions) is refitted to options.tolerance and told in the log; all else is exact. STEP keeps
-/// names of solids and faces, colours and layers; IGES colours and layers; BREP geometry alone. No date is written. `name` stands in the file's header. The
-/// bytes are read again and compared: each solid has its faces, area and volume (to 1e-6). Where that fails, faces on closed surfaces are written as halves.
-/// \throws Error(geometry_failed) for what OpenCASCADE refuses, and naming the solids that the file would lose or change; Error(bad_argument) with the place where the tolerance is not reached; Error(cancelled)
+/// Returns the bytes of a file. Geometry without an exact form (deformed models, functions) is refitted to options.tolerance, which is logged; everything else
+/// is exact. STEP keeps names of solids and faces, colours and layers; IGES colours and layers; BREP only geometry. No date is written. `name` is written to
+/// the file's header. The bytes are read again and compared: each solid must have its faces, area and volume (to 1e-6). If that fails, faces on closed surfaces
+/// are written as halves.
+/// \throws Error(geometry_failed) if OpenCASCADE refuses, and naming the solids that the file would lose or change; Error(bad_argument) with the location where
+/// the tolerance is not reached; Error(cancelled)
 std::string cad_bytes(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context);
 
 }  // namespace cad

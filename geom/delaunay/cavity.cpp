@@ -5,13 +5,13 @@ namespace {
 
 using Kind = Location::Kind;
 
-/// The place of the ghost's edge: half-edge of triangle t between its two real vertices.
+/// Returns the edge of the hull: the half-edge of ghost triangle t between its two real vertices.
 HalfedgeId hull_edge(const Triangulation& mesh, TriangleId t) {
   const auto& v = mesh.cells[t].vertex;
   return halfedge(t, !v[0].is_valid() ? 1u : !v[1].is_valid() ? 2u : 0u);
 }
 
-/// Where a place is that is on the left of or on all three edges; `zero` has a bit for each edge it is on.
+/// Returns the location of a point that is to the left of or on all three edges; `zero` has a bit for each edge that it is on.
 Location settle(TriangleId t, unsigned zero) {
   switch (zero) {
     case 0: return {Kind::inside, halfedge(t, 0)};
@@ -39,8 +39,7 @@ Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, s
     const Cell& cell = mesh.cells[t];
     unsigned zero = 0;
     HalfedgeId crossed, border;
-    // The edge to begin with changes from step to step: a walk that always begins with the same may go round in circles where the triangulation is not
-    // Delaunay.
+    // The first edge tested changes from step to step: a walk that always starts with the same edge may cycle if the triangulation is not Delaunay.
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t c = (first + k) % 3;
       const HalfedgeId h = halfedge(t, c);

@@ -1,11 +1,9 @@
-// Insertion of one vertex (Bowyer 1981, Watson 1981) and the walk that finds its place. Based on: Devillers, Pion, Teillaud, "Walking in a triangulation",
-// 2002.
-//
-// The cavity grows from the triangle that holds the place, across free edges, depth first. A neighbour joins when it is in conflict with the vertex by the
-// criterion and when the vertex sees both of its other edges from inside, by the exact predicate. So by induction the cavity is star-shaped from the vertex at
-// every step, whatever the criterion says: no vertex is swallowed, no triangle inverted, no triangle met twice (nothing needs a mark). For the exact
-// criterion of the plane the second condition only stops at what is hidden behind constrained edges. Depth first in the sense of rotation, the
-// border of the cavity comes out in order, so the new triangles link to each other one after the other.
+// Insertion of one vertex (Bowyer 1981, Watson 1981) and the walk that locates it. Based on: Devillers, Pion, Teillaud, "Walking in a triangulation", 2002.
+// The cavity grows from the triangle that contains the point, across free edges, depth first. A neighbour joins if it is in conflict with the vertex by the
+// criterion and its other two edges are visible from the vertex from inside, by the exact predicate. By induction the cavity is therefore star-shaped from the
+// vertex at every step, whatever the criterion: no vertex is enclosed, no triangle is inverted, no triangle is visited twice (no marks are needed). For the
+// exact criterion of the plane the second condition only stops at triangles that are not visible behind constrained edges. Because the search is depth first in
+// the sense of rotation, the border of the cavity is obtained in order, so the new triangles can be linked one after the other.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +15,12 @@ namespace sterna::delaunay {
 
 struct Location {
   enum class Kind {
-    inside,         ///< of the triangle of `halfedge`
+    inside,         ///< inside the triangle of `halfedge`
     on_edge,        ///< in the interior of `halfedge`
     on_vertex,      ///< at the origin of `halfedge`
     outside,        ///< beyond the hull: `halfedge` belongs to a ghost triangle in conflict
     beyond_border,  ///< the walk ended at the border half-edge `halfedge` of a carved domain
-    lost,           ///< the limit of steps was met (triangulations that are not Delaunay in the plane)
+    lost,           ///< the limit of steps was reached (triangulations that are not Delaunay in the plane)
   };
   Kind kind = Kind::lost;
   HalfedgeId halfedge;
@@ -31,7 +29,7 @@ struct Location {
 /// Walks from triangle `from` (not dead) towards `place`, over at most `max_steps` triangles.
 Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, std::size_t max_steps);
 
-/// Scratch of insertions; keep one for many insertions, so that none of them allocates.
+/// Work arrays of insertions; keep one object for many insertions, so that none of them allocates.
 struct Cavity {
   struct BorderEdge {
     HalfedgeId outer;   ///< the half-edge outside, invalid on the domain's border
@@ -55,7 +53,7 @@ void grow_cavity(const Triangulation& mesh, VertexId p, const Location& location
   const HalfedgeId seed = location.halfedge;
   const HalfedgeId forced = location.kind == Location::Kind::on_edge ? seed : HalfedgeId{};
   cavity.triangles.push_back(triangle_of(seed));
-  // The forced edge comes last, so that an open fan begins and ends there.
+  // The seed edge is processed last, so that an open fan begins and ends there.
   cavity.stack.push_back(seed);
   cavity.stack.push_back(previous(seed));
   cavity.stack.push_back(next(seed));
@@ -87,10 +85,10 @@ void grow_cavity(const Triangulation& mesh, VertexId p, const Location& location
 }
 
 /// Replaces the cavity by the fan of p. Half-edge 3 t + 2 of each new triangle starts at p; mesh.outgoing[p] is one of them.
-/// A constrained edge on which p lies must be made two by the caller (split_flags of insert).
+/// If p lies on a constrained edge, the caller must mark both halves (split_flags of insert).
 void fill_cavity(Triangulation& mesh, VertexId p, Cavity& cavity);
 
-/// Inserts vertex p (its place is in mesh.uv) at `location` (inside, on_edge or outside): both halves of an edge are of the edge's kind.
+/// Inserts vertex p (its position is in mesh.uv) at `location` (inside, on_edge or outside): both halves of a split edge get the edge's kind.
 template <class Criterion>
 void insert(Triangulation& mesh, VertexId p, const Location& location, const Criterion& criterion, Cavity& cavity) {
   EdgeFlags flags = k_free_edge;

@@ -12,13 +12,13 @@ bool is_twin_good(const Triangulation& mesh, HalfedgeId h) {
   return mesh.twin(g) == h && mesh.origin(g) == mesh.target(h) && mesh.target(g) == mesh.origin(h);
 }
 
-/// A half-edge of a real triangle with nothing real on the other side.
+/// Returns true for a half-edge of a real triangle without a real triangle on the other side.
 bool is_border(const Triangulation& mesh, HalfedgeId h) {
   const HalfedgeId g = mesh.twin(h);
   return !g.is_valid() || mesh.is_ghost(triangle_of(g));
 }
 
-/// The border half-edge that follows h: around its target, clockwise through the domain.
+/// Returns the border half-edge that follows h: around its target, clockwise through the domain.
 HalfedgeId next_on_border(const Triangulation& mesh, HalfedgeId h) {
   HalfedgeId g = next(h);
   while (!is_border(mesh, g)) g = next(mesh.twin(g));
@@ -79,7 +79,7 @@ TriangulationCheck check_triangulation(const Triangulation& mesh) {
     const bool is_good = h.is_valid() ? h.value() < 3 * mesh.cells.size() && !mesh.cells[triangle_of(h)].is_dead && mesh.origin(h) == v : !is_used[v.index()];
     if (!is_good) ++check.n_bad_outgoing;
   }
-  // The loops can be walked only along good twins.
+  // The loops can be traversed only if all twins are valid.
   if (check.n_bad_twins == 0) check.n_border_loops = count_border_loops(mesh);
   return check;
 }

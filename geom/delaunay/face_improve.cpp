@@ -8,22 +8,22 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Edges shorter than this part of the wanted length go.
+/// Edges shorter than this fraction of the target length are collapsed.
 constexpr double k_short = 0.5;
-/// Cotangent of 30 degrees: a collapse may make no smaller angle.
+/// Cotangent of 30 degrees: smallest angle that a collapse may create.
 constexpr double k_collapse_cotangent = 1.732;
-/// Cotangent of 25 degrees: a vertex with a smaller angle goes when its neighbours can do better without it.
+/// Cotangent of 25 degrees: a vertex with a smaller angle is removed if that improves its neighbourhood.
 constexpr double k_steep_cotangent = 2.14;
-/// Cotangent of 42 degrees: below it the smallest angle of a star has to grow, above it only the mean shape counts.
+/// Cotangent of 42 degrees: below this angle a move must increase the smallest angle of a star, above it only the mean shape.
 constexpr double k_poor_cotangent = 1.11;
-/// Cotangent of 55 degrees: a star with no smaller angle stays where it is.
+/// Cotangent of 55 degrees: a star without smaller angles is not changed.
 constexpr double k_good_cotangent = 0.7;
-/// By this part of itself the worst cotangent of a star must fall, or the move is not worth it.
+/// Minimum relative decrease of the worst cotangent of a star for a move.
 constexpr double k_min_gain = 0.01;
-/// By so much the sum of shapes of a star must fall at least.
+/// Minimum decrease of the sum of shapes of a star.
 constexpr double k_min_shape_gain = 0.003;
 
-/// Worst cotangent of the star of v with v at `at`, infinite when a triangle would look against its normal there.
+/// Returns the worst cotangent of the star of v with v at `at`; infinite if a triangle's normal would be opposed to the surface normal there.
 double worst_of_star(const SurfaceTriangulation& mesh, VertexId v, const Point& at, const Vec3& normal) {
   double worst = 0.0;
   for_star(mesh.mesh, v, [&](HalfedgeId h) {
@@ -35,7 +35,7 @@ double worst_of_star(const SurfaceTriangulation& mesh, VertexId v, const Point& 
   return worst;
 }
 
-/// The triangles of a star that are not flat, by their outer edges.
+/// The triangles of a star that are not flat, given by their outer edges.
 struct Ring {
   struct Side {
     Point x, y;
@@ -58,7 +58,7 @@ struct StarQuality {
   double shape = 0.0;  ///< sum of squared edges over area, 1 for each equilateral triangle
 };
 
-/// With the centre at `at`; infinite when a triangle would look against the normal there.
+/// Returns the quality with the centre at `at`; infinite if a triangle's normal would be opposed to the surface normal there.
 StarQuality quality_of(const Ring& ring, const Point& at, const Vec3& normal) {
   constexpr double k_shape = 0.5 / std::numbers::sqrt3;
   StarQuality q;
@@ -78,7 +78,7 @@ bool is_better(const StarQuality& before, const StarQuality& after) {
   return after.worst <= k_poor_cotangent && after.shape < before.shape - k_min_shape_gain;
 }
 
-/// Mean of the places that would make each triangle of the star equilateral on its outer edge.
+/// Returns the mean of the positions that would make each triangle of the star equilateral on its outer edge.
 Point ideal_place(const Ring& ring, const Point& at) {
   Vec3 sum{};
   double n = 0.0;
@@ -98,7 +98,7 @@ Point ideal_place(const Ring& ring, const Point& at) {
 /// One step of Newton's method on the sum of shapes, which is convex in the tangent plane (a square over a linear function for each triangle).
 struct ShapeStep {
   Vec3 step;          ///< metres, along the surface
-  double gain = 0.0;  ///< by which the sum would fall
+  double gain = 0.0;  ///< decrease of the sum
 };
 
 ShapeStep shape_step(const Ring& ring, const Point& at, const SurfaceFrame& frame) {
@@ -108,7 +108,7 @@ ShapeStep shape_step(const Ring& ring, const Point& at, const SurfaceFrame& fram
   for (const Ring::Side& side : ring.sides) {
     const Vec3 a = side.x - at, b = side.y - at;
     const double a1 = dot(a, t1), a2 = dot(a, t2), b1 = dot(b, t1), b2 = dot(b, t2);
-    const double r = 1.0 / (a1 * b2 - a2 * b1);  // of twice the area
+    const double r = 1.0 / (a1 * b2 - a2 * b1);  // reciprocal of twice the area
     if (!(r > 0.0)) return {};
     // q: squared edges, and its gradient; w: gradient of twice the area; f = q r.
     const double f = r * (a1 * a1 + a2 * a2 + b1 * b1 + b2 * b2 + side.length2);
@@ -125,7 +125,7 @@ ShapeStep shape_step(const Ring& ring, const Point& at, const SurfaceFrame& fram
   return {d1 * t1 + d2 * t2, -0.5 * k_shape * (g1 * d1 + g2 * d2)};
 }
 
-/// Tries to move v; true when it did.
+/// Tries to move v; returns true if it was moved.
 bool improve_place(FaceState& state, VertexId v, Ring& ring) {
   SurfaceTriangulation& mesh = state.mesh;
   const SurfaceFrame frame = mesh.frames[v];
@@ -199,7 +199,7 @@ void remove_poor_vertices(FaceState& state, FaceMeshReport& report) {
     if (!mesh.mesh.outgoing[v].is_valid()) continue;
     const double before = worst_of_star(mesh, v, mesh.points[v], mesh.frames[v].normal);
     if (before < k_steep_cotangent && valence(mesh, v) > 4) continue;
-    // To whichever neighbour leaves the best triangles.
+    // Collapse to the neighbour that leaves the best triangles.
     double best = (1.0 - k_min_gain) * before;
     VertexId target;
     for_star(mesh.mesh, v, [&](HalfedgeId h) {

@@ -1,4 +1,4 @@
-// Passes that insert: unfolding, size, quality. Each is a task of refine (geom/delaunay/refine.h).
+// Passes that insert vertices: unfolding, size, quality. Each is a task of refine (geom/delaunay/refine.h).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,27 +11,27 @@
 namespace sterna::delaunay {
 namespace {
 
-/// A triangle follows the surface when its normal is within 40 degrees of the surface's: flips may turn it by up to 60.
+/// A triangle follows the surface if its normal is within 40 degrees of the surface's: flips may rotate it by up to 60.
 constexpr double k_unfolded_cosine = 0.766;
-/// ... and the surface's point for its middle is nearer to its plane than this part of its longest edge.
+/// ... and the distance of the surface point at its centre from its plane is less than this fraction of its longest edge.
 constexpr double k_max_sag = 0.2;
-/// Unfolding goes on for triangles larger than this many times the wanted edge length only: smaller ones are as the user wanted them.
+/// Unfolding continues only for triangles larger than this multiple of the target edge length: smaller ones have the requested size.
 constexpr double k_unfold_floor = 0.7;
-/// ... and no vertex is nearer to another than this part of the wanted edge length.
+/// ... and no vertex is nearer to another than this fraction of the target edge length.
 constexpr double k_unfold_spacing = 0.3;
-/// Circumradius over that of an equilateral triangle with the wanted edges, above which a triangle gets a vertex: that of a right angle between two wanted
-/// edges, so that the triangles of a regular lattice are let alone where it is bent (Rebay 1993).
+/// Circumradius relative to that of an equilateral triangle with the target edges, above which a triangle gets a vertex: that of a right angle between two
+/// target edges, so that the triangles of a regular lattice are not refined where it is bent (Rebay 1993).
 constexpr double k_size_threshold = 1.2247;
 constexpr double k_size_threshold2 = k_size_threshold * k_size_threshold;
-/// A new vertex may not be nearer to another than this part of the wanted length.
+/// Minimum distance of a new vertex from others, relative to the target length.
 constexpr double k_min_spacing = 0.65;
-/// In the second pass: the goal is angles, so vertices may be nearer.
+/// In the second pass vertices may be nearer, since its target is angles.
 constexpr double k_min_spacing_for_quality = 0.5;
-/// From an edge that is done the front grows or shrinks by this factor at most, so sizes change gradually.
+/// The front's edge length changes by at most this factor from one layer to the next, so sizes change gradually.
 constexpr double k_front_growth = 1.5;
 constexpr double k_front_shrink = 0.7;
-/// A place is right within this part of the edge length. In the first pass errors would add up from layer to layer: with 0.02 a bicubic bump has 92 % vertices
-/// of six neighbours, with 0.002 96 %, and Newton's method rarely needs a step more.
+/// Tolerance of a position, relative to the edge length. In the first pass errors would accumulate from layer to layer: with 0.02, 92 % of the vertices of a
+/// bicubic bump have six neighbours, with 0.002 96 %, and Newton's method rarely needs an additional step.
 constexpr double k_place_tolerance = 0.15;
 constexpr double k_apex_tolerance = 0.002;
 
@@ -39,7 +39,7 @@ struct Triangle {
   std::array<VertexId, 3> v;
   std::array<Point, 3> p;
   std::array<double, 3> edge2;  ///< squared length of the edge from corner k to k + 1
-  double size;                  ///< mean wanted length of the corners
+  double size;                  ///< mean target length of the corners
 };
 
 Triangle gather(const FaceState& state, TriangleId t) {
@@ -51,16 +51,17 @@ Triangle gather(const FaceState& state, TriangleId t) {
   return tri;
 }
 
-/// Squared circumradius.
+/// Returns the squared circumradius.
 double circumradius2(const Triangle& tri) {
   const double area2 = norm2(cross(tri.p[1] - tri.p[0], tri.p[2] - tri.p[0]));
   return area2 > 0.0 ? tri.edge2[0] * tri.edge2[1] * tri.edge2[2] / (4.0 * area2) : std::numeric_limits<double>::infinity();
 }
 
-/// Square of circumradius over that of the equilateral triangle of the wanted size.
+/// Returns the square of the circumradius relative to that of the equilateral triangle of the target size.
 double size_ratio2(const Triangle& tri) { return 3.0 * circumradius2(tri) / (tri.size * tri.size); }
 
-/// The place over the middle of edge k at `height` metres towards its apex: parameters by the linear map of the triangle, then on the surface.
+/// Proposes the point above the middle of edge k at `height` metres towards its apex: parameters by the linear map of the triangle, then projected to the
+/// surface.
 void propose_over_edge(const FaceState& state, const Triangle& tri, std::size_t k, double height, double spacing, Proposal& proposal) {
   const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
   const Vec3 along = tri.p[l] - tri.p[k];
@@ -76,22 +77,22 @@ void propose_over_edge(const FaceState& state, const Triangle& tri, std::size_t 
   proposal.at = approach(state, middle + ratio * up, uv_middle + ratio * uv_up, k_place_tolerance * spacing, proposal.sample);
 }
 
-/// The same for the apex of an isosceles triangle on edge k, exactly as high: upwards is along the surface at the edge, not in the plane of a triangle that may
-/// be far too large.
+/// Proposes the apex of an isosceles triangle on edge k of exactly this height: the direction is along the surface at the edge, not in the plane of a triangle
+/// that may be much too large.
 void propose_apex(const FaceState& state, const Triangle& tri, std::size_t k, double height, double spacing, Proposal& proposal) {
   const VertexId a = tri.v[k], b = tri.v[(k + 1) % 3];
   const SurfaceFrame &frame_a = state.mesh.frames[a], &frame_b = state.mesh.frames[b];
   const Vec3 along = tri.p[(k + 1) % 3] - tri.p[k];
   const Vec3 up = cross(frame_a.normal + frame_b.normal, along);
   const double length = norm(up);
-  // At poles a frame says nothing.
+  // At poles the frame is undefined.
   if (length == 0.0 || norm2(frame_a.normal) == 0.0 || norm2(frame_b.normal) == 0.0) return propose_over_edge(state, tri, k, height, spacing, proposal);
   const Vec3 step = (height / length) * up;
   const Uv guess = 0.5 * (state.mesh.parameters(a) + state.mesh.parameters(b) + parameter_step(frame_a, step) + parameter_step(frame_b, step));
   proposal.at = approach(state, 0.5 * (tri.p[k] + tri.p[(k + 1) % 3]) + step, guess, k_apex_tolerance * spacing, proposal.sample);
 }
 
-/// Signed height of the circumcentre over the middle of edge k.
+/// Returns the signed height of the circumcentre over the middle of edge k.
 double centre_height(const Triangle& tri, std::size_t k) {
   const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
   const Vec3 a = tri.p[k] - tri.p[m], b = tri.p[l] - tri.p[m];
@@ -119,7 +120,7 @@ struct UnfoldTask {
     for (const VertexId v : tri.v) is_unfolded = is_unfolded && follows(mesh.frames[v].normal);
     return is_unfolded ? 0.0 : reach;
   }
-  /// The middle of the longest free edge in the plane; of the triangle, when all are constrained.
+  /// Proposes the middle of the longest free edge in the plane; the centre of the triangle if all edges are constrained.
   bool propose(const SurfaceTriangulation& mesh, TriangleId t, Proposal& proposal) const {
     const auto& v = mesh.mesh.cells[t].vertex;
     const Uv corner[3] = {mesh.parameters(v[0]), mesh.parameters(v[1]), mesh.parameters(v[2])};
@@ -135,7 +136,7 @@ struct UnfoldTask {
       }
     }
     proposal.sample = sample(state.surface, proposal.at);
-    // A part of the surface that is thinner than the wanted edges (a round tip that ends at a sharp trailing edge) cannot be followed: it stays a strip.
+    // A part of the surface that is thinner than the target edges (a round tip that ends at a sharp trailing edge) cannot be resolved: it remains a strip.
     proposal.min_distance = k_unfold_spacing * gather(state, t).size;
     return true;
   }
@@ -144,7 +145,7 @@ struct UnfoldTask {
   }
 };
 
-/// The wanted length at a new vertex: what its place wants, and no jump from its neighbours.
+/// Stores the target length at a new vertex: that of its location, limited by the growth from its neighbours.
 void push_graded_size(FaceState& state, VertexId p, const Proposal& proposal) {
   double size = proposal.size;
   for_star(state.mesh.mesh, p, [&](HalfedgeId h) {
@@ -154,11 +155,11 @@ void push_graded_size(FaceState& state, VertexId p, const Proposal& proposal) {
   state.size.push_back(size);
 }
 
-/// The triangle with the largest circumradius comes first, in relation to its size: so fronts advance where there is most room, keep their shape and meet along
-/// few lines. (First come, first served: dents of a front grow from layer to layer, and every third vertex has five or seven neighbours.)
+/// Triangles are processed by largest circumradius relative to their target size: fronts then advance where there is most room, keep their shape and meet along
+/// few lines. (In order of creation, dents of a front grow from layer to layer, and every third vertex has five or seven neighbours.)
 struct SizeTask {
   FaceState& state;
-  bool is_front;                        ///< only beside edges that are done
+  bool is_front;                        ///< only beside edges of the target length
   Column<TriangleId, double> ratio2{};  ///< size_ratio2 of every triangle; infinite for flat ones
 
   void measure(const SurfaceTriangulation& mesh, TriangleId t) {
@@ -174,7 +175,7 @@ struct SizeTask {
   }
   bool propose(const SurfaceTriangulation& mesh, TriangleId t, Proposal& proposal) const {
     const Triangle tri = gather(state, t);
-    // The shortest edge; in a front, of those that are done.
+    // The shortest edge; in a front, the shortest edge of the target length.
     std::size_t k = 3;
     for (std::uint32_t c = 0; c < 3; ++c)
       if ((k == 3 || tri.edge2[c] < tri.edge2[k]) && (!is_front || is_done(mesh.mesh.cells[t].twin[c]))) k = c;
@@ -207,7 +208,7 @@ struct QualityTask {
     const Triangle tri = gather(state, t);
     const auto k = static_cast<std::size_t>(std::min_element(tri.edge2.begin(), tri.edge2.end()) - tri.edge2.begin());
     const double edge = std::sqrt(tri.edge2[k]);
-    // Off-centre: the new triangle on the shortest edge just meets the goal.
+    // Off-centre: the new triangle on the shortest edge just meets the target angle.
     const double height = std::min(centre_height(tri, k), 0.5 * edge / std::tan(0.5 * state.options.min_angle));
     propose_over_edge(state, tri, k, height, edge, proposal);
     proposal.size = wanted_size(state, proposal.at, proposal.sample.point);
@@ -218,7 +219,7 @@ struct QualityTask {
 };
 
 std::size_t insertions_left(const FaceState& state) {
-  // A vertex makes two triangles.
+  // A vertex creates two triangles.
   const auto limit = static_cast<std::size_t>(state.options.max_triangles);
   const std::size_t n = state.mesh.mesh.n_triangles();
   return limit > n ? (limit - n) / 2 : 0;

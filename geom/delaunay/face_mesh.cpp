@@ -12,12 +12,12 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Vertices that a pole has in (u, v) at least, so that each triangle around it finds one beside it.
+/// Minimum number of vertices of a pole in (u, v), so that each triangle around it has one beside it.
 constexpr std::uint32_t k_pole_vertices = 9;
 constexpr double k_least_angle = 20.0 * std::numbers::pi / 180.0;
 constexpr double k_largest_angle = 130.0 * std::numbers::pi / 180.0;
 
-/// The points with their surface's frames; runs of points at one place become poles, with more vertices between them where they have few.
+/// Converts the points with their surface's frames; runs of coincident points become poles, with additional vertices between them if there are few.
 SurfaceBorder make_border(const Surface& surface, const FaceBorder& border) {
   SurfaceBorder result;
   const auto add = [&](const BorderPoint& p) {
@@ -32,7 +32,7 @@ SurfaceBorder make_border(const Surface& surface, const FaceBorder& border) {
   for (const auto& loop : border.loops) {
     const auto n = static_cast<std::uint32_t>(loop.size());
     const auto is_pole_edge = [&](std::uint32_t i) { return loop[i].point == loop[(i + 1) % n].point && !(loop[i].uv == loop[(i + 1) % n].uv); };
-    // Begin where no run goes on, so that each run is met from its start.
+    // Start where no run continues, so that each run is traversed from its start.
     std::uint32_t start = 0;
     while (start < n && is_pole_edge((start + n - 1) % n)) ++start;
     std::vector<std::uint32_t> vertices;
@@ -58,7 +58,7 @@ SurfaceBorder make_border(const Surface& surface, const FaceBorder& border) {
     result.loops.push_back(std::move(vertices));
     first += n;
   }
-  // At a pole derivatives are zero but for rounding: whatever normal came out of them says nothing.
+  // At a pole derivatives are zero except for rounding: any computed normal is meaningless.
   std::vector<bool> is_pole(result.uv.size(), false);
   for (std::size_t i = 0; i < result.uv.size(); ++i)
     if (result.stands_for[i].index() != i) is_pole[i] = is_pole[result.stands_for[i].index()] = true;
@@ -67,7 +67,8 @@ SurfaceBorder make_border(const Surface& surface, const FaceBorder& border) {
   return result;
 }
 
-/// Border vertices: the mean length of their edges, but no more than is wanted there times two (a coarse border does not make the inside coarse).
+/// Sets the sizes of border vertices: the mean length of their edges, but at most twice the target length there (a coarse border does not coarsen the
+/// interior).
 void set_border_sizes(FaceState& state, const SurfaceBorder& border) {
   std::vector<double> sum(border.uv.size(), 0.0), n(border.uv.size(), 0.0);
   for (const auto& loop : border.loops)
@@ -112,7 +113,7 @@ FaceMesh extract(const SurfaceTriangulation& mesh, std::uint32_t n_border) {
   return result;
 }
 
-/// Angles by their cotangents: all that is asked for is which is the least and which the largest.
+/// Compares angles by their cotangents: only the smallest and the largest are needed.
 void measure(const FaceMesh& mesh, FaceMeshReport& report) {
   static const double k_steep = 1.0 / std::tan(k_least_angle), k_flat = 1.0 / std::tan(k_largest_angle);
   double steepest = -std::numeric_limits<double>::infinity(), flattest = std::numeric_limits<double>::infinity();
@@ -121,7 +122,7 @@ void measure(const FaceMesh& mesh, FaceMeshReport& report) {
     const Vec3 ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
     const double area = norm(normal);
     const auto [low, high] = std::minmax({-dot(ab, ca), -dot(bc, ab), -dot(ca, bc)});
-    // Without area: one angle is zero, another pi.
+    // Zero area: one angle is zero, another pi.
     const double steep = area > 0.0 ? high / area : std::numeric_limits<double>::infinity(),
                  flat = area > 0.0 ? low / area : -std::numeric_limits<double>::infinity();
     if (steep > steepest) {

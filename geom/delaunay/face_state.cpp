@@ -9,9 +9,9 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Sine squared between du and dv below which a normal is not trusted: rounding of derivatives near poles is 1e-16 of their size.
+/// Squared sine between du and dv below which a normal is not trusted: rounding of derivatives near poles is 1e-16 of their size.
 constexpr double k_min_sine2 = 1e-16;
-/// Steps of Newton's method at most: places are near their guesses, two are the rule.
+/// Maximum number of Newton steps: start values are close, two steps are usual.
 constexpr int k_max_steps = 4;
 
 }  // namespace
@@ -58,7 +58,7 @@ Uv approach(const FaceState& state, const Point& target, Uv guess, double tolera
     const Uv moved = hold(at + change);
     if (moved == at) break;
     const SurfaceSample there = sample(state.surface, moved);
-    // A step that leads away is not taken: the place stays a point of the surface, only less near to its target.
+    // A step that increases the distance is rejected: the result remains a point of the surface, only less near to its target.
     if (!(norm2(target - there.point) < norm2(target - at_result.point))) break;
     at = moved;
     at_result = there;

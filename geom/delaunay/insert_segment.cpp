@@ -1,8 +1,8 @@
-// Segments become edges. Based on: S. W. Sloan, "A fast algorithm for generating constrained Delaunay triangulations", Computers & Structures 47 (1993).
+// Inserts segments as edges. Based on: S. W. Sloan, "A fast algorithm for generating constrained Delaunay triangulations", Computers & Structures 47 (1993).
 //
-// The segment is followed from its start: where it runs along an edge or through a vertex, that piece is done (follow_to_vertex). Otherwise the edges
-// it crosses are flipped, in turn, until none crosses (flip_crossing_edges); then the edges that came new are flipped to the empty circle
-// (restore_delaunay). All decisions are exact.
+// The segment is followed from its start. Where it runs along an edge or through a vertex, that piece is done (follow_to_vertex). Otherwise the edges it
+// crosses are flipped, in turn, until none crosses (flip_crossing_edges); then the new edges are flipped to the empty circle (restore_delaunay). All decisions
+// are exact.
 #include <algorithm>
 #include <deque>
 #include <vector>
@@ -17,7 +17,7 @@ struct Edge {
   VertexId a, b;
 };
 
-/// A multiple of the square of the number of crossed edges that Sloan's queue stays far below; beyond it something is wrong in this file.
+/// A multiple of the square of the number of crossed edges that Sloan's queue stays far below; exceeding it indicates an error in this file.
 constexpr std::size_t k_flip_limit_factor = 64;
 
 [[noreturn]] void throw_crossing(const Triangulation& mesh, VertexId a, VertexId b, HalfedgeId h) {
@@ -47,7 +47,7 @@ bool is_ahead(const Vec2& from, const Vec2& to, const Vec2& p) {
   return from.y < to.y ? p.y > from.y : p.y < from.y;
 }
 
-/// From a towards b: either the edge along which it begins (`along`), or the half-edge opposite to a that it crosses first.
+/// Start of the path from a towards b: either the edge along which it begins (`along`), or the half-edge opposite to a that it crosses first.
 struct Departure {
   HalfedgeId along;
   HalfedgeId crossed;
@@ -63,7 +63,7 @@ Departure depart(const Triangulation& mesh, VertexId a, VertexId b) {
     if (right.is_valid()) {
       const int side = orient2d(pa, pb, mesh.uv[right]);
       if (side == 0 && is_ahead(pa, pb, mesh.uv[right])) return {h, {}};
-      // A corner is less than half a turn, so between its two sides lies the way ahead, not the way back.
+      // A corner is less than half a turn, so the forward direction lies between its two sides, not the backward one.
       if (side < 0 && left.is_valid() && orient2d(pa, pb, mesh.uv[left]) > 0) departure.crossed = next(h);
     }
     h = mesh.twin(previous(h));
@@ -71,7 +71,7 @@ Departure depart(const Triangulation& mesh, VertexId a, VertexId b) {
   return departure;
 }
 
-/// Collects the edges that the segment crosses from `crossed` on, up to the first vertex on it, which is returned.
+/// Collects the edges that the segment crosses from `crossed` on, up to the first vertex on it; returns that vertex.
 VertexId collect_crossed(const Triangulation& mesh, VertexId a, VertexId b, HalfedgeId crossed, std::deque<Edge>& edges) {
   // `crossed` runs from the right of the segment to its left, seen from a; the segment leaves its triangle there.
   for (HalfedgeId h = crossed;;) {
@@ -86,7 +86,7 @@ VertexId collect_crossed(const Triangulation& mesh, VertexId a, VertexId b, Half
   }
 }
 
-/// Flips until no edge crosses the segment from a to b. Edges that came new and do not cross go to `fresh`.
+/// Flips until no edge crosses the segment from a to b. New edges that do not cross are added to `fresh`.
 void flip_crossing_edges(Triangulation& mesh, VertexId a, VertexId b, std::deque<Edge>& crossing, std::vector<Edge>& fresh) {
   std::size_t allowed = k_flip_limit_factor * (crossing.size() + 1) * (crossing.size() + 1);
   while (!crossing.empty()) {
@@ -109,7 +109,7 @@ void flip_crossing_edges(Triangulation& mesh, VertexId a, VertexId b, std::deque
   }
 }
 
-/// Flips the edges of `edges`, and what they touch, to the empty circle. Every flip lowers the paraboloid's lifted surface, so it ends.
+/// Flips the edges of `edges`, and affected neighbours, to the empty circle. Every flip lowers the surface lifted to the paraboloid, so it terminates.
 void restore_delaunay(Triangulation& mesh, std::vector<Edge>& edges) {
   while (!edges.empty()) {
     const Edge edge = edges.back();
@@ -139,7 +139,7 @@ void insert_segment(Triangulation& mesh, VertexId a, VertexId b, bool is_border)
       flip_crossing_edges(mesh, a, end, crossing, fresh);
       h = find_edge(mesh, a, end);
     }
-    // Where borders overlap, the domain changes sides once for each.
+    // Where borders overlap, the domain changes sides once per border.
     const EdgeFlags border = is_border ? k_domain_border : k_free_edge;
     mesh.set_flags(h, static_cast<EdgeFlags>((mesh.flags(h) | k_constrained) ^ border));
     restore_delaunay(mesh, fresh);

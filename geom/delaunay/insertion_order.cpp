@@ -7,12 +7,12 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Levels of the curve: cells of 2^-26 of the box tell points apart; six bits of the key are left for the round.
+/// Levels of the curve: cells of 2^-26 of the box separate points; six bits of the key remain for the round.
 constexpr int k_levels = 26;
-/// Points of the first round; below, order does not matter.
+/// Points of the first round; among fewer points the order does not matter.
 constexpr std::uint32_t k_first_round_bits = 10;
 
-/// Two levels of Hilbert's curve at once: for each of its four orientations and each of 4 x 4 cells, the cell's place and the orientation within it.
+/// Two levels of the Hilbert curve at once: for each of its four orientations and each of 4 x 4 cells, the position of the cell and the orientation within it.
 /// Orientation: bit 0 = coordinates exchanged, bit 1 = both mirrored.
 struct TwoLevels {
   std::array<std::array<std::uint8_t, 16>, 4> place{};
@@ -36,7 +36,7 @@ constexpr TwoLevels make_two_levels() {
           y = old_x;
         }
         place = place << 2 | ((3u * x) ^ y);
-        // In the quadrants at the start and at the end of the curve it runs along the other diagonal; at the end, backwards too.
+        // In the first and last quadrant the curve runs along the other diagonal; in the last one also backwards.
         if (y == 0) state ^= x != 0 ? 3u : 1u;
       }
       table.place[orientation][cell] = static_cast<std::uint8_t>(place);
@@ -47,7 +47,7 @@ constexpr TwoLevels make_two_levels() {
 }
 constexpr TwoLevels k_two_levels = make_two_levels();
 
-/// Place along Hilbert's curve of a cell of the 2^k_levels square.
+/// Returns the position along the Hilbert curve of a cell of the 2^k_levels square.
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   static_assert(k_levels % 2 == 0);
   std::uint64_t key = 0;
@@ -60,7 +60,7 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   return key;
 }
 
-/// Mixes the bits of an index (splitmix64, Steele 2014): which round a point is in must not depend on where it is.
+/// Mixes the bits of an index (splitmix64, Steele 2014): the round of a point must not depend on its position.
 std::uint64_t scramble(std::uint64_t i) {
   i += 0x9e3779b97f4a7c15u;
   i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -73,7 +73,7 @@ struct Place {
   std::uint32_t index;
 };
 
-/// Indices of points by (round, place on the curve, index).
+/// Returns the indices of points by (round, position on the curve, index).
 template <class Round>
 std::vector<std::uint32_t> sorted_along_curve(std::span<const Vec2> points, const Round& round_of) {
   const std::size_t n = points.size();
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> sorted_along_curve(std::span<const Vec2> points, cons
 }  // namespace
 
 std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points) {
-  // Each round but the first has as many points as all before: the last half of them, the one before a quarter ...
+  // Each round except the first has as many points as all before: the last round one half of them, the one before a quarter ...
   const int n_rounds = std::max(1, static_cast<int>(std::bit_width(points.size())) - static_cast<int>(k_first_round_bits));
   return sorted_along_curve(points, [n_rounds](std::size_t i) {
     const int before_last = std::min(std::countr_zero(scramble(i)), n_rounds - 1);

@@ -1,4 +1,4 @@
-// An order of insertion in which each point is near the one before: rounds of doubling size (biased randomised: Amenta, Choi, Rote 2003), each along Hilbert's
+// Order of insertion in which consecutive points are close together: rounds of doubling size (biased randomised: Amenta, Choi, Rote 2003), each along a Hilbert
 // curve.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace sterna::delaunay {
 
-/// The indices 0 .. n - 1 in order of insertion; depends on the points and their numbering alone. O(n log n).
+/// Returns the indices 0 .. n - 1 in order of insertion; depends only on the points and their numbering. O(n log n).
 /// \pre finite
 std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points);
 
-/// Indices of points along Hilbert's curve, without rounds: what is near in the plane is near in this order.
+/// Returns the indices of points along a Hilbert curve, without rounds: points close in this order are close in the plane.
 std::vector<std::uint32_t> order_along_curve(std::span<const Vec2> points);
 
 }  // namespace sterna::delaunay

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = Location::Kind;
 
-/// Points between two looks at the stop token.
+/// Number of points between two checks of the stop token.
 constexpr std::size_t k_stop_interval = 1 << 16;
 
 void check_input(std::span<const Vec2> points, std::span<const Segment> segments) {
@@ -29,7 +29,7 @@ void check_input(std::span<const Vec2> points, std::span<const Segment> segments
 
 bool is_same_place(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 
-/// A triangle of three points and the three ghost triangles around it. \pre turn(a, b, c) > 0
+/// Creates a triangle of three points and the three ghost triangles around it. \pre turn(a, b, c) > 0
 void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c) {
   mesh.cells.assign(4, Cell{});
   const std::array<VertexId, 3> v{a, b, c};
@@ -45,7 +45,7 @@ void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c
   }
 }
 
-/// Moves the first three points of `order` that make a triangle to its front; false when all are on one line.
+/// Moves the first three points of `order` that form a triangle to its front; returns false if all are collinear.
 bool bring_triangle_to_front(std::span<const Vec2> points, std::vector<std::uint32_t>& order) {
   const auto point = [&](std::size_t i) -> const Vec2& { return points[order[i]]; };
   const auto bring = [&](std::size_t from, std::size_t to) {
@@ -63,7 +63,7 @@ bool bring_triangle_to_front(std::span<const Vec2> points, std::vector<std::uint
   return true;
 }
 
-/// Points on one line make no triangle, but those at the same place are known all the same.
+/// Merges coincident points of a collinear set, which has no triangles.
 void join_points_of_line(std::span<const Vec2> points, std::vector<std::uint32_t>& order, std::vector<VertexId>& same_as) {
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
     const Vec2 &a = points[i], &b = points[j];
@@ -73,7 +73,7 @@ void join_points_of_line(std::span<const Vec2> points, std::vector<std::uint32_t
     if (is_same_place(points[order[i - 1]], points[order[i]])) same_as[order[i]] = same_as[order[i - 1]];
 }
 
-/// Vertices numbered in the order of insertion get the numbers of their points.
+/// Renumbers vertices from the order of insertion to the numbers of their points.
 void renumber_vertices(Triangulation& mesh, std::span<const Vec2> points, const std::vector<std::uint32_t>& order) {
   for (Cell& cell : mesh.cells)
     for (VertexId& v : cell.vertex)
@@ -84,7 +84,8 @@ void renumber_vertices(Triangulation& mesh, std::span<const Vec2> points, const 
   mesh.uv = Column<VertexId, Vec2>(std::vector<Vec2>(points.begin(), points.end()));
 }
 
-/// The Delaunay triangulation of the points. While it grows, vertices are numbered in the order of insertion, so that neighbours are near in memory.
+/// Computes the Delaunay triangulation of the points. During construction, vertices are numbered in the order of insertion, so that neighbours are close in
+/// memory.
 void insert_points(std::span<const Vec2> points, PlanarTriangulation& result, const RunContext& context) {
   Triangulation& mesh = result.mesh;
   const std::size_t n = points.size();
@@ -155,7 +156,7 @@ std::vector<TriangleVertices> extract_triangles(const Triangulation& mesh) {
 }
 
 void carve(Triangulation& mesh) {
-  // Flood by depth: all that is reached from outside without crossing a border is at depth 0, behind one border at depth 1 ...
+  // Flood fill by depth: triangles reached from outside without crossing a border are at depth 0, behind one border at depth 1 ...
   constexpr std::uint32_t k_unseen = ~0u;
   Column<TriangleId, std::uint32_t> depth(mesh.cells.size(), k_unseen);
   std::vector<TriangleId> level, next_level;

@@ -1,4 +1,4 @@
-// Refinement: a queue of triangles that are not good enough, worst first; for each the caller proposes a new vertex. Based on: Ruppert 1995, Rebay 1993.
+// Refinement: a queue of triangles of insufficient quality, worst first; for each the caller proposes a new vertex. Based on: Ruppert 1995, Rebay 1993.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace sterna::delaunay {
 
-/// Triangles by priority, in classes of an eighth of an octave; within a class first come, first served. All operations in constant time.
+/// Queue of triangles by priority, in classes of an eighth of an octave; first in, first out within a class. All operations in constant time.
 class RefineQueue {
  public:
   struct Entry {
     TriangleId triangle;
-    std::uint32_t stamp;  ///< of the triangle when it was put in: an entry of a triangle that has changed since is void
+    std::uint32_t stamp;  ///< stamp of the triangle when it was added: an entry is void if the triangle has changed since
   };
   RefineQueue() : classes_(k_classes) {}
   /// \pre priority > 0
@@ -52,24 +52,24 @@ class RefineQueue {
 
 struct RefineReport {
   std::size_t n_inserted = 0;
-  std::size_t n_too_near = 0;  ///< proposals refused, by reason
+  std::size_t n_too_near = 0;  ///< proposals rejected, by reason
   std::size_t n_beyond_border = 0;
   std::size_t n_folded = 0;
-  bool is_limit_met = false;  ///< stopped at `max_insertions`; the rest is not refined
+  bool is_limit_met = false;  ///< stopped at `max_insertions`; the remaining triangles are not refined
 };
 
 struct Proposal {
   Uv at;
   SurfaceSample sample;
-  double min_distance = 0.0;  ///< metres: nearer to a vertex around its cavity it is refused
-  double size = 0.0;          ///< for the task to remember, not looked at
+  double min_distance = 0.0;  ///< metres: the proposal is rejected if nearer to a vertex around its cavity
+  double size = 0.0;          ///< user data of the task, not used by refine
 };
 
-/// Inserts vertices until no triangle has a priority, proposals are refused, or the limit is met. A refused proposal is not made again before something
-/// beside its triangle has changed; so it ends.
-/// Task: void measure(surface, t): t is there, or has changed, or one of its corners is new; comes before any priority() of t and of its neighbours;
-///       double priority(surface, t), not positive when t is good or cannot be improved; never called for flat triangles;
-///       bool propose(surface, t, Proposal&), false when it knows of none; void inserted(surface, p, proposal).
+/// Inserts vertices until no triangle has a priority, all proposals are rejected, or the limit is reached. A rejected proposal is not repeated until its
+/// neighbourhood has changed, so the refinement terminates.
+/// Task: void measure(surface, t): t is new or has changed, or one of its corners is new; called before any priority() of t and of its neighbours;
+/// double priority(surface, t): not positive if t is good or cannot be improved; never called for flat triangles;
+/// bool propose(surface, t, Proposal&): false if it has no proposal; void inserted(surface, p, proposal).
 /// Criterion: as for insert_vertex. `Flips`: flip to the 3-D criterion after each insertion.
 template <bool Flips, class Criterion, class Task>
 RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, Task& task, std::size_t max_insertions, const RunContext& context) {
@@ -77,7 +77,7 @@ RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, T
   Triangulation& mesh = surface.mesh;
   RefineReport report;
   RefineQueue queue;
-  Column<TriangleId, std::uint32_t> waiting(mesh.cells.size(), 0);  // stamp + 1 of the entry that waits in the queue
+  Column<TriangleId, std::uint32_t> waiting(mesh.cells.size(), 0);  // stamp + 1 of the triangle's entry in the queue
   const auto consider = [&](TriangleId t) {
     if (surface.is_flat(t)) return;
     const std::uint32_t stamp = mesh.cells[t].stamp;

@@ -7,7 +7,7 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Border vertices as they are, then the inner ones that are in use, along the curve.
+/// Border vertices unchanged, then the inner ones that are in use, along the curve.
 Column<VertexId, VertexId> order_vertices(const SurfaceTriangulation& surface) {
   std::vector<VertexId> inner;
   std::vector<Vec2> places;
@@ -25,7 +25,7 @@ Column<VertexId, VertexId> order_vertices(const SurfaceTriangulation& surface) {
   return old_id;
 }
 
-/// Living triangles by the least of their new vertices; equal ones as before.
+/// Returns the existing triangles sorted by the lowest of their new vertices; ties in the old order.
 std::vector<TriangleId> order_triangles(const Triangulation& mesh, const Column<VertexId, VertexId>& new_id, std::size_t n_vertices) {
   const auto least = [&](TriangleId t) {
     const auto& v = mesh.cells[t].vertex;

@@ -1,4 +1,4 @@
-// Changes of a surface triangulation one by one: flips to the criterion, moves, collapses. Each proves validity in the plane before it changes anything.
+// Individual changes of a surface triangulation: flips to the criterion, moves, collapses. Each verifies validity in the plane before it changes anything.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,17 +9,18 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Sum of the cotangents of the angles opposite to an edge above which it stays: 0 would be exactly pi; rounding must not flip to and fro.
+/// Limit of the sum of the cotangents of the angles opposite to an edge above which the edge stays: 0 is exactly pi; rounding must not cause flips back and
+/// forth.
 constexpr double k_flip_margin = -1e-9;
-/// By this part of itself the worst cotangent must fall at least.
+/// Minimum relative decrease of the worst cotangent.
 constexpr double k_min_flip_gain = 1e-9;
 
 struct Quad {
   VertexId a, b;  ///< the edge
-  VertexId c, d;  ///< to its left and right
+  VertexId c, d;  ///< vertices to its left and right
 };
 
-/// Smallest cosine between the triangle's normal and the surface's at its corners; corners without a normal do not count.
+/// Returns the smallest cosine between the triangle's normal and the surface's normals at its corners; corners without a normal are ignored.
 double normal_cosine(const SurfaceTriangulation& surface, VertexId a, VertexId b, VertexId c) {
   const Vec3 normal = cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]);
   double least = 1.0;
@@ -54,14 +55,14 @@ void note_quad(const Triangulation& mesh, HalfedgeId h, std::vector<HalfedgeId>&
 struct PoleEdge {
   VertexId w;
   std::vector<VertexId> poles;  ///< counter-clockwise around w, at least two
-  VertexId right, left;         ///< apexes of the triangles beside it that are not flat
+  VertexId right, left;         ///< apexes of the triangles beside the edge that are not flat
 };
 
-/// \pre the triangle of h is flat. False where the flat ones reach the border or go all around.
+/// Finds the pole edge. \pre the triangle of h is flat. Returns false if the flat triangles reach the border or go all around.
 bool find_pole_edge(const SurfaceTriangulation& surface, HalfedgeId h, PoleEdge& edge) {
   const Triangulation& mesh = surface.mesh;
   const auto& v = mesh.cells[triangle_of(h)].vertex;
-  // The corner that is not of the pole.
+  // The corner that does not belong to the pole.
   const std::uint32_t c = surface.stands_for[v[0]] == surface.stands_for[v[1]] ? 2u : surface.stands_for[v[1]] == surface.stands_for[v[2]] ? 0u : 1u;
   edge.w = v[c];
   const VertexId pole = surface.stands_for[v[(c + 1) % 3]];
@@ -96,7 +97,7 @@ bool find_pole_edge(const SurfaceTriangulation& surface, HalfedgeId h, PoleEdge&
 /// Flips the edges from w to the poles in the given order; all or none.
 bool flip_in_turn(Triangulation& mesh, VertexId w, const std::vector<VertexId>& poles, std::vector<HalfedgeId>& changed) {
   const std::size_t n_before = changed.size();
-  std::vector<std::array<VertexId, 2>> done;  // a flip moves the sides of its quad to other half-edges: edges are known by their ends
+  std::vector<std::array<VertexId, 2>> done;  // a flip moves the sides of its quad to other half-edges, so edges are identified by their ends
   for (const VertexId pole : poles) {
     const HalfedgeId h = find_edge(mesh, w, pole);
     if (!h.is_valid() || !is_flip_valid(mesh, h)) {
@@ -111,7 +112,7 @@ bool flip_in_turn(Triangulation& mesh, VertexId w, const std::vector<VertexId>& 
   return true;
 }
 
-/// Flips the one edge in space that all edges from w to the pole's vertices are: the flat triangles go to the apex on one side first.
+/// Flips all edges from w to the pole's vertices, which are one edge in space: first moves the flat triangles to the apex on one side.
 bool flip_pole_edge(SurfaceTriangulation& surface, HalfedgeId flat, std::vector<HalfedgeId>& changed) {
   PoleEdge edge;
   if (!find_pole_edge(surface, flat, edge)) return false;
@@ -221,7 +222,7 @@ double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h) {
     if (mesh.is_constrained(out)) is_allowed = false;
     if (!is_allowed || x == b || y == b) return;
     is_allowed = mesh.turn(b, x, y) > 0;
-    // Beside a pole: flat ones count for nothing, before and after.
+    // Beside a pole: flat triangles are ignored, before and after.
     if (surface.stands_for[b] == surface.stands_for[x] || surface.stands_for[x] == surface.stands_for[y] || surface.stands_for[y] == surface.stands_for[b])
       return;
     is_allowed = is_allowed && normal_cosine(surface, b, x, y) >= k_min_normal_cosine;

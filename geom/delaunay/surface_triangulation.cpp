@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* k_border_attempt = "triangulating the border of a face";
 
-/// The plane's error with its place carried to space along the segments it names.
+/// Converts an error of the plane to one with its location in space, interpolated along the segments that it names.
 [[noreturn]] void throw_in_space(const Error& error, const SurfaceBorder& border, Vec2 scale) {
   ErrorInfo info = error.info();
   info.attempted = k_border_attempt;
@@ -34,8 +34,8 @@ constexpr const char* k_border_attempt = "triangulating the border of a face";
   throw Error(std::move(info));
 }
 
-/// Every segment of a loop has to be an edge of the domain's border: where two borders touch along a line, or a vertex lies on another segment, it is not, and
-/// the neighbouring face would not match.
+/// Checks that every segment of a loop is an edge of the domain's border. Where two borders touch along a line, or a vertex lies on another segment, it is not,
+/// and the neighbouring face would not match.
 void check_segments(const Triangulation& mesh, const std::vector<Segment>& segments, const std::vector<VertexId>& same_as, const SurfaceBorder& border) {
   std::vector<std::array<std::uint32_t, 2>> edges, wanted;
   for (const TriangleId t : mesh.cells.ids())

@@ -1,9 +1,9 @@
-// A triangulation on a curved surface: valid in the parameter plane by exact predicates, good by the empty sphere in 3-space (docs/method/surface.md, "Delaunay
-// criterion in space").
-//
-// Every vertex has a place in the (scaled) parameter plane, a point and a frame. All decisions on validity look at the plane, all on quality at the points.
-// A pole, many (u, v) of one point, is a run of vertices on the border that stand for the first of them; a triangle with two such corners has no area in
-// space ("flat"), is skipped by every measure and left out at extraction. Flat triangles move along the pole when others need their place (flip_to_criterion).
+// A triangulation on a curved surface: valid in the parameter plane by exact predicates, optimised by the empty sphere in 3-space (docs/method/surface.md,
+// "Delaunay criterion in space").
+// Every vertex has a position in the (scaled) parameter plane, a point and a frame. Validity is decided in the plane, quality by the points in space. A pole,
+// many (u, v) of one point, is a run of vertices on the border that are represented by the first of them. A triangle with two such corners has no area in space
+// ("flat"); it is skipped by every measure and omitted at extraction. Flat triangles move along the pole if other triangles require their position
+// (flip_to_criterion).
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,11 @@ struct SurfaceSample {
   SurfaceFrame frame;
 };
 
-/// Border of a face: closed loops, the domain to the left, whatever their order; every vertex belongs to a loop.
+/// Border of a face: closed loops in any order, the domain to the left; every vertex belongs to a loop.
 struct SurfaceBorder {
   std::vector<Uv> uv;
   std::vector<SurfaceSample> samples;             ///< same size
-  std::vector<VertexId> stands_for;               ///< same size: itself, or for a pole the first of its vertices
+  std::vector<VertexId> stands_for;               ///< same size: itself, or the first vertex of its pole
   std::vector<std::vector<std::uint32_t>> loops;  ///< indices of vertices
 };
 
@@ -41,36 +41,36 @@ struct SurfaceTriangulation {
   Triangulation mesh;                     ///< mesh.uv = scale * parameters
   Column<VertexId, Point> points;         ///< metres
   Column<VertexId, SurfaceFrame> frames;  ///< derivatives by the parameters (not scaled)
-  Column<VertexId, VertexId> stands_for;  ///< itself but at poles
-  std::uint32_t n_border = 0;             ///< vertices below it are the border's and stay where they are
-  Vec2 scale{1.0, 1.0};                   ///< powers of two, so that parameters come back to the bit
+  Column<VertexId, VertexId> stands_for;  ///< itself, except at poles
+  std::uint32_t n_border = 0;             ///< lower vertex ids belong to the border and do not move
+  Vec2 scale{1.0, 1.0};                   ///< powers of two, so that parameters are recovered to the bit
 
   Uv parameters(VertexId v) const { return {mesh.uv[v].x / scale.x, mesh.uv[v].y / scale.y}; }
   Vec2 place(Uv at) const { return {at.u * scale.x, at.v * scale.y}; }
   bool is_border(VertexId v) const { return v.value() < n_border; }
-  /// Two corners are the same point of a pole.
+  /// Returns true if two corners are the same point of a pole.
   bool is_flat(TriangleId t) const {
     const auto& v = mesh.cells[t].vertex;
     return stands_for[v[0]] == stands_for[v[1]] || stands_for[v[1]] == stands_for[v[2]] || stands_for[v[2]] == stands_for[v[0]];
   }
 };
 
-/// The power of two next to `speed` (metres by parameter), 1 when it is zero: what (u, v) are scaled by.
+/// Returns the power of two nearest to `speed` (metres per parameter), 1 if it is zero: the scale factor of (u, v).
 double scale_of_speed(double speed);
 
 /// Constrained Delaunay triangulation of the border in the scaled plane; no inner vertices yet.
 /// \post every segment of a loop is an edge with the domain on one side
-/// \throws Error(self_intersection) with the place in space where borders cross or touch along an edge; Error(bad_argument) when nothing is inside
+/// \throws Error(self_intersection) with the location in space where borders cross or touch along an edge; Error(bad_argument) if the domain is empty
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context);
 
-/// Cosine of 60 degrees (docs/method/surface.md, "Delaunay criterion in space"): how far a flipped triangle's normal may be from the surface's.
+/// Cosine of 60 degrees (docs/method/surface.md, "Delaunay criterion in space"): limit of the angle between a flipped triangle's normal and the surface normal.
 inline constexpr double k_min_normal_cosine = 0.5;
 
-/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one with a corner where the surface
-/// looks away from where it looks at the vertex: on the other side of a nose or a thin edge it is near in space only. (60 in place of 90 degrees leaves leading
-/// edges stuck.)
+/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict. Neither is a triangle with a corner whose
+/// surface normal is opposed to that at the vertex: it lies on the other side of a nose or a thin edge and is near in space only. (60 in place of 90 degrees
+/// prevents progress at leading edges.)
 struct SphereCriterion {
-  static constexpr bool k_needs_normals = true;  ///< insert_vertex looks at the normals of the new triangles
+  static constexpr bool k_needs_normals = true;  ///< insert_vertex uses the normals of the new triangles
   const Column<VertexId, Point>* points;
   const Column<VertexId, SurfaceFrame>* frames;
   bool conflicts(const Triangulation& mesh, TriangleId t, VertexId p) const {
@@ -88,46 +88,46 @@ struct SphereCriterion {
 
 enum class InsertOutcome {
   inserted,
-  too_near,       ///< to a vertex around its cavity
-  beyond_border,  ///< the place is outside the domain, on its border, or hidden behind it
-  folded,         ///< a new triangle would look against the surface's normal
+  too_near,       ///< too near to a vertex around its cavity
+  beyond_border,  ///< the location is outside the domain, on its border, or not visible behind it
+  folded,         ///< the normal of a new triangle would be opposed to the surface normal
 };
 
-/// Inserts a vertex at `at`, looked for from triangle `near`. Nothing is changed unless `inserted`; then the vertex is the last one.
+/// Inserts a vertex at `at`, located by a walk from triangle `near`. Nothing is changed unless the result is `inserted`; the new vertex is then the last one.
 /// \param min_distance metres: to the vertices around the cavity
 template <class Criterion>
 InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceSample& sample, TriangleId near, double min_distance, const Criterion& criterion,
                             Cavity& cavity);
 
-/// Cotangent of the smallest angle of a triangle in space; the larger, the worse; infinite without area.
+/// Returns the cotangent of the smallest angle of a triangle in space; larger is worse; infinite for zero area.
 double worst_cotangent(const Point& a, const Point& b, const Point& c);
 
-/// Flips the edge of `h` when its two opposite angles in space sum to more than pi, the smallest angle grows, both new triangles are valid in the plane and
-/// look along the surface (within 60 degrees of the normals of their corners, or nearer than before). At poles, flat triangles are moved out of the way. \param
-/// changed gets the half-edges around the place of a flip
+/// Flips the edge of `h` if its two opposite angles in space sum to more than pi, the smallest angle grows, and both new triangles are valid in the plane and
+/// have normals along the surface normal (within 60 degrees of the normals of their corners, or closer than before). At poles, flat triangles are moved out of
+/// the way. \param changed gets the half-edges around the location of a flip
 bool flip_to_criterion(SurfaceTriangulation& surface, HalfedgeId h, std::vector<HalfedgeId>& changed);
-/// Flips until no edge wants to. Ends, since every flip raises the smallest angle of its place. Returns the number of flips.
+/// Flips until no edge satisfies the criterion. Terminates, since every flip raises the local smallest angle. Returns the number of flips.
 std::size_t flip_all(SurfaceTriangulation& surface);
-/// The same around the given half-edges only; empties the list. \param touched gets the triangles at flips, also more than once
+/// Flips only around the given half-edges; empties the list. \param touched gets the triangles at flips, possibly more than once
 std::size_t flip_around(SurfaceTriangulation& surface, std::vector<HalfedgeId>& halfedges, std::vector<TriangleId>& touched);
 
-/// Moves inner vertex v when its star stays valid in the plane. \return false: nothing changed
+/// Moves inner vertex v if its star stays valid in the plane. \return false: nothing changed
 bool move_vertex(SurfaceTriangulation& surface, VertexId v, Uv to, const SurfaceSample& sample);
 
-/// Worst cotangent of the star of the origin of `h`, an inner vertex, once it is joined to its target; infinite when collapse_edge would refuse whatever is
-/// allowed.
+/// Returns the worst cotangent of the star of the origin of `h`, an inner vertex, after joining it to its target; infinite if collapse_edge would reject the
+/// collapse for any limit.
 double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h);
-/// Joins the origin of `h`, an inner vertex, to its target, when the triangles left are valid in the plane, look along the surface and have no cotangent above
-/// `worst_allowed`. \return false: nothing changed
+/// Joins the origin of `h`, an inner vertex, to its target, if the remaining triangles are valid in the plane, have normals along the surface normal, and have
+/// no cotangent above `worst_allowed`. \return false: nothing changed
 bool collapse_edge(SurfaceTriangulation& surface, HalfedgeId h, double worst_allowed);
 
-/// Living triangles that are not flat, with poles as their first vertex, in ascending order of slots.
+/// Returns the existing triangles that are not flat, with poles as their first vertex, in ascending order of slots.
 std::vector<TriangleVertices> extract_triangles(const SurfaceTriangulation& surface);
 
-/// Triangles that a walk may visit: the place is near the triangle it starts from, so a longer walk has lost its way.
+/// Limit of triangles visited by a walk: the target is near the start triangle, so a longer walk has failed.
 inline constexpr std::size_t k_walk_limit = 400;
 
-/// All triangles of the new fan look along the normal of its centre. Flat ones have no direction.
+/// Returns true if the normals of all triangles of the new fan agree with the normal of its centre. Flat triangles have no normal.
 bool looks_along_surface(const SurfaceTriangulation& surface, VertexId p, const Cavity& cavity);
 
 template <class Criterion>

@@ -3,7 +3,7 @@
 namespace sterna::draw {
 namespace {
 
-/// A view nearer than this to the vertical, as the sine of the angle, has y upwards in the picture: z would turn with the least change of direction.
+/// A view direction within this sine of the vertical has y upwards in the picture, since z would rotate with the smallest change of direction.
 constexpr double k_vertical = 1e-3;
 
 }  // namespace

@@ -21,7 +21,7 @@ void require(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) fail(std::string("cairo: ") + cairo_status_to_string(status));
 }
 
-/// The font as FreeType has it. Cairo keeps fonts in caches of its own, so it goes when cairo lets go of it.
+/// The font as a FreeType object. Cairo caches fonts, so it is released when cairo releases it.
 struct Font {
   FT_Library library = nullptr;
   FT_Face face = nullptr;
@@ -46,7 +46,7 @@ cairo_font_face_t* open_font() {
     cairo_font_face_destroy(face);
     require(status);
   }
-  font.release();  // NOLINT: cairo has it now
+  font.release();  // NOLINT: owned by cairo now
   return face;
 }
 
@@ -92,7 +92,7 @@ Canvas::Canvas(const Image& image) : cairo_(std::make_unique<Cairo>()) {
 
   cairo_font_face_t* const font = open_font();
   cairo_set_font_face(cairo_->context, font);
-  cairo_font_face_destroy(font);  // the context holds it
+  cairo_font_face_destroy(font);  // owned by the context
   cairo_font_options_t* const options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);

@@ -1,5 +1,5 @@
-// Text and flat shapes on top of a picture, and the picture as PNG. The one place with cairo; the font (DejaVu Sans) is part of the program, so that text is
-// the same everywhere.
+// Text and flat shapes on top of a picture, and the picture as PNG. The only code that uses cairo. The font (DejaVu Sans) is part of the program, so that text
+// is the same everywhere.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace sterna::draw {
 
 enum class Anchor { left, center, right };
 
-/// Pixels, x to the right, y down, from the upper left corner. Cairo's failures are Error(internal).
+/// Drawing surface in pixels, x to the right, y down, from the upper left corner. Failures of cairo throw Error(internal).
 class Canvas {
  public:
   explicit Canvas(const Image& image);
@@ -22,7 +22,7 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// UTF-8 with its baseline at y.
+  /// Draws UTF-8 text with its baseline at y.
   void text(double x, double y, std::string_view text, double size, Rgb color, Anchor anchor = Anchor::left);
   double width_of(std::string_view text, double size);
   void rectangle(double x, double y, double width, double height, Rgb fill, double opacity = 1.0);
@@ -32,7 +32,7 @@ class Canvas {
   void disc(double x, double y, double radius, Rgb fill);
   void triangle(const std::array<double, 6>& corners, Rgb fill);
 
-  /// The picture as a PNG file's bytes; without times.
+  /// Returns the picture as the bytes of a PNG file, without timestamps.
   std::string png();
 
  private:

@@ -17,13 +17,13 @@ struct NamedView {
   Vec3 toward;
 };
 
-/// Angles in radians.
+/// Returns a direction from angles in radians.
 Vec3 toward_of(double azimuth, double elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
-/// x downstream, y to the right wing, z upwards. iso: from ahead, left and above, more from the side than a true isometric view, so that a nose does not hide
-/// its wing.
+/// x downstream, y to the right wing, z upwards. iso: from ahead, left and above, more from the side than a true isometric view, so that the nose does not
+/// obscure the wing.
 const std::array<NamedView, 7>& named_views() {
   static const std::array<NamedView, 7> views = {{{"iso", toward_of(k_degree * 232.0, k_degree * 28.0)},
                                                   {"front", {-1, 0, 0}},
@@ -42,7 +42,8 @@ const std::array<NamedView, 7>& named_views() {
                .hint = std::move(hint)});
 }
 
-/// Numbers between commas or blanks, with or without a unit: in metres, in radians (degrees without a unit); empty where something else is among them.
+/// Parses numbers separated by commas or blanks, with or without a unit: in metres, in radians (degrees without a unit); returns an empty list if any word is
+/// not a number.
 std::vector<double> numbers_of(std::string_view text, Unit unit) {
   std::vector<double> numbers;
   while (!text.empty()) {
@@ -54,7 +55,7 @@ std::vector<double> numbers_of(std::string_view text, Unit unit) {
     try {
       numbers.push_back(parse_number_with_unit(word, unit, BareAngle::degrees));
     } catch (const Error&) {
-      return {};  // no number: the caller decides what else it may be
+      return {};  // not a number: the caller decides on other meanings
     }
   }
   return numbers;
@@ -66,7 +67,7 @@ std::optional<Vec3> vector_of(std::string_view text, Unit unit) {
   return Vec3{numbers[0], numbers[1], numbers[2]};
 }
 
-/// What follows "name=" up to the next name or the end; nothing where the name is not there.
+/// Returns the text after "name=" up to the next name or the end; nothing if the name is missing.
 std::optional<std::string_view> value_of(std::string_view text, std::string_view name) {
   const std::size_t at = text.find(std::string(name) + "=");
   if (at == std::string_view::npos) return std::nullopt;

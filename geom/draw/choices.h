@@ -1,4 +1,4 @@
-// The texts of DrawOptions, read: views, planes, spheres.
+// Parsers for the string values of DrawOptions: views, planes, spheres.
 #pragma once
 
 #include <optional>
@@ -17,23 +17,23 @@ struct Sphere {
   double radius = 0.0;  ///< m
 };
 
-/// Direction from the mesh to the eye, not normalised; nothing for "automatic".
+/// Returns the direction from the mesh to the eye, not normalised; empty for "automatic".
 /// \throws Error(bad_argument)
 std::optional<Vec3> view_of(const std::string& text);
 
-/// "x=1.2", "point=0,0,0 normal=0,1,0"; nothing where the text is a name.
-/// \throws Error(bad_argument) for a plane that is not complete
+/// Parses "x=1.2", "point=0,0,0 normal=0,1,0"; returns nothing if the text is a name.
+/// \throws Error(bad_argument) for an incomplete plane
 std::optional<CutPlane> plane_of(const std::string& text);
 
-/// "1,2,0 radius=0.5"; nothing where the text is a name.
+/// Parses "1,2,0 radius=0.5"; returns nothing if the text is a name.
 /// \throws Error(bad_argument)
 std::optional<Sphere> sphere_of(const std::string& text);
 
-/// The place of that name (upper and lower case are the same).
-/// \throws Error(bad_argument) with the names that there are; `attempted` is who asks ("draw"), `what` for what ("cut")
+/// Returns the location of that name (case-insensitive).
+/// \throws Error(bad_argument) with the existing names; `attempted` is the caller ("draw"), `what` the purpose ("cut")
 const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view attempted, std::string_view what);
 
-/// \throws Error(unknown_option) with the known names and a suggestion
+/// Throws for an unknown name. \throws Error(unknown_option) with the known names and a suggestion
 [[noreturn]] void throw_unknown(std::string_view attempted, std::string_view what, const std::string& given, std::span<const std::string> known,
                                 std::string_view more = {});
 

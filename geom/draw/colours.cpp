@@ -48,7 +48,7 @@ Rgb interpolate(std::span<const Rgb> table, double share) {
 Rgb patch_color(std::size_t index, PatchKind kind) {
   if (kind == PatchKind::symmetry) return {222, 222, 228};
   if (kind == PatchKind::farfield || kind == PatchKind::inflow || kind == PatchKind::outflow) return {206, 216, 226};
-  // Beyond the table its colours come again darker, then lighter, so that no two of the first 36 patches look the same in the legend.
+  // Beyond the table the colours repeat darker, then lighter, so that the first 36 patches have distinct colours in the legend.
   constexpr std::array<double, 3> k_shares = {1.0, 0.68, 0.55};
   constexpr std::array<double, 3> k_white = {0.0, 0.0, 0.45};
   const Rgb base = k_patches[index % k_patches.size()];

@@ -1,4 +1,4 @@
-// The driver: options to a scene, the scene to a picture, and what stands beside it.
+// Main function: options to a scene, the scene to a picture, and the elements beside it.
 #include "geom/draw/draw.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace {
 
 using namespace draw;
 
-/// Share of the picture that is left free around what it shows.
+/// Fraction of the picture that is left free around its contents.
 constexpr double k_margin = 0.04;
-/// The eye of a perspective view is so many radii away: 17 degrees to each side.
+/// Distance of the eye in a perspective view, in radii: 17 degrees to each side.
 constexpr double k_eye = 3.4;
 constexpr Rgb k_paper{255, 255, 255};
 

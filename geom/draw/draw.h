@@ -1,4 +1,4 @@
-// Pictures of surfaces and volume meshes, as PNG, without a display: the same bytes for any number of threads, on any machine.
+// Pictures of surfaces and volume meshes as PNG, without a display: the same bytes for any number of threads, on any machine.
 #pragma once
 
 #include <span>
@@ -12,23 +12,23 @@
 
 namespace sterna {
 
-/// A place with a number on the picture, and what the legend says of it.
+/// A numbered location on the picture, and its text in the legend.
 struct DrawMark {
   Point position;
   std::string text;
 };
 
-/// The worst place of each gate that warns or FAILs, the first of each kind of violation before them.
+/// Returns the first violation of each kind, then the worst location of each gate with status warning or FAIL.
 std::vector<DrawMark> marks_of(const CheckReport& report);
 
-/// A PNG file's bytes. `name`: of the mesh, for the automatic title; may be empty. Marks are drawn where DrawOptions::places is set.
+/// Returns the bytes of a PNG file. `name`: name of the mesh for the automatic title; may be empty. Marks are drawn if DrawOptions::places is set.
 /// \pre indices in range, finite points
-/// \throws Error(bad_argument, unknown_option) for a view, colour, cut, focus or patch that is not there, with those that are
+/// \throws Error(bad_argument, unknown_option) for a view, colour, cut, focus or patch that does not exist, listing the existing ones
 std::string draw_png(const HybridMesh& mesh, const DrawOptions& options, std::string_view name, std::span<const DrawMark> marks, const RunContext& context);
-/// Of a surface; it has no cells to cut.
+/// Draws a surface; it has no cells to cut.
 std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::string_view name, std::span<const DrawMark> marks, const RunContext& context);
 
-/// \throws the same errors of the texts that can be judged without a mesh; before the work
+/// Checks the options that do not depend on a mesh, before the work starts. \throws the same errors
 void require_draw_options(const DrawOptions& options);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// What a picture of a mesh is asked to be.
+// Options of a mesh picture.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ template <>
 struct Schema<DrawOptions> {
   using O = DrawOptions;
   static constexpr std::string_view stage = "draw";
-  static constexpr double k_max_size = 16384;  ///< of a side, pixels: cairo's images end at 32767, memory before
+  static constexpr double k_max_size = 16384;  ///< limit of a side, pixels: cairo's images end at 32767, memory is exhausted earlier
   static constexpr std::array fields = {
       Field<O>{.name = "view",
                .member = &O::view,

@@ -12,10 +12,10 @@ namespace sterna::draw {
 namespace {
 
 constexpr std::array<std::string_view, 2> k_cell_figures = {"volume", "layer"};
-/// Share of the values beyond each end of an automatic range: a few outliers do not take all the colours.
+/// Fraction of the values beyond each end of an automatic range, so that a few outliers do not take all the colours.
 constexpr double k_tail = 0.01;
 
-/// Range of figures that tell good from bad, so that a colour means the same in every picture.
+/// Range of quality measures, so that a colour has the same meaning in every picture.
 struct JudgedRange {
   std::string_view name;
   double low, high;

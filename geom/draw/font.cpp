@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-// STERNA_FONT is the path that CMake found.
+// STERNA_FONT is the path found by CMake.
 __asm__(
     ".pushsection .rodata\n"
     ".balign 16\n"

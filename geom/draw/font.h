@@ -1,4 +1,4 @@
-// The font of all pictures: DejaVu Sans, as a TrueType file's bytes, put into the program when it is built.
+// The font of all pictures: DejaVu Sans, as the bytes of a TrueType file, embedded at build time.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Colours and pictures of 8 bits a channel.
+// Colours and images with 8 bits per channel.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// Rows from the top, without gaps.
+/// Rows from the top, without padding.
 struct Image {
   int width = 0, height = 0;
   std::vector<Rgb> pixels;

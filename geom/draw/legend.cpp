@@ -10,16 +10,16 @@
 namespace sterna::draw {
 namespace {
 
-/// Letters over the height of a picture of the usual shape; never too small to read.
+/// Letter height relative to the height of a picture of the usual shape; never too small to read.
 constexpr double k_text_share = 0.020, k_least_text = 9.0;
-/// In letters: width of the legend, at least with a colour bar, and with limits at it, and at most; of the colour bar; lines of text.
+/// In letter heights: minimum width of the legend with a colour bar, minimum width with limits, and maximum width; width of the colour bar; line spacing.
 constexpr double k_least_panel = 10.0, k_panel_with_limits = 12.5, k_most_panel = 20.0, k_bar_width = 1.5, k_bar_height = 22.0, k_line = 1.55;
 constexpr int k_ticks = 6;
-/// Colours that a legend on the picture may have.
+/// Maximum number of colours of a legend inside the picture.
 constexpr std::size_t k_most_inset = 8;
-/// Marks nearer than this, in letters, have their numbers in one place.
+/// Marks nearer than this, in letter heights, have their numbers in one location.
 constexpr double k_same_mark = 1.5;
-/// Smaller letters, for remarks.
+/// Size of smaller letters, for remarks.
 constexpr double k_small = 0.8;
 constexpr Rgb k_frame_color{90, 96, 106};
 
@@ -32,12 +32,12 @@ std::string short_number(double value) {
   return text;
 }
 
-/// As much of the text as fits, with dots where it does not.
+/// Returns as much of the text as fits, with an ellipsis if it is cut.
 std::string fitted(Canvas& canvas, std::string text, double size, double width) {
   if (canvas.width_of(text, size) <= width) return text;
   while (!text.empty() && canvas.width_of(text + "\u2026", size) > width) {
     do text.pop_back();
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u);  // whole letters of UTF-8
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u);  // whole UTF-8 characters
     if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0xC0u) text.pop_back();
   }
   return text + "\u2026";
@@ -248,7 +248,7 @@ void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std:
     Projected at;
     std::string numbers;
   };
-  std::vector<Label> labels;  // marks that fall on each other share one
+  std::vector<Label> labels;  // coincident marks share one label
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (camera.is_perspective() && camera.ahead(marks[i].position) <= 0.0) continue;
     const Projected at = camera.project(marks[i].position);

@@ -1,5 +1,5 @@
-// Steps: polygons are projected and cut into triangles in parallel (project); triangles are dealt to tiles (deal); tiles are drawn in parallel, each with its
-// triangles in their order (Tile). A tile holds the samples of its pixels only, and is averaged at its end.
+// Steps: polygons are projected and divided into triangles in parallel (project); triangles are assigned to tiles (deal); tiles are drawn in parallel, each
+// with its triangles in their order (Tile). A tile holds only the samples of its own pixels, which are averaged at the end.
 #include "geom/draw/raster.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr int k_samples = 3;
 /// Pixels along a side of a tile: its samples (9 KB of depths and colours each) stay in the cache.
 constexpr int k_tile = 32;
 constexpr std::size_t k_polygon_chunk = 4096;
-/// What is nearer to the eye than this share of the distance is cut off.
+/// Geometry nearer to the eye than this fraction of the distance is clipped.
 constexpr double k_near = 0.02;
 /// Width of a polygon, in pixels, below which its edges are not drawn, and above which they are drawn in full.
 constexpr double k_edges_fade = 1.5, k_edges_full = 6.0;
@@ -33,7 +33,7 @@ constexpr double k_ambient = 0.48, k_key = 0.50, k_fill = 0.14;
 struct ScreenTriangle {
   std::array<float, 3> x, y, depth;
   Rgb fill;
-  std::uint8_t edges = 0;  ///< bit k: the edge from corner k to k + 1 is one of the polygon
+  std::uint8_t edges = 0;  ///< bit k: the edge from corner k to k + 1 is an edge of the polygon
   float edge_opacity = 0.0f;
 };
 
@@ -51,7 +51,7 @@ Rgb shaded(Rgb color, double light) {
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 
-/// Projects polygons; keeps the triangles that can be seen.
+/// Projects polygons; keeps the visible triangles.
 class Projector {
  public:
   Projector(const Camera& camera, const RasterOptions& options) : camera_(camera), options_(options) {}
@@ -92,7 +92,7 @@ class Projector {
     bool is_edge;  ///< to the next corner
   };
 
-  /// What is in front of the eye.
+  /// Clips to the region in front of the eye.
   void clip(std::span<const Point> corners) {
     clipped_.clear();
     const auto room = [&](const Point& p) { return camera_.is_perspective() ? camera_.ahead(p) - k_near * camera_.distance : 1.0; };
@@ -104,7 +104,7 @@ class Projector {
     }
   }
 
-  /// Full for polygons that are wide on the picture.
+  /// Returns the opacity of edges: full for polygons that are wide in the picture.
   float edge_opacity() const {
     double area = 0.0, longest = 0.0;
     const std::size_t n = screen_.size();
@@ -176,10 +176,10 @@ Deal deal(const std::vector<ScreenTriangle>& triangles, const RasterOptions& opt
   return result;
 }
 
-/// The line through two corners: positive on the triangle's side, in pixels; the same number from both triangles of the edge, but for its sign.
+/// Line through two corners: distance in pixels, positive on the triangle's side; both triangles of an edge get the same number except for its sign.
 struct Line {
   double x, y, constant;
-  bool takes_zero;  ///< of the two triangles of an edge, one takes what is on it
+  bool takes_zero;  ///< exactly one of the two triangles of an edge contains the points on it
   double at(double px, double py) const { return x * px + y * py + constant; }
 };
 
@@ -208,7 +208,7 @@ class Tile {
     if (twice_area == 0.0 || !std::isfinite(twice_area)) return;
     std::array<Line, 3> lines;
     for (std::size_t k = 0; k < 3; ++k) lines[k] = line_of(t.x[k], t.y[k], t.x[(k + 1) % 3], t.y[(k + 1) % 3], twice_area < 0.0);
-    // Depth over the plane, about corner 0: differences stay small, whatever the size of the scene.
+    // Depth over the plane relative to corner 0: differences stay small, whatever the size of the scene.
     const double d1 = double{t.depth[1]} - t.depth[0], d2 = double{t.depth[2]} - t.depth[0];
     const double slope_x = (d1 * (double{t.y[2]} - t.y[0]) - d2 * (double{t.y[1]} - t.y[0])) / twice_area;
     const double slope_y = (d2 * (double{t.x[1]} - t.x[0]) - d1 * (double{t.x[2]} - t.x[0])) / twice_area;
@@ -236,7 +236,7 @@ class Tile {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k)
           if ((t.edges >> k & 1) != 0) nearest = std::min(nearest, away[k]);
-        // Half of the line is on this side; it fades over the distance of samples.
+        // Half of the line is on this side; it fades over the distance between samples.
         const double cover = std::clamp((0.5 * options_.edge_width - nearest) * k_samples + 0.5, 0.0, 1.0);
         if (cover > 0.0) color_[at] = mixed(fill, edge, static_cast<float>(cover) * t.edge_opacity);
       }
@@ -263,13 +263,13 @@ class Tile {
 
   static Color of(Rgb c) { return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)}; }
   static Color mixed(const Color& a, const Color& b, float share) { return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b)}; }
-  /// First sample of the tile whose middle is not before a coordinate.
+  /// Returns the first sample of the tile whose centre is not before a coordinate.
   static int sample_from(float at, int from, int to) {
     const double sample = std::ceil((double{at} - from) * k_samples - 0.5);
     return static_cast<int>(std::clamp(sample, 0.0, static_cast<double>((to - from) * k_samples)));
   }
 
-  /// First one whose middle is behind it.
+  /// Returns the first sample whose centre is behind it.
   static int sample_after(float at, int from, int to) {
     const double sample = std::floor((double{at} - from) * k_samples - 0.5) + 1.0;
     return static_cast<int>(std::clamp(sample, 0.0, static_cast<double>((to - from) * k_samples)));

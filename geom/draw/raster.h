@@ -1,4 +1,4 @@
-// Polygons in space to a picture: a z-buffer of our own, tile by tile, 3 x 3 samples a pixel. No display, no graphics card.
+// Renders polygons in space to a picture: custom z-buffer, tile by tile, 3 x 3 samples per pixel. No display, no graphics card.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 namespace sterna::draw {
 
 struct PolygonStyle {
-  Rgb front, back;     ///< of the side to which the right-hand normal points, and of the other
-  bool is_lit = true;  ///< shaded by its direction; else the colour as it is
+  Rgb front, back;     ///< colours of the side to which the right-hand normal points, and of the other side
+  bool is_lit = true;  ///< shaded by its direction; else the unchanged colour
   bool has_edges = true;
 };
 
@@ -36,9 +36,9 @@ struct RasterOptions {
   Rgb background{255, 255, 255};
 };
 
-/// Nearest polygon wins, of equal ones the first. Edges of polygons are lines on them: hidden where the polygon is, drawn half on each of two neighbours,
-/// fading out where polygons get too small to tell. Samples on an edge belong to one of the neighbours, never to both or none. The same bytes for any number of
-/// threads.
+/// Renders polygons. The nearest polygon is visible; at equal depth the first one. Edges are drawn as lines on their polygons: not visible where the polygon is
+/// not, drawn half on each of two neighbours, fading out where polygons are too small to distinguish. Samples on an edge belong to exactly one of the
+/// neighbours. The same bytes for any number of threads.
 Image rasterise(const Polygons& polygons, const Camera& camera, const RasterOptions& options, const RunContext& context);
 
 }  // namespace sterna::draw

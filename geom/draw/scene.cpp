@@ -1,4 +1,4 @@
-// Steps: which patches, which plane, from where and where to look; the faces of the patches, cut off in front of the plane; the polygons of the cut.
+// Steps: select patches, plane, and view; the faces of the patches, cut off in front of the plane; the polygons of the cut.
 #include "geom/draw/scene.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 namespace sterna::draw {
 namespace {
 
-/// Room around a place that is seen along the plane's normal, over its radius: the picture is wider than the circle.
+/// Size of the view around a location, relative to its radius, along the plane's normal: the picture is wider than the circle.
 constexpr double k_along_normal = 1.1;
-/// The same for other views: cells are shown as a disc about the place.
+/// As k_along_normal for other views: cells are shown as a disc around the location.
 constexpr double k_aslant = 1.0;
-/// A plane that is seen nearly along itself, as the cosine to its normal, hides nothing that is worth to be cut off.
+/// Cosine between view direction and plane normal below which a plane is seen nearly edge-on and obscures nothing that needs to be cut off.
 constexpr double k_edge_on = 0.02;
-/// More patches than this are named by number only.
+/// Number of patches listed in the legend; further ones are only counted.
 constexpr std::size_t k_most_swatches = 24;
 
 class SceneBuilder {
@@ -97,7 +97,7 @@ class SceneBuilder {
     if (!scene_.focus) scene_.focus = section_of_walls();
   }
 
-  /// What of the walls the plane meets; of a plane that meets none, its part of the mesh.
+  /// Returns the section of the walls with the plane; if it meets no walls, the section of the mesh.
   Sphere section_of_walls() const {
     Box box;
     for (const SectionPiece& piece : WallSections(mesh_, context_).section(plane_->origin, plane_->normal)) box.add(piece.box);
@@ -108,25 +108,26 @@ class SceneBuilder {
     return {center, 0.55 * distance(box.min, box.max)};
   }
 
-  /// By itself a cut is seen along its normal, from the side from which x goes to the right, or from ahead.
+  /// Chooses the default view: a cut is seen along its normal, from the side from which x points to the right, or from ahead.
   void choose_view() {
     const std::optional<Vec3> given = view_of(options_.view);
     const Vec3 iso = *view_of("iso");
     scene_.toward = given.value_or(iso);
-    if (scene_.toward == iso && !plane_) look_from_inside();  // who names a side or a direction has said from where
+    if (scene_.toward == iso && !plane_) look_from_inside();  // a side or direction in the options sets the viewpoint
     if (given || !plane_) return;
     const double side = camera_towards(plane_->normal).right.x;
     const bool is_turned = std::abs(side) > 1e-6 ? side < 0.0 : plane_->normal.x > 0.0 || plane_->normal.z < 0.0;
     scene_.toward = is_turned ? -plane_->normal : plane_->normal;
   }
 
-  /// Half models are seen from the side of the fluid: the symmetry plane, or the surface's opening there, behind the body, not in front of it.
+  /// Half models are seen from the fluid side: the symmetry plane, or the surface's opening there, is behind the body, not in front of it.
   void look_from_inside() {
     const Vec3 out = is_surface_ ? opening_normal() : symmetry_normal(mesh_);
     if (const double away = dot(scene_.toward, out); away > 0.0) scene_.toward -= 2.0 * away * out;
   }
 
-  /// Out of a surface's opening, unit; zero where it is closed: the facets of a closed surface add up to none, of an open one to what its opening lacks.
+  /// Returns the unit normal out of a surface's opening; zero if it is closed: the area vectors of a closed surface sum to zero, those of an open one to the
+  /// missing area.
   Vec3 opening_normal() const {
     Vec3 sum;
     double area = 0.0;
@@ -162,13 +163,13 @@ class SceneBuilder {
   void add_face(const Face& face, std::size_t number) {
     if (is_shown_[face.patch.index()] == 0) return;
     const std::size_t start = scene_.polygons.corners.size();
-    for (std::size_t k = face.nodes.size(); k-- > 0;) scene_.polygons.corners.push_back(mesh_.points[face.nodes[k]]);  // the front is towards the fluid
+    for (std::size_t k = face.nodes.size(); k-- > 0;) scene_.polygons.corners.push_back(mesh_.points[face.nodes[k]]);  // the front is on the fluid side
     if (!cut_off(start)) return;
     shown_.push_back(number);
     scene_.polygons.close({});
   }
 
-  /// Leaves of the polygon that begins there what is behind the plane; false when nothing is left of it.
+  /// Clips the polygon that begins there to the part behind the plane; returns false if nothing is left.
   bool cut_off(std::size_t start) {
     const double facing = plane_ ? dot(normalized(scene_.toward), plane_->normal) : 0.0;
     if (std::abs(facing) < k_edge_on) return true;
@@ -216,7 +217,7 @@ class SceneBuilder {
   void color_faces_by_patch() {
     std::vector<std::uint8_t> is_seen(mesh_.patches.size(), 0);
     for (const std::size_t face : shown_) is_seen[patch_of(face).index()] = 1;
-    const auto color_of = [&](std::size_t patch) { return patch_color(patch, mesh_.patches[PatchId(patch)].kind); };  // the same whatever else is shown
+    const auto color_of = [&](std::size_t patch) { return patch_color(patch, mesh_.patches[PatchId(patch)].kind); };  // independent of the other patches shown
     std::size_t n_seen = 0;
     for (std::size_t i = 0; i < is_seen.size(); ++i) {
       if (is_seen[i] == 0) continue;
@@ -277,12 +278,12 @@ class SceneBuilder {
       if (is_seen[k] != 0) scene_.swatches.push_back({kind_color(static_cast<CellKind>(k)), std::string(k_plural[k])});
   }
 
-  /// Lines in which the plane cuts the patches of kind interface, near the focus.
+  /// Adds the lines in which the plane cuts the patches of kind interface, near the focus.
   void add_sheets() {
     const auto is_interface = [&](std::string_view name) {
       return std::ranges::any_of(mesh_.patches, [&](const Patch& patch) { return patch.kind == PatchKind::interface && patch.name == name; });
     };
-    constexpr std::string_view k_back = ".back";  // of the names of the other sides of discs
+    constexpr std::string_view k_back = ".back";  // suffix of the patch names of the other sides of discs
     std::vector<std::uint8_t> is_drawn;
     for (const Patch& patch : mesh_.patches)
       is_drawn.push_back(patch.kind == PatchKind::interface &&

@@ -1,4 +1,4 @@
-// What is on a picture: polygons with their colours, what the colours mean, and where to look.
+// Contents of a picture: polygons with their colours, the meaning of the colours, and the view.
 #pragma once
 
 #include <array>
@@ -17,24 +17,24 @@ struct Swatch {
   std::string text;
 };
 
-/// Colours of numbers. From low to high as they are in the picture; of judged ones either end may be the bad one.
+/// Colour scale of numbers, from low to high as in the picture; for judged quantities either end may be the bad one.
 struct ColorBar {
   std::string title, unit;
   Scale scale = Scale::neutral;
   bool is_log = false;
   bool is_low_bad = false;                             ///< the scale runs from high to low
-  double low = 0.0, high = 1.0;                        ///< of the first and last colour
-  double smallest = 0.0, largest = 0.0;                ///< of what is shown
-  std::vector<std::pair<double, std::string>> limits;  ///< of the gate that judges the figure
+  double low = 0.0, high = 1.0;                        ///< values of the first and last colour
+  double smallest = 0.0, largest = 0.0;                ///< extremes of the values shown
+  std::vector<std::pair<double, std::string>> limits;  ///< limits of the gate for this quantity
 
-  /// Share of the way from low to high, clamped to [0, 1].
+  /// Returns the relative position between low and high, clamped to [0, 1].
   double share_of(double value) const;
   Rgb color_of(double value) const;
 };
 
-/// Where a plane cuts a patch that has no thickness: an actuator disc, a wake sheet.
+/// Intersection lines of a plane with a patch that has no thickness: an actuator disc, a wake sheet.
 struct SceneLines {
-  std::string name;  ///< of the patch
+  std::string name;  ///< name of the patch
   Rgb color;
   std::vector<std::array<Point, 2>> segments;
 };
@@ -46,12 +46,12 @@ struct Scene {
   std::optional<ColorBar> bar;
   bool has_faces_without_value = false;
   Vec3 toward;                  ///< from the mesh to the eye
-  std::optional<Sphere> focus;  ///< what fills the picture; nothing: all of it
+  std::optional<Sphere> focus;  ///< region that fills the picture; empty: everything
   std::string caption;          ///< "quality", "leading edge: cells by kind"
 };
 
-/// Pictures of surfaces see both sides of walls in their colour (`is_surface`).
-/// \throws Error of draw_png
+/// Builds a scene. Pictures of surfaces show both sides of walls in their colour (`is_surface`).
+/// \throws errors of draw_png
 Scene build_scene(const HybridMesh& mesh, bool is_surface, const DrawOptions& options, const RunContext& context);
 
 }  // namespace sterna::draw

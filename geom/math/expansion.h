@@ -28,7 +28,7 @@ inline void two_sum(double a, double b, double& sum, double& error) {
   const double b_part = sum - a;
   error = (a - (sum - b_part)) + (b - b_part);
 }
-/// The same when |a| >= |b| or a == 0.
+/// As two_sum, but requires |a| >= |b| or a == 0.
 inline void fast_two_sum(double a, double b, double& sum, double& error) {
   sum = a + b;
   error = b - (sum - a);
@@ -99,7 +99,7 @@ inline std::size_t multiply(std::span<const double> e, std::span<const double> f
 
 inline int sign_of(double value) { return (value > 0.0) - (value < 0.0); }
 
-/// Exact number of at most N components.
+/// Exact number with at most N components.
 template <std::size_t N>
 class Expansion {
  public:
@@ -150,7 +150,7 @@ Expansion<2 * N * M> operator*(const Expansion<N>& a, const Expansion<M>& b) {
   return result;
 }
 
-/// Exact number of any length; for formulas whose worst case would not fit on the stack.
+/// Exact number of any length; for formulas whose worst case does not fit on the stack.
 class LongExpansion {
  public:
   LongExpansion() = default;
@@ -194,7 +194,7 @@ struct Bounded {
   double value;
   double size;
 
-  /// Sign if certain, with k roundings for each term; 2 if not. Where size == 0 all terms are zero, and so is the value.
+  /// Returns the sign if it is certain, with k roundings for each term; 2 if not. If size == 0, all terms are zero and so is the value.
   int sign(int k) const {
     const double bound = (k + 1) * k_unit * size;
     if (value > bound) return 1;
@@ -206,7 +206,7 @@ struct Bounded {
   friend Bounded operator*(const Bounded& a, const Bounded& b) { return {a.value * b.value, a.size * b.size}; }
 };
 
-/// b - a as T.
+/// Returns b - a as T.
 template <class T>
 T difference(double a, double b);
 template <>
@@ -230,7 +230,7 @@ inline LongExpansion difference<LongExpansion>(double a, double b) {
   return LongExpansion(difference<Expansion<2>>(a, b).view());
 }
 
-/// Vector of such numbers.
+/// Vector with components of type T.
 template <class T>
 struct Triple {
   T x;
@@ -238,7 +238,7 @@ struct Triple {
   T z;
 };
 
-/// q - p.
+/// Returns q - p.
 template <class T>
 Triple<T> difference(const Vec3& p, const Vec3& q) {
   return {difference<T>(p.x, q.x), difference<T>(p.y, q.y), difference<T>(p.z, q.z)};

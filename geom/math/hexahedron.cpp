@@ -1,7 +1,7 @@
-// The hexahedron with bilinear faces: volume, and a conservative test that its Jacobian is positive everywhere.
+// Hexahedron with bilinear faces: volume, and a conservative test that its Jacobian is positive everywhere.
 //
 // The Jacobian of the trilinear map is of degree two in each coordinate; its Bernstein coefficients bound it from below, and bisecting the
-// cube makes the bound as sharp as wanted. The coefficients are sums of determinants of edge vectors:
+// cube makes the bound as sharp as required. The coefficients are sums of determinants of edge vectors:
 //   J = det( sum a_jk, sum b_ik, sum c_ij )  with the four edges a along the first coordinate, b the second, c the third,
 //   coefficient (p, q, r) = sum over i + i' = p, j + j' = q, k + k' = r of det(a_jk, b_ik', c_i'j') / (binom(2,p) binom(2,q) binom(2,r)).
 // Based on: A. Johnen, J.-F. Remacle, C. Geuzaine, "Geometrical validity of curvilinear finite elements", J. Comput. Phys. 233 (2013).
@@ -19,7 +19,7 @@ using exact::Bounded;
 using exact::difference;
 using exact::Triple;
 
-/// Bisections of the cube before giving up; a cell that is still undecided then has a Jacobian within 1e-5 of its largest of zero.
+/// Bisections of the cube before giving up; a cell that is then undecided has a Jacobian within 1e-5 of its largest value from zero.
 constexpr int k_max_bisections = 24;
 // Roundings of one of the up to eight summed determinants: orient3d's 8, seven additions, the division (a power of two) none.
 constexpr int k_hexahedron_roundings = 15;
@@ -86,7 +86,7 @@ std::array<Coefficients, 2> bisect(const Coefficients& c, std::size_t stride) {
 }
 
 bool is_positive(const Coefficients& c, int bisections) {
-  // The coefficients at the corners are values of the Jacobian: one that is not surely positive ends the proof.
+  // The coefficients at the corners are values of the Jacobian: if one is not certainly positive, the proof fails.
   for (const std::size_t r : {0u, 2u}) {
     for (const std::size_t q : {0u, 2u}) {
       for (const std::size_t p : {0u, 2u}) {
@@ -104,7 +104,7 @@ bool is_positive(const Coefficients& c, int bisections) {
 }  // namespace
 
 double hexahedron_volume(const std::array<Vec3, 8>& p) {
-  // Outward faces in CGNS order; relative to corner 0, whose three faces still have a flux when they are warped.
+  // Outward faces in CGNS order; relative to corner 0, whose three faces have a flux only if they are warped.
   constexpr std::size_t k_faces[6][4] = {{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {4, 5, 6, 7}};
   double volume = 0.0;
   for (const auto& [a, b, c, d] : k_faces) volume += bilinear_flux(p[0], p[a], p[b], p[c], p[d]);

@@ -5,8 +5,8 @@
 
 namespace sterna {
 
-/// +1 when e lies inside the sphere through a, b, c, d given as a positive tetrahedron, 0 on it (the sign flips with the orientation). About 20 ns; where only
-/// exact arithmetic can decide, some 50 us.
+/// Returns +1 if e lies inside the sphere through a, b, c, d given as a positive tetrahedron, 0 if on it (the sign flips with the orientation). About 20 ns;
+/// about 50 us if exact arithmetic is required.
 int insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e);
 
 }  // namespace sterna

@@ -5,7 +5,7 @@
 //
 // The usual cases are decided by the sides of each triangle's vertices on the other's plane and by lines that pierce triangles (the functions in
 // the first half). Whenever all the signs that prove a triangle to have area and the planes to differ vanish, the slow
-// path (second half) looks at the two sets as segments and coplanar triangles.
+// path (second half) treats the two sets as segments and coplanar triangles.
 #include "geom/math/intersect.h"
 
 #include <algorithm>
@@ -21,15 +21,14 @@ using Corners = std::array<Vec3, 3>;
 
 // ---------------------------------------------------------------- planar geometry
 
-/// The coordinate plane onto which something is projected: exact, as it only drops a coordinate. Mirrors depending on the axis, which the
-/// callers undo by orienting their triangles.
+/// Projects onto a coordinate plane: exact, as it only drops a coordinate. Mirrors depending on the axis; callers compensate by orienting their triangles.
 Vec2 project(const Vec3& p, int axis) {
   if (axis == 0) return {p.y, p.z};
   return axis == 1 ? Vec2{p.x, p.z} : Vec2{p.x, p.y};
 }
 int orient(const Vec3& a, const Vec3& b, const Vec3& c, int axis) { return orient2d(project(a, axis), project(b, axis), project(c, axis)); }
 
-/// An axis along which a, b, c project to a triangle with area; none if they are collinear.
+/// Returns an axis along which a, b, c project to a triangle with area; none if they are collinear.
 std::optional<int> projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
   for (const int axis : {2, 1, 0}) {
     if (orient(a, b, c, axis) != 0) return axis;
@@ -37,10 +36,10 @@ std::optional<int> projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) 
   return std::nullopt;
 }
 
-/// Counter-clockwise in the projection.
+/// Returns the triangle counter-clockwise in the projection.
 Corners counter_clockwise(const Corners& t, int axis) { return orient(t[0], t[1], t[2], axis) > 0 ? t : Corners{t[0], t[2], t[1]}; }
 
-/// Whether a line along an edge of `a` has all points of `b` strictly on its outer side; a counter-clockwise, b a triangle or a segment.
+/// Returns true if a line along an edge of `a` has all points of `b` strictly on its outer side; a counter-clockwise, b a triangle or a segment.
 template <std::size_t N>
 bool edge_separates(const Corners& a, const std::array<Vec3, N>& b, int axis) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -55,12 +54,12 @@ bool coplanar_triangles_meet(const Corners& a, const Corners& b, int axis) {
   return !edge_separates(p, q, axis) && !edge_separates(q, p, axis);
 }
 
-/// p != apex in the closed sector at `apex` between `from` and `to` (counter-clockwise, less than a half turn).
+/// Returns true if p != apex is in the closed sector at `apex` between `from` and `to` (counter-clockwise, less than a half turn).
 bool is_in_sector(const Vec3& apex, const Vec3& from, const Vec3& to, const Vec3& p, int axis) {
   return orient(apex, from, p, axis) >= 0 && orient(apex, p, to, axis) >= 0;
 }
 
-/// Triangles in one plane with the common first corner: whether their angular sectors have a common ray.
+/// Returns true if the angular sectors of two coplanar triangles with the common first corner have a common ray.
 bool coplanar_sectors_meet(const Corners& a, const Corners& b, int axis) {
   const Corners p = counter_clockwise(a, axis);
   const Corners q = counter_clockwise(b, axis);
@@ -75,14 +74,14 @@ struct Sides {
   bool all_zero() const { return sign[0] == 0 && sign[1] == 0 && sign[2] == 0; }
 };
 
-/// Sides of the corners of b on the plane of a; none when all lie strictly on one side.
+/// Returns the sides of the corners of b on the plane of a; none if all lie strictly on one side.
 std::optional<Sides> sides_of(const Corners& a, const Corners& b) {
   const Sides s{{orient3d(a[0], a[1], a[2], b[0]), orient3d(a[0], a[1], a[2], b[1]), orient3d(a[0], a[1], a[2], b[2])}};
   if (s.sign[0] != 0 && s.sign[0] == s.sign[1] && s.sign[1] == s.sign[2]) return std::nullopt;
   return s;
 }
 
-/// Whether the segment s-t meets the triangle. \pre the triangle has area; sides of s and t on its plane are not equal.
+/// Returns true if the segment s-t meets the triangle. \pre the triangle has area; sides of s and t on its plane are not equal.
 bool pierces(const Vec3& s, const Vec3& t, int side_s, int side_t, const Corners& a) {
   if (side_s == side_t) return false;
   // Seen from the positive side the triangle runs counter-clockwise: a line coming from there has every edge on its negative side.
@@ -93,7 +92,7 @@ bool pierces(const Vec3& s, const Vec3& t, int side_s, int side_t, const Corners
   return true;
 }
 
-/// Whether an edge of b that is not in the plane of a meets a.
+/// Returns true if an edge of b that is not in the plane of a meets a.
 bool an_edge_pierces(const Corners& b, const Sides& sides, const Corners& a) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
@@ -110,7 +109,7 @@ struct Segment {
   Vec3 to;
 };
 
-/// Order along a line, any line: points on it are sorted by it.
+/// Orders points along a line of any direction.
 bool is_before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 template <std::size_t N>
@@ -155,14 +154,14 @@ bool is_same_ray(const Vec3& apex, const Vec3& p, const Vec3& q) {
   return p != apex && q != apex && !projection_axis(apex, p, q) && is_before(apex, p) == is_before(apex, q);
 }
 
-/// Whether the ray from b[0] to p runs within the sector of b at b[0]. \pre b has area.
+/// Returns true if the ray from b[0] to p runs within the sector of b at b[0]. \pre b has area.
 bool ray_is_in_sector(const Vec3& p, const Corners& b, int axis) {
   if (p == b[0] || orient3d(b[0], b[1], b[2], p) != 0) return false;
   const Corners q = counter_clockwise(b, axis);
   return is_in_sector(q[0], q[1], q[2], p, axis);
 }
 
-/// Common first corner: common points beyond it.
+/// Triangles with a common first corner: returns true if there are common points beyond it.
 bool cross_beyond_corner_slowly(const Corners& a, const Corners& b) {
   const auto axis_a = projection_axis(a[0], a[1], a[2]);
   const auto axis_b = projection_axis(b[0], b[1], b[2]);
@@ -173,12 +172,12 @@ bool cross_beyond_corner_slowly(const Corners& a, const Corners& b) {
   return is_same_ray(a[0], a[1], b[1]) || is_same_ray(a[0], a[1], b[2]) || is_same_ray(a[0], a[2], b[1]) || is_same_ray(a[0], a[2], b[2]);
 }
 
-/// Common edge 0-1, third corners in one plane with it: common points beyond the edge.
+/// Triangles with the common edge 0-1 and coplanar third corners: returns true if there are common points beyond the edge.
 bool cross_beyond_edge_slowly(const Corners& a, const Corners& b) {
   const auto axis_a = projection_axis(a[0], a[1], a[2]);
   const auto axis_b = projection_axis(b[0], b[1], b[2]);
   if (axis_a && axis_b) return orient(a[0], a[1], a[2], *axis_a) == orient(b[0], b[1], b[2], *axis_a);
-  // A triangle with area has nothing but the edge on the edge's line, on which the other one lies (if the edge is a point, neither has area).
+  // A triangle with area has only the edge on the edge's line, on which the other one lies (if the edge is a point, neither has area).
   if (axis_a || axis_b) return false;
   // The edge is a point: two segments that start there.
   if (a[0] == a[1]) return is_same_ray(a[0], a[2], b[2]);
@@ -189,7 +188,7 @@ bool cross_beyond_edge_slowly(const Corners& a, const Corners& b) {
 
 // ---------------------------------------------------------------- two triangles that share a corner or an edge
 
-/// Common first corner: as the intersection is convex, there is more than the corner iff the sectors at it have a common ray.
+/// Triangles with a common first corner: as the intersection is convex, there is more than the corner iff the sectors at it have a common ray.
 bool cross_beyond_corner(const Corners& a, const Corners& b) {
   const int side_1 = orient3d(b[0], b[1], b[2], a[1]);
   const int side_2 = orient3d(b[0], b[1], b[2], a[2]);
@@ -206,8 +205,8 @@ bool cross_beyond_corner(const Corners& a, const Corners& b) {
 
 bool cross_beyond_edge(const Corners& a, const Corners& b) { return orient3d(a[0], a[1], a[2], b[2]) == 0 && cross_beyond_edge_slowly(a, b); }
 
-/// Brings the shared corners to the front, in the same order in both; returns their number. A corner that a triangle repeats counts once, and the
-/// copies stay behind it.
+/// Moves the shared corners to the front, in the same order in both; returns their number. A repeated corner of a triangle counts once, and the copies stay
+/// behind it.
 std::size_t move_shared_to_front(std::array<std::uint32_t, 3>& a, std::array<std::uint32_t, 3>& b) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < 3; ++i) {

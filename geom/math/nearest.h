@@ -1,4 +1,4 @@
-// The nearest points of segments and triangles.
+// Nearest points on segments and triangles.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,15 @@
 
 namespace sterna {
 
-/// A segment without length is its first end. Source: C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.
+/// Returns the point of the segment nearest to p. A segment of zero length is treated as its first end. Source: C. Ericson, "Real-Time Collision Detection"
+/// (2005), section 5.1.
 inline Point nearest_on_segment(const Point& p, const Point& a, const Point& b) {
   const Vec3 e = b - a;
   const double length2 = norm2(e);
   return length2 > 0.0 ? a + std::clamp(dot(p - a, e) / length2, 0.0, 1.0) * e : a;
 }
 
-/// A triangle without area is its edges. Source: as above.
+/// Returns the point of the triangle nearest to p. A triangle of zero area is treated as its edges. Source: as above.
 inline Point nearest_on_triangle(const Point& p, const std::array<Point, 3>& t) {
   const Vec3 u = t[1] - t[0];
   const Vec3 v = t[2] - t[0];

@@ -12,12 +12,12 @@ struct Vec2 {
   double y = 0.0;
 };
 
-/// Sign (-1, 0, +1) of det[b-a, c-a]: +1 when a, b, c turn counter-clockwise.
+/// Returns the sign (-1, 0, +1) of det[b-a, c-a]: +1 if a, b, c turn counter-clockwise.
 int orient2d(const Vec2& a, const Vec2& b, const Vec2& c);
-/// Sign of det[b-a, c-a, d-a]: +1 when d lies on the side to which the right-hand normal of (a, b, c) points
-/// (so a CGNS tetrahedron a b c d has positive volume).
+/// Returns the sign of det[b-a, c-a, d-a]: +1 if d lies on the side to which the right-hand normal of (a, b, c) points (so a CGNS tetrahedron a b c d has
+/// positive volume).
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// +1 when d lies inside the circle through a, b, c given counter-clockwise (sign flips with the orientation).
+/// Returns +1 if d lies inside the circle through a, b, c given counter-clockwise (the sign flips with the orientation).
 int incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 }  // namespace sterna

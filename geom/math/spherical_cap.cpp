@@ -1,4 +1,4 @@
-// A vector outside the cap of its predecessors lies on the rim of the new cap.
+// A vector outside the cap of its predecessors lies on the boundary of the new cap.
 #include "geom/math/spherical_cap.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace sterna {
 namespace {
 
-/// A vector this much (in cosine) outside a cap still counts as inside: far below any angle that matters, far above rounding.
+/// A vector this much (in cosine) outside a cap still counts as inside: far below any relevant angle, far above rounding.
 constexpr double k_slack = 1e-12;
 
 struct Rim {
@@ -20,7 +20,7 @@ Rim through(const Vec3& a, const Vec3& b) {
   return {axis, dot(axis, a)};
 }
 
-/// On the side of the three vectors; through two of them when they are as good as collinear on the sphere.
+/// Returns the cap through the three vectors, on their side; through two of them if they are nearly collinear on the sphere.
 Rim through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 axis = normalized(cross(b - a, c - a));
   if (norm2(axis) == 0.0) return through(a, b);

@@ -1,4 +1,4 @@
-// The smallest cap of the unit sphere that holds given unit vectors: its axis is the direction that sees all of them best.
+// The smallest cap of the unit sphere that contains given unit vectors. Its axis is the direction with the smallest maximum angle to all of them.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ struct SphericalCap {
   double angle = 0.0;  ///< radians, largest angle between the axis and a vector
 };
 
-/// Incremental (Welzl 1991, on the sphere); exact to rounding for vectors within a hemisphere. Beyond that the angle is still the true one of the returned
-/// axis.
+/// Computes the cap incrementally (Welzl 1991, on the sphere); exact to rounding for vectors within a hemisphere. Beyond a hemisphere the angle is still
+/// correct for the returned axis.
 /// \pre not empty, unit vectors
 SphericalCap smallest_spherical_cap(std::span<const Vec3> vectors);
 

@@ -35,7 +35,7 @@ T determinant(const Vec3& corner, const Vec3& next, std::span<const Vec3> others
 /// at most that size, each within 7 roundings of its exact value, some 10 more when they are multiplied and summed; doubled.
 constexpr double k_certain = 64 * exact::k_unit;
 
-/// Smallest six-fold sub-volume of a wedge over the cube of its size, from one look at each of its nine edges and their two faces.
+/// Returns the smallest six-fold sub-volume of a wedge relative to the cube of its size, visiting each of its nine edges and their two faces once.
 double least_relative_sub_volume(const WedgePoints& p) {
   double size2 = 0.0;
   double least = std::numeric_limits<double>::infinity();

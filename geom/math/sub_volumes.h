@@ -8,15 +8,15 @@
 
 namespace sterna {
 
-/// Sign of the volume of (corner, midpoint of corner-next, centroid of the face, centroid of the cell) for a face that runs corner, next, others..., its
-/// right-hand normal out of the cell; `rest` are the cell's nodes off the face. The sub-tet at `next` has the same volume. Only the node sums count: 48 V =
-/// -det(next, sum of others, sum of rest) relative to the corner, times positive factors. Exact: floating point with a forward error bound, undecided cases by
-/// expansions.
+/// Returns the sign of the volume of (corner, midpoint of corner-next, centroid of the face, centroid of the cell). The face runs corner, next, others..., with
+/// its right-hand normal out of the cell; `rest` are the cell's nodes off the face. The sub-tet at `next` has the same volume. Only the node sums matter: 48 V
+/// = -det(next, sum of others, sum of rest) relative to the corner, times positive factors. Exact: floating point with a forward error bound, undecided cases
+/// by expansions.
 /// \pre 1 or 2 others, 1 to 4 rest; finite coordinates, range as for orient3d.
 int sub_volume_sign(const Vec3& corner, const Vec3& next, std::span<const Vec3> others, std::span<const Vec3> rest);
 
-/// Whether all 36 sub-tets of a wedge (CGNS order), all 32 of a pyramid are positive. Neither implies nor follows from is_wedge_valid: a wedge that leans or
-/// warps enough has its centroid outside of one of its faces' cones. Exact; floating point first, about 10 M wedges/s/core.
+/// Returns true if all 36 sub-tets of a wedge (CGNS order), or all 32 of a pyramid, are positive. Neither implies nor follows from is_wedge_valid: the centroid
+/// of a strongly leaning or warped wedge lies outside the cone of one of its faces. Exact; floating point first, about 10 M wedges/s/core.
 bool are_sub_volumes_positive(const WedgePoints& p);
 bool are_sub_volumes_positive(const std::array<Vec3, 5>& p);
 

@@ -6,9 +6,8 @@
 // which are the b0, b1, b2 of docs/method/validity.md, "Exact wedge test", free of cancelling terms. The Jacobian is positive along the growth edge iff b0 > 0,
 // b2 > 0 and (b1 >= 0 or b1^2 < b0 b2); linear in between the growth edges, so positive everywhere iff positive along all three.
 //
-// Filter: only differences of coordinates enter, and a rounded difference is within one unit roundoff of the exact one relative to itself, however
-// flat the wedge is and however far from the origin. So a prism of height 1e-6 times its edges is decided here unless it is
-// as good as inverted.
+// Filter: only differences of coordinates are used, and a rounded difference is within one unit roundoff of the exact one relative to itself, however flat the
+// wedge is and however far from the origin. A prism of height 1e-6 times its edges is therefore decided here unless it is nearly inverted.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -34,7 +33,7 @@ constexpr double k_bound = (k_wedge_roundings + 1) * exact::k_unit;
 // Relative margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2): two roots, two products, and the bounds' own subtraction, 5 roundings; doubled.
 constexpr double k_root_margin = 10 * exact::k_unit;
 
-/// The Bernstein coefficients of N(z), the middle one doubled.
+/// Returns the Bernstein coefficients of N(z), the middle one doubled.
 template <class T>
 struct NormalCoefficients {
   decltype(cross(std::declval<Triple<T>>(), std::declval<Triple<T>>())) n0, n2;
@@ -48,7 +47,7 @@ NormalCoefficients<T> normal_coefficients(const WedgePoints& p) {
   return {cross(a, b), cross(a_top, b_top), cross(a, b_top) + cross(a_top, b)};
 }
 
-/// Along one growth edge, with intervals for b0, 2 b1 and b2.
+/// Filters one growth edge, with intervals for b0, 2 b1 and b2.
 Verdict filter_edge(const Bounded& b0, const Bounded& b1_twice, const Bounded& b2) {
   const double e0 = k_bound * b0.size;
   const double e1 = k_bound * b1_twice.size;
@@ -129,7 +128,7 @@ double wedge_quality(const WedgePoints& p) {
     const double height = norm(d);
     const double base_scale = base[(k + 1) % 3] * base[(k + 2) % 3] * height;
     const double top_scale = top[(k + 1) % 3] * top[(k + 2) % 3] * height;
-    // A corner without extent has a zero Jacobian.
+    // A corner of zero extent has a zero Jacobian.
     if (!(base_scale > 0.0) || !(top_scale > 0.0)) return std::min(quality, 0.0);
     const double b0 = dot(n0, d);
     const double b1 = dot(n1, d);

@@ -1,5 +1,5 @@
-// An aircraft as data: what .smx and CPACS files and scripts say, before any surface is made of it. Plain structs; metres, radians, x aft,
-// y to the right wing, z up.
+// An aircraft as data, as described by .smx and CPACS files and scripts, before any surface is built from it. Plain structs; metres, radians, x aft, y to the
+// right wing, z up.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace sterna {
 
-/// Where a component stands: rotations about the fixed axes x, then y, then z, then the translation to `origin`.
+/// Position and orientation of a component: rotations about the fixed axes x, then y, then z, then the translation to `origin`.
 struct Placement {
   Point origin;
   Vec3 rotation;  ///< radians
   friend constexpr bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// Of component axes into those of the aircraft.
+/// Returns the transformation from component axes to those of the aircraft.
 Transform transform_of(const Placement& placement);
 
 enum class CapShape { strip, dome };  ///< half-elliptic strip over the end (sumo: LongCap); polar dome with continuous slope (RingCap)
@@ -33,17 +33,17 @@ struct EndCap {
   friend bool operator==(const EndCap&, const EndCap&) = default;
 };
 
-/// Limits of surface edges that a file asks for; lengths in metres. Not a number: not said.
+/// Limits of surface edge lengths given in a file; lengths in metres. NaN: not given.
 struct RefinementRegion {
   bool is_ellipse = false;
   Uv lower, upper;  ///< rectangle in the component's (u, v)
   Uv center;        ///< ellipse
   double radius_u = 0.0, radius_v = 0.0;
-  double factor = 1.0;  ///< of the longest edge
+  double factor = 1.0;  ///< multiple of the longest edge
   friend bool operator==(const RefinementRegion&, const RefinementRegion&) = default;
 };
 struct MeshCriterion {
-  bool is_automatic = false;  ///< the limits below are only what an earlier run found
+  bool is_automatic = false;  ///< the limits below are only results of an earlier run
   bool is_wing = false;
   bool is_stretched = false;  ///< anisotropic along the span (sumo: xcoarse)
   std::optional<double> max_edge, min_edge;
@@ -52,7 +52,7 @@ struct MeshCriterion {
   std::optional<std::int64_t> max_vertices;
   double leading_edge_factor = 1.0, trailing_edge_factor = 1.0;
   std::vector<RefinementRegion> regions;
-  std::vector<double> scale, breaks;  ///< sumo's local chord scaling, rebuilt by it when the lengths differ
+  std::vector<double> scale, breaks;  ///< sumo's local chord scaling; sumo rebuilds it if the lengths differ
   std::vector<double> kinks;
   std::vector<Vec3> kink_tangents;
   friend bool operator==(const MeshCriterion&, const MeshCriterion&) = default;
@@ -62,7 +62,7 @@ struct MeshCriterion {
 
 enum class FrameShape { points, circle, ellipse, double_ellipse, egg, isikveren, loop };
 
-/// Cross section of a body in a plane x = const; of shape `loop`: anywhere.
+/// Cross section of a body in a plane x = const; of shape `loop`: any closed curve in space.
 struct BodyFrame {
   std::string name;
   Point center;         ///< component axes
@@ -70,11 +70,11 @@ struct BodyFrame {
   double width = 1.0;
   FrameShape shape = FrameShape::circle;
   bool is_symmetric = true;
-  int n_points = 7;                               ///< spline points of the half section that a formula is sampled with
+  int n_points = 7;                               ///< spline points sampled from a formula on the half section
   double exponent = 2.0;                          ///< ellipse: |y|^n + |z|^n = 1
-  double offset = 0.0;                            ///< double ellipse: height of the widest place, of the half height
+  double offset = 0.0;                            ///< double ellipse: height of the widest point, relative to the half height
   double distortion = 0.0;                        ///< Huegelschaeffer's egg
-  double zp = 0.0, a0 = 0.0, a1 = 0.0, b1 = 0.0;  ///< Isikveren's section, as CEASIOM has it
+  double zp = 0.0, a0 = 0.0, a1 = 0.0, b1 = 0.0;  ///< Isikveren's section, as in CEASIOM
   /// Shape `points`: right half from the bottom (0, -1) to the top (0, 1), u = y / (width / 2), v = z / (height / 2).
   std::vector<Uv> points;
   /// Shape `loop`: the whole section in component axes, from the bottom over the right side, the top and the left side; not closed by a repeated point.
@@ -85,25 +85,25 @@ struct BodyFrame {
 /// Inner lip of an inlet in place of the front cap: down to a flat fan face.
 struct InletLip {
   double axial_offset = 0.4;   ///< depth of the fan face behind the front frame, in mean front radii
-  double radial_offset = 0.2;  ///< how much smaller it is, in mean front radii
+  double radial_offset = 0.2;  ///< reduction of the fan face radius, in mean front radii
   double shape = 1.0;          ///< fullness of the lip
   friend bool operator==(const InletLip&, const InletLip&) = default;
 };
 
-/// How a body runs along its frames, as SplineTangents. Between two frames all of them are straight.
+/// Interpolation of a body along its frames, as SplineTangents. Between two frames all kinds are straight.
 enum class BodyTangents {
   bessel,    ///< .smx, CPACS
   akima,     ///< .smx: straight parts stay straight
-  monotone,  ///< never beyond the two frames it runs between
+  monotone,  ///< never overshoots the two frames of an interval
   linear,    ///< straight between frames, with an edge at each
 };
 
 struct Body {
   std::string name;
-  ComponentKind kind = ComponentKind::body;  ///< of those with an inlet lip: always a nacelle
+  ComponentKind kind = ComponentKind::body;  ///< components with an inlet lip: always a nacelle
   Placement placement;
   BodyTangents tangents = BodyTangents::bessel;  ///< from frame to frame
-  bool has_mirror_image = false;                 ///< a second one stands on the other side of y = 0
+  bool has_mirror_image = false;                 ///< a mirror image exists on the other side of y = 0
   std::vector<BodyFrame> frames;                 ///< ascending x; at least 2
   std::optional<InletLip> lip;
   EndCap nose, tail;
@@ -117,20 +117,20 @@ struct Body {
 enum class ControlKind { trailing_edge, leading_edge, all_moving };
 std::string_view to_string(ControlKind kind);
 
-/// Part of a wing's surface with a name of its own, behind (before) a border across sections, or all of the chord: where a control surface is.
+/// Named part of a wing's surface, behind (or ahead of) a border across sections, or the whole chord: the location of a control surface.
 struct WingPatch {
   struct Place {
-    double section = 0.0;  ///< number among all sections from tip to tip (both halves of a symmetric wing); fractions: between two
+    double section = 0.0;  ///< number of the section, counted from tip to tip (both halves of a symmetric wing); fractions: between two sections
     double upper = 1.0;    ///< where the border crosses the upper side: parameter of rows (section_rows.h), 0 trailing edge .. 1 leading edge
     double lower = 1.0;
     friend bool operator==(const Place&, const Place&) = default;
   };
-  /// The moving part is a solid of its own; what the wing keeps has a cut-out with a cove and side walls, and ends at the patch's border.
+  /// The moving part is a separate solid. The rest of the wing has a cut-out with a cove and side walls, and ends at the patch's border.
   struct Slot {
     std::vector<Place> hinge;     ///< where the hinge fraction crosses the sides, at the sections of the border
-    double from = 0.0, to = 0.0;  ///< sections between which the moving part stands, within the border's
-    bool is_flat = false;         ///< the moving part's nose
-    Transform motion;             ///< of the moving part, component axes
+    double from = 0.0, to = 0.0;  ///< sections between which the moving part extends, within those of the border
+    bool is_flat = false;         ///< nose of the moving part is flat
+    Transform motion;             ///< motion of the moving part, component axes
     friend bool operator==(const Slot&, const Slot&) = default;
   };
   std::string name;
@@ -149,32 +149,32 @@ struct WingSection {
   double yaw = 0.0;        ///< about +z
   std::string airfoil;     ///< label
   std::vector<Uv> points;  ///< unit chord, u = x, v = z: trailing edge, upper side, leading edge, lower side, trailing edge
-  /// Not empty: the airfoil stands in component axes as given here, same order; chord and angles above do not count.
+  /// If not empty, the points of the airfoil in component axes, in the same order; chord and angles above are ignored.
   std::vector<Point> loop;
-  bool is_row = false;       ///< `loop` holds the very points that surfaces are made through (section_rows.h), nothing is sampled again
-  bool is_break = false;     ///< a kink of the wing stands here
+  bool is_row = false;       ///< `loop` holds exactly the points that surfaces are splined through (section_rows.h); they are not resampled
+  bool is_break = false;     ///< the wing has a kink here
   bool is_reversed = false;  ///< airfoil upside down
   int n_approximation = -1;  ///< points of sumo's least-squares airfoil; -1: interpolate
-  std::string naca;          ///< designation that a file names instead of points
+  std::string naca;          ///< designation given in a file in place of points
   std::optional<double> extend_leading_x, extend_leading_y, extend_trailing_x, extend_trailing_y;  ///< sumo's fairing airfoils; kept, not applied
   friend bool operator==(const WingSection&, const WingSection&) = default;
 };
 
-/// Sections in order along the span, right tip first. When symmetric the last one stands in the plane of symmetry and the other half follows.
+/// Sections in order along the span, right tip first. In a symmetric wing the last one lies in the plane of symmetry and the other half follows.
 struct Wing {
   std::string name;
   Placement placement;
   bool is_symmetric = false;
-  bool has_winglet = false;       ///< elliptic arcs replace the part before the winglet's root, where there is one (winglet_blend.h)
-  bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0 (a wing that does not reach it)
+  bool has_winglet = false;       ///< elliptic arcs replace the wing just inboard of the winglet's root, if there is a winglet (winglet_blend.h)
+  bool has_mirror_image = false;  ///< a mirror image exists on the other side of y = 0 (a wing that does not reach the plane)
   bool is_pylon = false;
-  bool is_cubic = false;                ///< along the span between breaks; else straight
+  bool is_cubic = false;                ///< cubic along the span between breaks; else straight
   std::vector<WingSection> sections;    ///< at least 2
-  std::optional<double> trailing_edge;  ///< metres of thickness, 0 = sharp; nothing: as the airfoils have it
+  std::optional<double> trailing_edge;  ///< thickness in metres, 0 = sharp; empty: as given by the airfoils
   EndCap right_tip{CapShape::strip, 1.0};
-  EndCap left_tip{CapShape::strip, 1.0};  ///< that of the last section when not symmetric
+  EndCap left_tip{CapShape::strip, 1.0};  ///< cap of the last section if not symmetric
   std::optional<MeshCriterion> criterion;
-  std::vector<WingPatch> patches;  ///< see deflection.h; none overlaps another
+  std::vector<WingPatch> patches;  ///< see deflection.h; patches do not overlap
   friend bool operator==(const Wing&, const Wing&) = default;
 };
 
@@ -205,7 +205,7 @@ struct CowlNacelle {
 // ---------------------------------------------------------------------------------------------------------------------- systems
 
 struct HingePoint {
-  double span = 0.0;   ///< of the wing's length along the middles of its chords: 0 right tip .. 1 left tip; beyond the ends: over the tip
+  double span = 0.0;   ///< fraction of the wing's length along the mid-chord line: 0 right tip .. 1 left tip; beyond the ends: over the tip
   double chord = 0.0;  ///< fraction from the leading edge
   friend bool operator==(const HingePoint&, const HingePoint&) = default;
 };
@@ -214,26 +214,27 @@ struct ControlSurface {
   std::string wing;
   ControlKind kind = ControlKind::trailing_edge;
   std::vector<HingePoint> hinge;  ///< at least 2, ascending span; segments between them are named <name>Segment0, 1, ... where there are several
-  bool has_image = false;         ///< a second one on the wing's other half or its mirror image; else the file has that one too
+  bool has_image = false;         ///< an image exists on the wing's other half or on its mirror image; else the file describes that surface separately
   friend bool operator==(const ControlSurface&, const ControlSurface&) = default;
 };
 
 enum class ControlGap {
   sealed,  ///< the wing's skin bends
-  open,    ///< a solid of its own behind a slot
+  open,    ///< a separate solid behind a slot
 };
-/// What the image of a control surface on the wing's other half (or on the wing's mirror image) does.
+/// Motion of the image of a control surface on the wing's other half (or on the wing's mirror image).
 enum class OtherSide { none, same, opposite };
-/// A control surface that is turned; by no angle: a patch with its name.
+/// Deflection of a control surface; with zero angle: a patch with the surface's name.
 struct Deflection {
   ControlSurface surface;
   double angle = 0.0;                    ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
-  double fairing = k_automatic_fairing;  ///< sealed: metres along the span over which it returns to the wing beside its ends; must be positive
+  double fairing = k_automatic_fairing;  ///< sealed: metres along the span beside each end over which the deflection fades to zero; must be positive
   ControlGap gap = ControlGap::sealed;
-  double slot = k_automatic_slot;                      ///< open: metres between the wing's cove and the moving part's nose
+  double slot = k_automatic_slot;                      ///< open: metres between the wing's cove and the nose of the moving part
   double end_gap = k_automatic_slot;                   ///< open: metres along the span between the moving part and each end
-  bool has_flat_nose = false;                          ///< open: else round about the hinge
-  OtherSide other_side = OtherSide::none;              ///< the image is called as make_components calls mirror images ("aileron" -> "aileronLeft")
+  bool has_flat_nose = false;                          ///< open: flat nose; else round about the hinge
+  OtherSide other_side = OtherSide::none;              ///< the name of the image follows the rule of make_components for mirror images ("aileron" ->
+                                                       ///< "aileronLeft")
   static constexpr double k_automatic_fairing = -1.0;  ///< a tenth of the mean chord at its ends
   static constexpr double k_automatic_slot = -1.0;     ///< a hundredth of the mean chord at its ends
   friend bool operator==(const Deflection&, const Deflection&) = default;
@@ -266,13 +267,13 @@ struct Turbofan {
 struct JetEngine {
   std::string name;
   std::optional<double> mass_flow;                          ///< kg/s
-  std::optional<double> inflow_velocity, outflow_velocity;  ///< through the surface, m/s
+  std::optional<double> inflow_velocity, outflow_velocity;  ///< velocity through the surface, m/s
   std::optional<Turbofan> turbofan;
   std::vector<EngineRegion> intakes, nozzles;
   friend bool operator==(const JetEngine&, const JetEngine&) = default;
 };
 
-/// What sumo keeps for its own mesher.
+/// Settings that sumo stores for its own mesher.
 struct SumoSettings {
   std::int64_t version = 0;  ///< major << 16 | minor << 8 | patch
   double max_stretch = 5.0;
@@ -288,20 +289,21 @@ struct Aircraft {
   std::vector<Wing> wings;
   std::vector<CowlNacelle> nacelles;
   std::vector<ControlSurface> control_surfaces;
-  std::vector<Deflection> deflections;  ///< of these and of others; a control surface that is not among them gives its name to its patch
+  std::vector<Deflection> deflections;  ///< for control surfaces of the list above and others; a control surface without a deflection gives its name to its
+                                        ///< patch
   std::vector<Control> controls;
   std::vector<JetEngine> engines;
   std::optional<SumoSettings> sumo;
-  std::optional<double> reference_area, reference_length;  ///< as the file states them
+  std::optional<double> reference_area, reference_length;  ///< values stated in the file
   std::optional<Point> reference_point;
   friend bool operator==(const Aircraft&, const Aircraft&) = default;
 };
 
-/// An aircraft and what its file has beyond it: each message names line, element, and what became of it.
+/// An aircraft and messages about file contents that it does not represent: each message gives line, element, and how it was handled.
 struct AircraftReading {
   Aircraft aircraft;
   std::vector<std::string> messages;
-  std::vector<std::string> notes = {};  ///< what is left out as it has to be: no warning
+  std::vector<std::string> notes = {};  ///< contents that are omitted by design; not warnings
 };
 
 }  // namespace sterna

@@ -16,12 +16,12 @@ namespace sterna {
 namespace {
 
 constexpr int k_max_side = 2000;
-/// Samples of a curve for measures and errors.
+/// Number of samples of a curve for measures and errors.
 constexpr int k_samples = 800;
 
 double span_of(Uv a, Uv b) { return std::hypot(b.u - a.u, b.v - a.v); }
 
-/// t of the least x: bisection of dx/dt in the pieces beside the point of least x.
+/// Returns t of the smallest x: bisection of dx/dt in the pieces beside the point of smallest x.
 double leading_edge_of(const Curve& curve, const std::vector<double>& t, std::size_t nearest) {
   double low = t[nearest - 1], high = t[nearest + 1];
   for (int k = 0; k < 200 && low < high; ++k) {
@@ -32,7 +32,7 @@ double leading_edge_of(const Curve& curve, const std::vector<double>& t, std::si
   return 0.5 * (low + high);
 }
 
-/// Places along [from, to], equal shares of length and of the square root of turning.
+/// Returns n locations along [from, to], with equal shares of length and of the square root of turning.
 std::vector<double> spaced(const Curve& curve, double from, double to, int n) {
   std::vector<double> sum{0.0};
   const double h = (to - from) / k_samples;
@@ -119,7 +119,7 @@ Airfoil with_trailing_edge(const Airfoil& airfoil, double thickness) {
     return result;
   }
   if (!(old > 0.0)) return result;
-  // Turn (and stretch by what little that needs) each side about the leading edge until its end is where it belongs.
+  // Rotate (and slightly stretch as needed) each side about the leading edge until its end is at the required position.
   const double keep = thickness / old;
   const auto as_complex = [&](Uv p) { return std::complex<double>(p.u - nose.u, p.v - nose.v); };
   const auto turn = [&](Uv end) {

@@ -1,4 +1,4 @@
-// Steps: split into lines of two numbers -> tell the layout -> points around the section -> scale to the chord -> sense of rotation -> check the shape.
+// Steps: split into lines of two numbers -> detect the layout -> points around the section -> scale to the chord -> orientation -> check the shape.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,9 +14,9 @@ namespace {
 
 /// Lines of text before the points (name, remarks).
 constexpr int k_max_header_lines = 12;
-/// A chord within these limits is 1 to rounding and habit: such files are taken as they are.
+/// A chord within these limits is 1 up to rounding and custom: such files are not scaled.
 constexpr double k_least_unit_chord = 0.95, k_greatest_unit_chord = 1.05;
-/// Radians: a polyline that turns by more at a point has gone back on itself (sumo's limit: 175 degrees).
+/// Radians: a polyline that turns by more at a point reverses its direction (sumo's limit: 175 degrees).
 constexpr double k_sharpest_turn = 3.0543;
 constexpr std::size_t k_fewest_points = 5;
 
@@ -68,7 +68,7 @@ class Parser {
                          "leading edge (Lednicer)"});
   }
 
-  /// The numbers of a line; nothing when any of its words is none.
+  /// Returns the numbers of a line; nothing if any of its words is not a number.
   static std::optional<std::vector<double>> numbers(std::string_view text) {
     std::vector<double> result;
     while (!text.empty()) {
@@ -106,7 +106,7 @@ class Parser {
       if (!values) fail(line.number, "\"" + std::string(line.text) + "\" is not two numbers");
       if (values->size() != 2) fail(line.number, std::to_string(values->size()) + " numbers, 2 are needed");
       const double x = (*values)[0], z = (*values)[1];
-      if (points_.empty() && counts_.empty() && x > 1.5 && z > 1.5) {  // Lednicer's counts; no first point of a section lies there
+      if (points_.empty() && counts_.empty() && x > 1.5 && z > 1.5) {  // Lednicer's counts; the first point of a section is never in this range
         if (x != std::floor(x) || z != std::floor(z) || x > 1e5 || z > 1e5) fail(line.number, "counts of points that are not whole numbers");
         counts_ = {static_cast<std::size_t>(x), static_cast<std::size_t>(z)};
         continue;
@@ -121,7 +121,7 @@ class Parser {
            "the counts say " + std::to_string(counts_[0]) + " + " + std::to_string(counts_[1]) + " points, there are " + std::to_string(points_.size()));
   }
 
-  /// Both sides run aft from the leading edge: x falls back once, by most of the chord.
+  /// Returns true if both sides run aft from the leading edge: x decreases once, by most of the chord.
   bool looks_like_lednicer() {
     const double chord = chord_of(points_);
     if (!(points_.front().p.u < points_[points_.size() / 4].p.u)) return false;
@@ -184,7 +184,7 @@ class Parser {
     for (const NumberedPoint& p : distinct) plain.push_back(p.p);
     const std::size_t nose = airfoil_parts::least_x(plain);
     if (nose == 0 || nose + 1 == plain.size()) fail(distinct[nose].line, "the points do not go around the section: the first or the last one is the foremost");
-    constexpr double k_open_ends = 0.25;  // of the chord
+    constexpr double k_open_ends = 0.25;  // relative to the chord
     if (std::abs(plain.front().u - plain.back().u) > k_open_ends)
       fail(distinct.back().line, "the two ends of the section are apart: x = " + std::to_string(plain.front().u) + " and " + std::to_string(plain.back().u));
   }

@@ -6,7 +6,7 @@
 namespace sterna::airfoil_parts {
 
 std::size_t least_x(const std::vector<Uv>& points) {
-  // Of equal ones the middle one: a vertical nose.
+  // If several points have the smallest x (a vertical nose), take the middle one.
   std::size_t first = 0, last = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].u < points[first].u) first = last = i;

@@ -1,4 +1,4 @@
-// Shared by the files that make airfoils; private to geom/model.
+// Helper functions shared by the airfoil files; private to geom/model.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace sterna::airfoil_parts {
 
-/// Of the chord: points of files that close are one point given twice.
+/// Relative to the chord: points of a file that are closer are treated as one point.
 inline constexpr double k_same_point = 1e-7;
 
-/// Number of the point of least x; of several the middle one.
+/// Returns the index of the point with the smallest x; of several the middle one.
 std::size_t least_x(const std::vector<Uv>& points);
-/// Without repeated neighbours, with its leading edge.
+/// Creates an airfoil without repeated neighbours and determines its leading edge.
 Airfoil make(std::string name, const std::vector<Uv>& points);
 
 }  // namespace sterna::airfoil_parts

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// Part of a turn by which a whole one may be missed: rounding of the files that give angles.
+/// Tolerance of a full turn, relative to it: rounding of angles in files.
 constexpr double k_whole_turn = 1e-12;
 
 bool is_turn(Interval range) { return std::abs(range.length() - k_full_turn.to) <= k_whole_turn * k_full_turn.to; }

@@ -1,5 +1,5 @@
-// Plane, cylinder, cone, sphere, torus with the parameters that OpenCASCADE gives them. Only the plane has an exact NURBS form: a rational form of
-// the others would have another parameter along the circles.
+// Plane, cylinder, cone, sphere and torus with OpenCASCADE's parameters. Only the plane has an exact NURBS form: a rational form of the others has a different
+// parameter along the circles.
 #pragma once
 
 #include <numbers>
@@ -14,7 +14,7 @@ inline constexpr Interval k_full_turn{0.0, 2.0 * std::numbers::pi};
 /// origin + u x + v y.
 class PlaneSurface final : public Surface {
  public:
-  /// \throws Error(bad_argument) for a box of no size
+  /// \throws Error(bad_argument) for a box of zero size
   PlaneSurface(const Frame& frame, const ParameterBox& box);
   ParameterBox domain() const override { return box_; }
   Point point(Uv at) const override { return frame_.origin + at.u * frame_.x + at.v * frame_.y; }
@@ -28,7 +28,7 @@ class PlaneSurface final : public Surface {
   ParameterBox box_;
 };
 
-/// origin + a(v) (cos u x + sin u y) + b(v) z: what all round surfaces share. Periodic in u when the box is a whole turn.
+/// origin + a(v) (cos u x + sin u y) + b(v) z: base class of all surfaces of revolution below. Periodic in u if the box is a full turn.
 class RoundSurface : public Surface {
  public:
   ParameterBox domain() const final { return box_; }
@@ -57,7 +57,7 @@ class RoundSurface : public Surface {
 /// a = radius, b = v.
 class CylinderSurface final : public RoundSurface {
  public:
-  /// \throws Error(bad_argument) unless radius > 0 and the box has a size, at most a turn in u; likewise below
+  /// \throws Error(bad_argument) unless radius > 0 and the box has a size, at most a full turn in u; the same condition applies to the classes below
   CylinderSurface(const Frame& frame, double radius, const ParameterBox& box);
   std::string kind() const override { return "cylinder"; }
   double radius() const { return radius_; }
@@ -93,7 +93,7 @@ class SphereSurface final : public RoundSurface {
   double radius_;
 };
 
-/// a = major + minor cos v, b = minor sin v. Periodic in v too when the box is a whole turn.
+/// a = major + minor cos v, b = minor sin v. Also periodic in v if the box is a full turn.
 class TorusSurface final : public RoundSurface {
  public:
   TorusSurface(const Frame& frame, double major, double minor, const ParameterBox& box = {k_full_turn, k_full_turn});

@@ -1,4 +1,4 @@
-// Bodies: rows of points through the frames -> one surface, periodic around_body -> halves with shared edges at bottom and top -> ends.
+// Bodies: rows of points through the frames -> one surface, periodic around the body -> halves with shared edges at bottom and top -> ends.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,15 +14,15 @@
 namespace sterna {
 namespace {
 
-/// Points of half a frame: a superellipse of exponent 4.5 is met to 1e-4 of its size by so many.
+/// Number of points of half a frame: approximates a superellipse of exponent 4.5 to 1e-4 of its size.
 constexpr std::size_t k_half_points = 32;
-/// A dome may narrow to this part of its foot before its crown; else it would pinch.
+/// Smallest ratio of the crown of a dome to its base; a smaller crown would pinch it.
 constexpr double k_min_crown = 0.25;
 
-/// A ring of the body's surface: where an end begins.
+/// A ring of the body's surface at which an end begins.
 struct Ring {
-  std::vector<Point> poles;         ///< of the ring's curve along u
-  std::vector<Vec3> outwards;       ///< from each pole along the body, away from it; not unit
+  std::vector<Point> poles;         ///< poles of the ring's curve along u
+  std::vector<Vec3> outwards;       ///< from each pole along the body, outwards; not unit vectors
   std::array<EdgeId, 2> halves;     ///< right, left
   std::array<CornerId, 2> corners;  ///< bottom, top
 };
@@ -105,7 +105,7 @@ std::array<EdgeId, 2> BodyBuilder::ring_edges(const NurbsSurfaceForm& form, doub
   return {builder_.edge(curve, {0.0, 0.5}, corners[0], corners[1]), builder_.edge(curve, {0.5, 1.0}, corners[1], corners[0])};
 }
 
-/// Right and left half of a surface that is closed along u.
+/// Adds the right and left half of a surface that is closed along u.
 void BodyBuilder::halves(const NurbsSurfaceForm& form, const std::array<EdgeId, 2>& from, const std::array<EdgeId, 2>& to,
                          const std::array<CornerId, 2>& from_corners, const std::array<CornerId, 2>& to_corners, FaceRole role, const std::string& name) {
   const auto surface = std::make_shared<NurbsSurface>(form, true, false, "bicubic spline");
@@ -134,7 +134,7 @@ SplineOptions around_body() {
 
 void BodyBuilder::skin() {
   const std::size_t n = rows_.size();
-  const std::size_t step = body_.tangents == BodyTangents::linear ? 1 : n - 1;  // frames of one surface
+  const std::size_t step = body_.tangents == BodyTangents::linear ? 1 : n - 1;  // frame intervals per surface
   std::array<EdgeId, 2> edges{};
   std::array<CornerId, 2> corners{};
   NurbsSurfaceForm first, last;
@@ -175,8 +175,8 @@ void BodyBuilder::end(const Ring& ring, const EndCap& cap, FaceRole role, const 
   else builder_.plane({ring.halves[0], ring.halves[1]}, role, patch);
 }
 
-/// Half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side + bulge, side. The bulge
-/// is half the distance of both sides times the height, straight ahead; bottom and top are poles.
+/// Closes a ring by half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side +
+/// bulge, side. The bulge is half the distance of both sides times the height, straight ahead; bottom and top are poles.
 void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const std::string& name) {
   const NurbsCurveForm<Point> around_body = *builder_.model().edges[ring.halves[0]].curve->exact_nurbs();
   const NurbsCurveForm<Point> right = restricted(around_body, {0.0, 0.5}), left = reversed(restricted(around_body, {0.5, 1.0}));
@@ -194,8 +194,9 @@ void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const st
   builder_.patch(std::make_shared<NurbsSurface>(form), {{0.0, 0.5}, {0.0, 1.0}}, {ring.halves[0], top, ring.halves[1], bottom}, role, name);
 }
 
-/// Quarter ellipses from the ring to a crown point, as rational quadratics: foot, foot + slope of the body, crown. All middle poles lie in the plane of
-/// the crown, so the crown is smooth; they lie along the body's own slope, so the foot is too, unless that would pinch the dome: then straight ahead.
+/// Closes a ring by quarter ellipses from the ring to a crown point, as rational quadratics: base, base + slope of the body, crown. All middle poles lie in the
+/// plane of the crown, so the crown is smooth. They lie along the body's own slope, so the base is also smooth, unless that would pinch the dome: then they are
+/// straight ahead.
 void BodyBuilder::dome(const Ring& ring, double height, FaceRole role, const std::string& name) {
   const Point middle = middle_of(ring.poles);
   Vec3 ahead = unit_normal(ring.poles);
@@ -233,7 +234,7 @@ void BodyBuilder::dome(const Ring& ring, double height, FaceRole role, const std
   halves(form, ring.halves, {builder_.pole(top), builder_.pole(top)}, ring.corners, {top, top}, role, name);
 }
 
-/// From the front frame around_body the lip and back to a flat fan face; it leaves the frame along the body's own slope, so the lip is round.
+/// Builds the surface from the front frame around the lip and back to a flat fan face; it leaves the frame along the body's own slope, so the lip is round.
 void BodyBuilder::lip(const Ring& ring) {
   const InletLip& lip = *body_.lip;
   const Point middle = middle_of(ring.poles);
@@ -247,7 +248,7 @@ void BodyBuilder::lip(const Ring& ring) {
                             std::to_string(lip.radial_offset) + ")"});
   double slope = 0.0;
   for (const Vec3& v : ring.outwards) slope += norm(v) / static_cast<double>(ring.outwards.size());
-  constexpr double k_round = 0.5522847498307936;  // a cubic with such arms is a quarter circle
+  constexpr double k_round = 0.5522847498307936;  // a cubic with this tangent length is a quarter circle
   NurbsSurfaceForm form;
   form.degree_u = form.degree_v = 3;
   form.n_u = ring.poles.size();

@@ -1,4 +1,4 @@
-// Bodies from a few numbers: of revolution, booms, fairings, stings.
+// Bodies defined by a few numbers: of revolution, booms, fairings, stings.
 #include <cmath>
 #include <numbers>
 

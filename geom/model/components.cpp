@@ -13,7 +13,7 @@
 namespace sterna {
 namespace {
 
-/// Patch names of engine ends by body.
+/// Returns the patch names of engine ends, by body.
 std::map<std::string, BodyEnds> engine_ends(const std::vector<JetEngine>& engines) {
   std::map<std::string, BodyEnds> ends;
   for (const JetEngine& engine : engines) {
@@ -38,7 +38,7 @@ Part image_of(const Part& part) {
   return image;
 }
 
-/// What is said of a wing's control surfaces: its deflections, and patches of those that have none.
+/// Returns the deflections of a wing's control surfaces, including patches for surfaces without deflection.
 std::vector<Deflection> deflections_of(const Aircraft& aircraft, const Wing& wing) {
   std::vector<Deflection> result;
   for (const Deflection& d : aircraft.deflections)
@@ -82,7 +82,7 @@ void check_wings(const Aircraft& aircraft) {
 Model make_components(const Aircraft& aircraft, const RunContext& context) {
   check_wings(aircraft);
   const std::map<std::string, BodyEnds> ends = engine_ends(aircraft.engines);
-  // In the order of the model; each is made by itself.
+  // In the order of the model; each component is built independently.
   std::vector<std::function<Model()>> makers;
   for (const Body& body : aircraft.bodies) {
     const auto found = ends.find(body.name);

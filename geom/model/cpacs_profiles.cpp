@@ -13,7 +13,7 @@ namespace {
 
 using Node = pugi::xml_node;
 
-/// Points of a unit profile nearer than this are one point written twice: files carry 6 digits and more.
+/// Points of a unit profile nearer than this are one repeated point: files have 6 digits and more.
 constexpr double k_same_profile_point = 1e-9;
 /// Points on each side of an airfoil given by a formula, and on each quarter of a fuselage profile: chord error below 1e-4 of the size.
 constexpr int k_profile_side_points = 60;
@@ -57,7 +57,7 @@ double bernstein_sum(const std::vector<double>& b, double x) {
   return sum;
 }
 
-/// Class-shape transformation after Kulfan: z = x^N1 (1 - x)^N2 sum of Bernstein polynomials + x * half the thickness of the trailing edge.
+/// Class-shape transformation after Kulfan: z = x^N1 (1 - x)^N2 * sum of Bernstein polynomials + x * half the thickness of the trailing edge.
 std::vector<Uv> cst_airfoil(const Document& document, const Node& node) {
   const XmlFile& file = document.file;
   const auto side = [&](const char* n1, const char* n2, const char* b, double sign) {
@@ -77,7 +77,7 @@ std::vector<Uv> cst_airfoil(const Document& document, const Node& node) {
   return points;
 }
 
-/// A quarter from the positive u axis to the positive v axis of |u / a|^m + |v / b|^n = 1, without its end.
+/// Adds a quarter from the positive u axis to the positive v axis of |u / a|^m + |v / b|^n = 1, without its end.
 void add_quarter(std::vector<Uv>& points, double a, double b, double m, double n, double sign_u, double sign_v, double center, bool is_backward) {
   for (int i = 0; i < k_quarter_points; ++i) {
     const int k = is_backward ? k_quarter_points - i : i;
@@ -97,7 +97,7 @@ std::vector<Uv> standard_profile(const Document& document, const Node& node) {
     if (!(lower > 0.0 && lower < 1.0)) file.fail(ellipse, "lowerHeightFraction is " + exact_text(lower) + "; it must be between 0 and 1");
     for (const double exponent : {m_lower, n_lower, m_upper, n_upper})
       if (!(exponent > 0.0)) file.fail(ellipse, "an exponent is " + exact_text(exponent) + "; all must be positive");
-    const double center = lower - 0.5;  // the profile is one high, from -0.5 to 0.5
+    const double center = lower - 0.5;  // the profile has unit height, from -0.5 to 0.5
     add_quarter(points, 0.5, lower, m_lower, n_lower, 1.0, -1.0, center, true);
     add_quarter(points, 0.5, 1.0 - lower, m_upper, n_upper, 1.0, 1.0, center, false);
     add_quarter(points, 0.5, 1.0 - lower, m_upper, n_upper, -1.0, 1.0, center, true);
@@ -151,7 +151,7 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
   const bool is_half = is_open && (std::all_of(points.begin(), points.end(), [](Uv p) { return p.u >= -k_same_profile_point; }) ||
                                    std::all_of(points.begin(), points.end(), [](Uv p) { return p.u <= k_same_profile_point; }));
   if (is_half && symmetry.empty()) document.file.tell(node, "the profile is one half and open; the other half was added");
-  if (symmetry == "x-z-plane" || is_half) {  // one half is given: the other one follows
+  if (symmetry == "x-z-plane" || is_half) {  // one half is given: add the other one
     std::vector<Uv> other = points;
     for (Uv& p : other) p.u = -p.u;
     points.insert(points.end(), other.rbegin(), other.rend());

@@ -1,5 +1,5 @@
-// Reader of CPACS. Steps: header; places of the components (translations may follow those of their parents); wings and pylons; fuselages;
-// nacelles; what else the model holds is told.
+// Reader of CPACS. Steps: header; positions of the components (translations may depend on those of their parents); wings and pylons; fuselages; nacelles;
+// report of other contents of the model.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -68,10 +68,10 @@ Transformation read_transformation(const Document& document, const Node& element
 
 namespace {
 
-/// Farther than this from y = 0, of its own size, a wing's root does not stand in the plane of symmetry.
+/// A wing's root farther than this from y = 0, relative to its size, is not in the plane of symmetry.
 constexpr double k_in_plane = 1e-6;
 
-/// Elements that are not read and that say nothing of the outer shape: no word of them.
+/// Elements that are not read and do not describe the outer shape: no message is issued.
 constexpr std::string_view k_no_shape =
     "structure structuralElements materials fuels systems system global analyses dynamicAircraftModel dynamicAircraftModels wingFuselageAttachments "
     "wingWingAttachments wingFuelTanks compartments decks cargoCrossBeams longFloorBeams performanceCases performanceRequirements missionDefinitions "
@@ -87,7 +87,7 @@ class Reader {
  private:
   struct Element {
     Node node;
-    Transform place;  ///< of the profile into component axes
+    Transform place;  ///< maps the profile into component axes
   };
   void header();
   void read_model(const Node& model);
@@ -108,7 +108,7 @@ class Reader {
   AircraftReading reading_;
 };
 
-/// What an aircraft has a shape without: what cannot be read of it is told and left out, the rest is read.
+/// Reads an optional part of an aircraft: a part that cannot be read is reported and omitted, the rest is read.
 template <class Read>
 void Reader::or_leave_out(const char* what, const Read& read) {
   try {
@@ -138,7 +138,7 @@ bool Reader::is_mirrored(const Node& component) {
   return true;
 }
 
-/// The component's own translation, after those of its parents where it is relative to them (translations only, as TiGL has it).
+/// Returns the component's translation, added to those of its parents if it is relative to them (translations only, as in TiGL).
 Vec3 Reader::translation_of(const Node& component, std::set<std::string>& visited) {
   const Transformation own = read_transformation(document_, component);
   const std::string parent_uid = XmlFile::child_text(component, "parentUID");
@@ -165,7 +165,7 @@ Transform Reader::place_of(const Node& component) {
   return t.matrix();
 }
 
-/// Where the sections stand: each from another one by length, sweep and dihedral.
+/// Returns the positions of the sections: each relative to another one by length, sweep and dihedral.
 std::map<std::string, Vec3> Reader::positionings(const Node& component) {
   struct Step {
     Node node;
@@ -201,7 +201,7 @@ std::map<std::string, Vec3> Reader::positionings(const Node& component) {
   return positions;
 }
 
-/// The elements from the first to the last one along the segments.
+/// Returns the elements from the first to the last one along the segments.
 std::vector<Reader::Element> Reader::chain(const Node& component) {
   struct Link {
     Node node;
@@ -272,7 +272,7 @@ void Reader::wing(const Node& node, bool is_pylon) {
     const bool is_first_in_plane = distance_from_plane(wing.sections.front()) <= k_in_plane * size;
     wing.is_symmetric = is_first_in_plane || distance_from_plane(wing.sections.back()) <= k_in_plane * size;
     wing.has_mirror_image = !wing.is_symmetric;
-    if (is_first_in_plane) {  // ours end there
+    if (is_first_in_plane) {  // our symmetric wings end there
       std::reverse(wing.sections.begin(), wing.sections.end());
       is_turned = true;
     }
@@ -283,10 +283,10 @@ void Reader::wing(const Node& node, bool is_pylon) {
   reading_.aircraft.wings.push_back(std::move(wing));
 }
 
-/// Control surfaces: borders in fractions of their component segment's span, or of another element's.
+/// Reads control surfaces: borders in fractions of the span of their component segment, or of another element.
 void Reader::devices(const Node& node, const Wing& wing, const std::vector<Element>& elements, bool is_turned) {
-  std::vector<double> span{0.0};    // along the mid chord, as the span of our wings is counted
-  std::vector<double> across{0.0};  // the same seen along x, as eta is counted
+  std::vector<double> span{0.0};    // along the mid chord, as the span of our wings is measured
+  std::vector<double> across{0.0};  // the same seen along x, as eta is measured
   const auto middle = [&](std::size_t i) {
     const WingSection& s = wing.sections[is_turned ? elements.size() - 1 - i : i];
     return 0.5 * (s.loop.front() + s.leading_edge);
@@ -311,7 +311,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
   for (const Node segment : node.child("componentSegments").children("componentSegment")) {
     file_.warn_unknown(segment, "uID xsi:type", {"name description fromElementUID toElementUID controlSurfaces", k_no_shape});
     const Node surfaces = segment.child("controlSurfaces");
-    file_.warn_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices spoilers");  // closed spoilers lie in the wing's skin
+    file_.warn_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices spoilers");  // closed spoilers are part of the wing's skin
     for (const char* list : {"trailingEdgeDevices", "leadingEdgeDevices"}) {
       const bool is_trailing = list[0] == 't';
       for (const Node device : surfaces.child(list).children(is_trailing ? "trailingEdgeDevice" : "leadingEdgeDevice")) {
@@ -329,7 +329,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
               if (!at) file_.fail(border, std::string("the element '") + tag + "' is missing");
               return at.child(inner) ? file_.child_number(at, inner, 0.0) : file_.child_number(border, tag, 0.0);
             };
-            // One of both ends may be left out: the border then runs along the flow.
+            // One of both ends may be omitted: the border is then parallel to the flow.
             const char* const other = is_trailing ? "etaTE" : "etaLE";
             const char* hinge_eta = is_trailing ? "etaLE" : "etaTE";
             if (!border.child(hinge_eta) && border.child(other)) hinge_eta = other;

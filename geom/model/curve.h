@@ -1,4 +1,4 @@
-// Curves: what an edge lies on, in space and in a face's parameter plane. Immutable and shared; every member may be called from many threads.
+// Curves that edges lie on, in space and in a face's parameter plane. Immutable and shared; every member may be called from many threads.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ struct CurveDerivatives {
   Vec3 second;  ///< d2/dt2
 };
 
-/// Curve in space, metres over a parameter t. Evaluators accept any t of the domain (and of any period, when periodic); outside they extend
-/// the end pieces, never throw.
+/// Curve in space, metres over a parameter t. Evaluators accept any t of the domain (and of any period, if periodic). Outside the domain they extend the end
+/// pieces and never throw.
 class Curve {
  public:
   virtual ~Curve() = default;
@@ -24,9 +24,9 @@ class Curve {
   virtual bool is_periodic() const { return false; }
   virtual Point point(double t) const = 0;
   virtual CurveDerivatives derivatives(double t) const = 0;
-  /// Parameters inside the domain, ascending, where the curve is less than twice continuously differentiable.
+  /// Returns the parameters inside the domain, ascending, where the curve is less than twice continuously differentiable.
   virtual std::vector<double> breaks() const { return {}; }
-  /// The same curve, same parameter, as NURBS; nothing where there is no exact form.
+  /// Returns the same curve with the same parameter as NURBS; empty if there is no exact form.
   virtual std::optional<NurbsCurveForm<Point>> exact_nurbs() const { return std::nullopt; }
 };
 using CurvePtr = std::shared_ptr<const Curve>;

@@ -12,11 +12,11 @@ namespace sterna {
 namespace {
 
 constexpr double k_turn = 2.0 * std::numbers::pi;
-/// Part of a turn by which a whole one may be missed: rounding of the files that give angles.
+/// Tolerance of a full turn, relative to it: rounding of angles in files.
 constexpr double k_same_turn = 1e-12;
-/// Cosine of the angle between the axes of an ellipse that counts as a right one.
+/// Cosine of the angle between the axes of an ellipse below which they count as orthogonal.
 constexpr double k_right_angle = 1e-9;
-/// Part of a domain by which a view may reach beyond it: rounding of its own limits.
+/// Allowed overreach of a view beyond its domain, relative to it: rounding of its own limits.
 constexpr double k_overreach = 1e-9;
 
 void check_domain(Interval domain, const char* attempted) {

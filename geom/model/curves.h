@@ -1,4 +1,4 @@
-// Lines, circles, ellipses in space and in parameter planes; parts and other parameters of any curve.
+// Lines, circles and ellipses in space and in parameter planes; sub-curves and reparametrisations of any curve.
 #pragma once
 
 #include "geom/model/curve.h"
@@ -9,7 +9,7 @@ namespace sterna {
 /// origin + t * direction; the direction's length is the speed.
 class LineCurve final : public Curve {
  public:
-  /// \throws Error(bad_argument) for a direction or a domain of no length
+  /// \throws Error(bad_argument) for a direction or a domain of zero length
   LineCurve(const Point& origin, const Vec3& direction, Interval domain);
   Interval domain() const override { return domain_; }
   Point point(double t) const override { return origin_ + t * direction_; }
@@ -23,15 +23,15 @@ class LineCurve final : public Curve {
   Vec3 direction_;
   Interval domain_;
 };
-/// From a to b with t in [0, distance].
+/// Returns the line segment from a to b with t in [0, distance].
 /// \throws Error(bad_argument) when they coincide
 CurvePtr segment(const Point& a, const Point& b);
 
-/// centre + cos t * x + sin t * y: circle or ellipse, or an arc of it; periodic when the domain is a whole turn. x and y carry the half axes. No exact
-/// NURBS: a rational form would have another parameter.
+/// centre + cos t * x + sin t * y: circle or ellipse, or an arc of it; periodic if the domain is a full turn. x and y are the half axes. No exact NURBS form: a
+/// rational form has a different parameter.
 class EllipseCurve final : public Curve {
  public:
-  /// \throws Error(bad_argument) when x, y are not at right angles (to 1e-9) or have no length, or the domain none or more than a turn
+  /// \throws Error(bad_argument) if x and y are not orthogonal (to 1e-9) or have zero length, or the domain has zero length or is more than a full turn
   EllipseCurve(const Point& centre, const Vec3& x, const Vec3& y, Interval domain);
   Interval domain() const override { return domain_; }
   bool is_periodic() const override { return is_periodic_; }
@@ -47,14 +47,14 @@ class EllipseCurve final : public Curve {
   Interval domain_;
   bool is_periodic_;
 };
-/// Circle about frame.z.
+/// Returns the circle about frame.z.
 /// \throws Error(bad_argument) unless radius > 0
 CurvePtr circle(const Frame& frame, double radius, Interval angles);
 
-/// base(scale * t + shift) on its own domain: a part, other units, or backwards (scale < 0).
+/// base(scale * t + shift) with its own domain: a part of the base, a rescaled parameter, or the reversed curve (scale < 0).
 class CurveView final : public Curve {
  public:
-  /// \throws Error(bad_argument) for scale 0, or when the domain's image is not in the base's (to 1e-9 of its length) and the base is not periodic
+  /// \throws Error(bad_argument) for scale 0, or if the image of the domain is not within that of the base (to 1e-9 of its length) and the base is not periodic
   CurveView(CurvePtr base, Interval domain, double scale, double shift);
   Interval domain() const override { return domain_; }
   bool is_periodic() const override;
@@ -71,17 +71,17 @@ class CurveView final : public Curve {
   Interval domain_;
   double scale_, shift_;
 };
-/// The part `range` of a curve, same parameter.
+/// Returns the part `range` of a curve, with the same parameter.
 CurvePtr part_of(const CurvePtr& curve, Interval range);
-/// The same curve with its parameter stretched to `domain`.
+/// Returns the same curve with its parameter mapped linearly to `domain`.
 CurvePtr reparametrised(const CurvePtr& curve, Interval domain);
-/// Backwards over the same domain.
+/// Returns the reversed curve over the same domain.
 CurvePtr reversed(const CurvePtr& curve);
 
 /// origin + t * direction in a parameter plane.
 class ParameterLine final : public ParameterCurve {
  public:
-  /// \throws Error(bad_argument) for a direction or a domain of no length
+  /// \throws Error(bad_argument) for a direction or a domain of zero length
   ParameterLine(Uv origin, Uv direction, Interval domain);
   Interval domain() const override { return domain_; }
   Uv point(double t) const override { return origin_ + t * direction_; }
@@ -94,14 +94,14 @@ class ParameterLine final : public ParameterCurve {
   Uv origin_, direction_;
   Interval domain_;
 };
-/// From a at the domain's start to b at its end.
+/// Returns the line from a at the domain's start to b at its end.
 /// \throws Error(bad_argument) when they coincide
 ParameterCurvePtr parameter_segment(Uv a, Uv b, Interval domain = {0.0, 1.0});
 
-/// centre + cos t * x + sin t * y in a parameter plane: circle or ellipse, or an arc of it. No exact NURBS, as for EllipseCurve.
+/// centre + cos t * x + sin t * y in a parameter plane: circle or ellipse, or an arc of it. No exact NURBS form, as for EllipseCurve.
 class ParameterArc final : public ParameterCurve {
  public:
-  /// \throws Error(bad_argument) when x and y are parallel, or the domain has no length
+  /// \throws Error(bad_argument) if x and y are parallel or the domain has zero length
   ParameterArc(Uv centre, Uv x, Uv y, Interval domain);
   Interval domain() const override { return domain_; }
   Uv point(double t) const override;

@@ -1,4 +1,4 @@
-// Steps: images on the other half -> checks -> places along the span where a deflection begins, bends or ends -> rows there -> every row turned by the
+// Steps: images on the other half -> checks -> locations along the span where a deflection begins, bends or ends -> rows there -> rotation of every row by the
 // deflections that reach it -> patches where the hinge lines cross the rows' sides.
 #include "geom/model/deflection.h"
 
@@ -15,16 +15,16 @@
 namespace sterna {
 namespace {
 
-/// Beyond, the knee would need more room than the profile has.
+/// Limit of the angle; beyond it the bend needs more room than the profile has.
 constexpr double k_max_angle = std::numbers::pi / 3.0;
-/// Places along the span nearer than this part of it are one.
+/// Locations along the span nearer than this fraction of it are identical.
 constexpr double k_same_span = 1e-9;
-/// Hinge points nearer than this part of the span to a section, a tip or another surface's hinge point are meant to be there: files say them with few digits,
-/// and slivers between are of no use.
+/// Hinge points nearer than this fraction of the span to a section, a tip or another surface's hinge point are moved there: files give them with few digits,
+/// and narrow strips between are useless.
 constexpr double k_snap = 1e-4;
-/// Hinges of open surfaces nearer to an edge than this part of the chord leave no solid.
+/// Hinges of open surfaces nearer to an edge than this fraction of the chord leave no solid.
 constexpr double k_min_open_chord = 0.03;
-/// Half width of the knee, in thicknesses of the section at the hinge; a turn by 60 degrees needs 0.5 not to fold.
+/// Half width of the bend, in thicknesses of the section at the hinge; a rotation by 60 degrees requires 0.5 to avoid folding.
 constexpr double k_knee = 1.0;
 
 using Row = std::vector<Point>;
@@ -39,12 +39,12 @@ double smooth_step(double t) {
   return t * t * t * (10.0 + t * (6.0 * t - 15.0));
 }
 
-/// Where a deflection acts along the span, and how far beside its ends it fades.
+/// Range of a deflection along the span, and the width beside its ends over which it fades.
 struct Reach {
   double from, to;
-  double fade;           ///< of the span
+  double fade;           ///< fraction of the span
   double slot = 0.0;     ///< metres
-  double end_gap = 0.0;  ///< of the span
+  double end_gap = 0.0;  ///< fraction of the span
 };
 
 Reach reach_of(const Deflection& d, const WingSpan& span) {
@@ -58,7 +58,7 @@ Reach reach_of(const Deflection& d, const WingSpan& span) {
 }
 
 bool is_open(const Deflection& d) { return d.gap == ControlGap::open; }
-/// The skin itself bends.
+/// Returns true if the skin itself bends.
 bool is_bending(const Deflection& d) { return d.angle != 0.0 && !is_open(d); }
 
 double hinge_chord(const Deflection& d, double s) {
@@ -71,7 +71,7 @@ double hinge_chord(const Deflection& d, double s) {
   return hinge.back().chord;
 }
 
-/// Point of the hinge line in a row: half way between upper and lower side; and the thickness there.
+/// Point of the hinge line in a row, half way between upper and lower side, and the thickness there.
 struct HingePlace {
   Point point;
   double thickness = 0.0;
@@ -80,7 +80,7 @@ HingePlace hinge_place(const Row& row, double fraction) {
   const Vec3 chord = chord_vector(row);
   const auto part = [&](const Point& p) { return dot(p - row[k_nose], chord) / norm2(chord); };
   const auto side = [&](bool is_upper) {
-    for (std::size_t k = 0; k < k_nose; ++k) {  // from the trailing edge towards the nose
+    for (std::size_t k = 0; k < k_nose; ++k) {  // from the trailing edge to the nose
       const Point &a = is_upper ? row[k] : row[2 * k_nose - k], &b = is_upper ? row[k + 1] : row[2 * k_nose - k - 1];
       if (part(b) <= fraction && part(a) >= fraction) return part(a) == part(b) ? a : a + (part(a) - fraction) / (part(a) - part(b)) * (b - a);
     }
@@ -131,7 +131,7 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
       if (!share_an_edge(a, b)) continue;
       Reach p = reach_of(a, span), q = reach_of(b, span);
       for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
-        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // something must be left between
+        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // a part of the wing must remain between
         else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
         refuse_deflection(ErrorCode::bad_argument, a,
@@ -141,7 +141,7 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
     }
 }
 
-/// Another end of the hinge, on its line. False where nothing would be left.
+/// Moves an end of the hinge along its line. Returns false if nothing would remain.
 bool draw_in(Deflection& d, bool is_first, double span) {
   std::vector<HingePoint>& hinge = d.surface.hinge;
   if (is_first ? span >= hinge.back().span - k_same_span : span <= hinge.front().span + k_same_span) return false;
@@ -153,13 +153,13 @@ bool draw_in(Deflection& d, bool is_first, double span) {
 
 Point hinge_point(const HingePoint& h, const WingSpan& span) { return hinge_place(span.row(span.place_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; }
 
-/// Unit direction; positive angles about it turn trailing edges down: about +y (a fin: +z, to the right).
+/// Returns the unit direction; positive angles about it turn trailing edges down: about +y (a fin: +z, to the right).
 Vec3 hinge_axis(const Point& a, const Point& b) {
   const Vec3 axis = normalized(b - a);
   return (std::abs(axis.y) >= std::abs(axis.z) ? axis.y < 0.0 : axis.z < 0.0) ? -axis : axis;
 }
 
-/// Turns the moving part of a row; points that do not move stay to the bit.
+/// Rotates the moving part of a row; points that do not move are unchanged to the bit.
 void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   const Reach reach = reach_of(d, span);
   const double outside = std::max({reach.from - s, s - reach.to, 0.0});
@@ -167,7 +167,7 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   if (share == 0.0) return;
   const double fraction = hinge_chord(d, s);
   const HingePlace hinge = hinge_place(row, fraction);
-  // The hinge line around here: of the straight part of it that s is on.
+  // The hinge line here is the straight segment that contains s.
   std::size_t i = 0;
   while (i + 2 < d.surface.hinge.size() && s > d.surface.hinge[i + 1].span) ++i;
   const Vec3 axis = hinge_axis(hinge_point(d.surface.hinge[i], span), hinge_point(d.surface.hinge[i + 1], span));
@@ -185,7 +185,7 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   }
 }
 
-/// Where the wing ends before an open slot: as far from the middle of the hinge as the moving part's round nose, and the slot more.
+/// Returns the end of the wing before an open slot: its distance from the middle of the hinge is that of the moving part's round nose plus the slot.
 RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge, double slot) {
   const auto [upper, lower] = points_at(row, hinge);
   const std::optional<RowCrossing> lip =
@@ -195,7 +195,7 @@ RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge
   return *lip;
 }
 
-/// The hinge of an open surface: straight in space between its ends.
+/// The hinge of an open surface: a straight line in space between its ends.
 struct StraightHinge {
   Point from, to;
   Vec3 axis;
@@ -206,9 +206,9 @@ StraightHinge straight_hinge(const Deflection& d, const WingSpan& span, const Re
   return {from, to, hinge_axis(from, to)};
 }
 
-/// Where the straight hinge crosses a row, as a fraction of its chord; the middle between both sides must be near to it there.
+/// Returns the fraction of its chord at which the straight hinge crosses a row; the hinge must be near the midpoint between both sides there.
 double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row& row, double slot) {
-  /// Part of the slot that the middle of a section may be off the hinge; more, and the moving part would touch the wing.
+  /// Largest distance between the middle of a section and the hinge, relative to the slot; with more the moving part would touch the wing.
   constexpr double k_max_bend = 0.5;
   Vec3 normal;
   for (std::size_t i = 0; i + 1 < row.size(); ++i) normal += cross(row[i] - row[0], row[i + 1] - row[0]);
@@ -226,7 +226,7 @@ double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row
   return fraction;
 }
 
-/// With the images on the other half of a symmetric wing.
+/// Adds the images on the other half of a symmetric wing.
 std::vector<Deflection> with_images(const Wing& wing, const std::vector<Deflection>& deflections) {
   std::vector<Deflection> all;
   for (const Deflection& d : deflections) {
@@ -240,7 +240,7 @@ std::vector<Deflection> with_images(const Wing& wing, const std::vector<Deflecti
   return all;
 }
 
-/// Hinge points moved to the sections and to each other where they are meant to be.
+/// Moves hinge points to nearby sections and to each other.
 void snap(std::vector<Deflection>& deflections, const WingSpan& span) {
   std::vector<double> targets = span.fractions();
   for (Deflection& d : deflections)
@@ -251,11 +251,11 @@ void snap(std::vector<Deflection>& deflections, const WingSpan& span) {
     }
 }
 
-/// Ends of the moving part of an open surface; at a tip there is no gap.
+/// Returns an end of the moving part of an open surface; at a tip there is no gap.
 double moving_from(const Reach& reach) { return reach.from > 0.0 ? reach.from + reach.end_gap : 0.0; }
 double moving_to(const Reach& reach) { return reach.to < 1.0 ? reach.to - reach.end_gap : 1.0; }
 
-/// Where the wing gets rows, in fractions of the span, and whether it may have a kink there.
+/// Location of a row of the wing as a fraction of the span, and if a kink is allowed there.
 struct Stop {
   double at;
   bool is_break;
@@ -274,7 +274,7 @@ std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& 
     if (is_open(d) && d.surface.kind == ControlKind::all_moving)
       for (const double s : {reach.from, moving_from(reach), moving_to(reach), reach.to}) stops.push_back({s, true, false});
     if (!is_bending(d)) continue;
-    constexpr int k_fade_steps = 4;  // the fade is a quintic: straight pieces of it
+    constexpr int k_fade_steps = 4;  // the fade is a quintic, approximated by straight pieces
     for (int i = 0; i <= k_fade_steps; ++i) {
       const bool is_break = i == 0 || i == k_fade_steps;
       stops.push_back({reach.from - reach.fade * i / k_fade_steps, is_break, false});
@@ -290,7 +290,7 @@ std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& 
       kept.push_back(stop);
       continue;
     }
-    if (stop.is_own) kept.back().at = stop.at;  // of places that coincide the sections' own ones stay
+    if (stop.is_own) kept.back().at = stop.at;  // where locations coincide, those of sections are kept
     kept.back().is_own = kept.back().is_own || stop.is_own;
     kept.back().is_break = kept.back().is_break || stop.is_break;
   }
@@ -299,7 +299,7 @@ std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& 
 
 Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& stops, const std::vector<Deflection>& deflections) {
   Wing bent = wing;
-  bent.is_symmetric = bent.has_winglet = false;  // its rows hold the blend already
+  bent.is_symmetric = bent.has_winglet = false;  // its rows already include the blend
   bent.is_cubic = std::any_of(stops.begin(), stops.end(), [](const Stop& s) { return !s.is_break; });
   bent.sections.clear();
   if (wing.is_symmetric) bent.left_tip = wing.left_tip;
@@ -317,7 +317,7 @@ Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& 
   return bent;
 }
 
-/// Of a fraction of the span: its place among the stops (those within rounding are the same), or among the wing's own rows where there are none.
+/// Returns the index of a fraction of the span among the stops (within rounding), or among the wing's own rows if there are no stops.
 double place_among(const WingSpan& span, const std::vector<Stop>& stops, double s) {
   if (stops.empty()) {
     const double place = span.place_of(s);
@@ -330,7 +330,7 @@ double place_among(const WingSpan& span, const std::vector<Stop>& stops, double 
   return static_cast<double>(stops.size() - 1);
 }
 
-/// The patch of a control surface; places are counted in `stops`, or in the wing's own rows where there are none.
+/// Returns the patch of a control surface; locations are counted in `stops`, or in the wing's own rows if there are none.
 WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<Stop>& stops) {
   const Reach reach = reach_of(d, span);
   std::vector<double> at{reach.from, reach.to};
@@ -371,8 +371,8 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
 
 std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections) {
   const WingSpan span(wing);
-  constexpr int k_rounds = 8;  // a fairing is a share of the chord at its surface's ends, which move
-  // What stands beside the ends of a surface: its fairing, or the gap beside a part of its own; nothing beside a patch.
+  constexpr int k_rounds = 8;  // the fairing is a fraction of the chord at the surface's ends, which move
+  // Width beside the ends of a surface: its fairing, or the gap beside a separate part; zero beside a patch.
   const auto beside = [](const Deflection& d, const Reach& reach) { return is_open(d) ? reach.end_gap : is_bending(d) ? reach.fade : 0.0; };
   bool is_tight = true;
   for (int round = 0; round < k_rounds && is_tight; ++round) {
@@ -409,7 +409,7 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface) {
   const double end = static_cast<double>(span.rows().size() - 1);
   for (HingePoint& h : surface.hinge) {
     const double place = span.place_from_root(wing, h.span);
-    // Beyond the ends (over the tip) lengths go on as they are.
+    // Beyond the ends (over the tip) lengths are extrapolated.
     h.span = place < 0.0 || place > end ? (place < 0.0 ? -1e-3 : 1.0 + 1e-3) : span.fraction_of(place);
   }
   std::sort(surface.hinge.begin(), surface.hinge.end(), [](const HingePoint& a, const HingePoint& b) { return a.span < b.span; });

@@ -30,7 +30,7 @@ void replace_geometry(Model& model, const SurfaceMap& map_surface, const CurveMa
     if (is_new) place->second = map_curve(edge.curve);
     edge.curve = place->second;
   }
-  model.shape.reset();  // it shows the old geometry
+  model.shape.reset();  // it represents the old geometry
 }
 
 double largest_stretch(const Vec3& x, const Vec3& y, const Vec3& z) {
@@ -45,7 +45,7 @@ void scale_tolerances(Model& model, double factor) {
   for (ModelFace& face : model.faces) face.tolerance *= factor;
 }
 
-/// Parameters between and at the breaks, evenly.
+/// Returns parameters at and evenly between the breaks.
 std::vector<double> samples_of(Interval range, std::vector<double> stops) {
   stops.insert(stops.begin(), range.from);
   stops.push_back(range.to);
@@ -57,13 +57,13 @@ std::vector<double> samples_of(Interval range, std::vector<double> stops) {
   return result;
 }
 
-/// The parameters that a face uses: the box of its outer border, as far as samples of it tell.
+/// Returns the parameters that a face uses: the box of its outer border, estimated from samples.
 ParameterBox used_box(const Model& model, const ModelFace& face) {
   if (face.borders.empty() || face.borders.front().empty()) return face.surface->domain();
   constexpr int k_border_samples = 16;
   Uv low{1e300, 1e300}, high{-1e300, -1e300};
   for (const EdgeUse& use : face.borders.front()) {
-    const Interval range = model.edges[use.edge].range;  // the parameter curve may go on beyond it
+    const Interval range = model.edges[use.edge].range;  // the parameter curve may extend beyond it
     for (int i = 0; i <= k_border_samples; ++i) {
       const Uv p = use.parameter->point(range.from + range.length() * i / k_border_samples);
       low = {std::min(low.u, p.u), std::min(low.v, p.v)};
@@ -75,7 +75,7 @@ ParameterBox used_box(const Model& model, const ModelFace& face) {
 
 struct FaceStretch {
   double largest = 0.0;
-  std::vector<std::pair<double, Point>> folded;  ///< determinant, place
+  std::vector<std::pair<double, Point>> folded;  ///< determinant, location
 };
 
 std::vector<double> inside(const std::vector<double>& breaks, Interval range) {
@@ -99,7 +99,7 @@ FaceStretch measure(const Model& model, const ModelFace& face, const SpaceMap& m
   return result;
 }
 
-/// Refuses a map that folds space over on the model's faces; returns the largest stretching.
+/// Rejects a map that folds over on the model's faces; returns the largest stretching.
 double check_fold_over(const Model& model, const SpaceMap& map, const RunContext& context) {
   std::vector<FaceStretch> faces(model.faces.size());
   parallel_for(
@@ -144,7 +144,7 @@ Model transformed(const Model& model, const Transform& t) {
 
 namespace {
 
-/// Not a part of a longer word ("support"); "WingLeft" and "wing_left" count.
+/// Returns true unless the match is part of a longer word ("support"); "WingLeft" and "wing_left" are matches.
 bool is_word(const std::string& name, std::size_t at, std::size_t size) {
   const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
   const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };

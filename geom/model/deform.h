@@ -1,4 +1,4 @@
-// Whole models moved, mirrored and deformed: every curve and surface once, so edges that are shared stay shared; meshes on them follow.
+// Moves, mirrors and deforms whole models: each curve and surface once, so that shared edges stay shared and meshes on them follow.
 #pragma once
 
 #include <functional>
@@ -13,28 +13,29 @@
 
 namespace sterna {
 
-/// The model moved, turned, scaled, mirrored; a mirror keeps outward normals outward. `shape` is dropped.
-/// \throws Error(bad_argument) when T flattens space
+/// Returns the model moved, rotated, scaled or mirrored; a mirror keeps outward normals outward. `shape` is dropped.
+/// \throws Error(bad_argument) if the transform is singular
 Model transformed(const Model& model, const Transform& transform);
 
-/// New name of a component, face, solid or edge from its old one.
+/// Maps the old name of a component, face, solid or edge to its new name.
 using NameRule = std::function<std::string(const std::string&)>;
-/// "left wing" -> "right wing", "Starboard" -> "Port" ...; a name without a side gets " mirrored".
+/// Mirrors a name: "left wing" -> "right wing", "Starboard" -> "Port" ...; a name without a side gets " mirrored".
 std::string mirrored_name(const std::string& name);
-/// The same for names that become patches of meshes, without blanks: a name without a side gets "Left" ("RightNacelle" -> "LeftNacelle", "pod" -> "podLeft").
+/// Mirrors a name that becomes a patch name of meshes, without blanks: a name without a side gets "Left" ("RightNacelle" -> "LeftNacelle", "pod" -> "podLeft").
 std::string image_name(const std::string& name);
-/// Mirror image in the plane through `at`; empty names stay empty.
-/// \throws Error(bad_argument) for a normal without a direction
+/// Returns the mirror image in the plane through `at`; empty names stay empty.
+/// \throws Error(bad_argument) for a normal of zero length
 Model mirrored(const Model& model, const Point& at, const Vec3& normal, const NameRule& rename = mirrored_name);
 
-/// Intervals of the fold-over check in each direction of a face's (u, v) box; where its surface has more breaks, these are the samples.
+/// Number of intervals of the fold-over check in each direction of a face's (u, v) box; if its surface has more breaks, these are the samples.
 inline constexpr int k_fold_over_samples = 32;
 
-/// The model seen through a map: no refit, parameters, names and topology stay, `shape` is dropped; tolerances grow with the largest stretching found.
-/// \throws Error(self_intersection) where space folds over (determinant of the Jacobian <= 0 at a sample of a face's surface), worst places first
+/// Returns the model composed with a map: no refit, parameters, names and topology are unchanged, `shape` is dropped; tolerances grow with the largest
+/// stretching found.
+/// \throws Error(self_intersection) where the map folds over (determinant of the Jacobian <= 0 at a sample of a face's surface), worst locations first
 Model deformed(const Model& model, const SpaceMapPtr& map, const RunContext& context);
 
-/// Where a vertex of a surface mesh lies on its model.
+/// Location of a surface mesh vertex on its model.
 struct VertexPlace {
   FaceId face;
   Uv at;

@@ -1,7 +1,7 @@
 // Green's theorem on the grid of the surface's knots. With any base line u = b, the integral of g over the face is that of (integral of g from b to u) dv along
-// its border. Every piece of the border takes the knot line to its left as its base, so that its inner integral stays within one cell and is smooth; where the
-// base changes from one piece to the next, at v, the integral over the columns between both bases up to v is made up for, from a table of whole cells and
-// one partial cell for each column. Steps: pieces of border between crossings with the grid; table; sum over pieces; sum over changes of base; box of samples.
+// its border. Every piece of the border uses the knot line to its left as its base, so that its inner integral stays within one cell and is smooth. Where the
+// base changes from one piece to the next, at v, the integral over the columns between both bases up to v is added, from a table of whole cells and one partial
+// cell for each column. Steps: pieces of border between crossings with the grid; table; sum over pieces; sum over changes of base; box of samples.
 #include "geom/model/face_quadrature.h"
 
 #include <algorithm>
@@ -19,20 +19,21 @@ constexpr std::array<double, 6> k_nodes = {0.033765242898423975, 0.1693953067668
                                            0.61930959304159849,  0.83060469323313224, 0.96623475710157603};
 constexpr std::array<double, 6> k_weights = {0.085662246189585178, 0.18038078652406929, 0.23395696728634552,
                                              0.23395696728634552,  0.18038078652406929, 0.085662246189585178};
-/// The same to degree 3, for a first look.
+/// Gauss-Legendre exact to degree 3, for a first estimate.
 constexpr std::array<double, 2> k_few_nodes = {0.21132486540518713, 0.78867513459481287};
 constexpr std::array<double, 2> k_few_weights = {0.5, 0.5};
-/// Pieces of a direction without knots: sines and cosines over a full turn are integrated to rounding by so many.
+/// Number of pieces of a direction without knots: integrates sines and cosines over a full turn to rounding.
 constexpr int k_plain_pieces = 12;
-/// Parts of an interval between knots where the pieces are no polynomials of degree 3 or less.
+/// Parts of an interval between knots if the pieces are not polynomials of degree 3 or less.
 constexpr int k_parts = 3;
-/// Grids of twice the parts are tried until area and volume agree to this share, or so many are done: kinks that no knot tells of converge slowly, and each try
-/// costs four times the one before. Smooth faces gain a factor of 4000 by each: what agrees to 1e-8 is right to 1e-11.
+/// The number of parts is doubled until area and volume agree to this fraction, or the maximum number of refinements is reached: kinks that are not at knots
+/// converge slowly, and each refinement costs four times the previous one. On smooth faces each gains a factor of 4000: agreement to 1e-8 means an error of
+/// 1e-11.
 constexpr double k_agreement = 1e-8;
 constexpr int k_tries = 3;
-/// Parts of a piece of border in each of which it may cross a knot line once; more crossings cost accuracy, not more.
+/// Parts of a piece of border, each of which may cross a knot line once; further crossings only reduce accuracy.
 constexpr int k_border_parts = 4;
-/// Halvings in search of a crossing: to rounding.
+/// Bisections in search of a crossing: to rounding.
 constexpr int k_halvings = 50;
 
 bool is_simple(int degree, const std::vector<double>& weights) { return degree <= 3 && weights.empty(); }
@@ -51,7 +52,7 @@ std::vector<double> refined(const std::vector<double>& knots, int parts) {
   return fine;
 }
 
-/// Lines of the grid in one direction, over the part that the face uses.
+/// Returns the grid lines in one direction, over the part that the face uses.
 std::vector<double> grid_lines(std::vector<double> knots, bool has_knots, int parts, const Interval& domain, bool is_periodic, const Interval& used) {
   if (!has_knots) return refined({used.from, used.to}, parts / k_parts * k_plain_pieces);
   if (is_periodic && domain.length() > 0.0) {
@@ -67,7 +68,7 @@ std::vector<double> grid_lines(std::vector<double> knots, bool has_knots, int pa
   return refined(distinct(std::move(knots)), parts);
 }
 
-/// Column or row of a parameter; beyond the grid the outermost.
+/// Returns the column or row of a parameter; beyond the grid the outermost one.
 std::size_t cell_of(const std::vector<double>& lines, double at) {
   const auto above = static_cast<std::size_t>(std::upper_bound(lines.begin(), lines.end(), at) - lines.begin());
   return std::clamp<std::size_t>(above, 1, lines.size() - 1) - 1;
@@ -101,7 +102,7 @@ class FaceIntegral {
     return {area, dot(x, n) / 3.0, 0.5 * std::abs(n.z), n, area * x, 0.5 * Vec3{x.x * x.x * n.x, x.y * x.y * n.y, x.z * x.z * n.z}};
   }
 
-  /// The parameter curve may go on beyond its edge.
+  /// Returns the parameters at which an edge use is divided, within the range of the edge: the parameter curve may extend beyond it.
   std::vector<double> steps_of(const EdgeUse& use) const {
     const Interval range = model_.edges[use.edge].range;
     const std::optional<NurbsCurveForm<Uv>> form = use.parameter->exact_nurbs();
@@ -146,7 +147,7 @@ class FaceIntegral {
     return sum;
   }
 
-  /// Integral over a column from the first row to `v`.
+  /// Returns the integral over a column from the first row to `v`.
   FaceSums column_up_to(std::size_t column, double v) {
     std::vector<FaceSums>& whole = columns_[column];
     if (whole.empty()) {
@@ -163,7 +164,7 @@ class FaceIntegral {
     return sum;
   }
 
-  /// Parameters between `from` and `to` where the curve crosses a line, by halving; it is taken as monotone.
+  /// Finds parameters between `from` and `to` where the curve crosses a line, by bisection; the curve is assumed monotone.
   template <class Coordinate>
   static void add_crossings(const std::vector<double>& lines, double from, double to, const Coordinate& coordinate, std::vector<double>& crossings) {
     const double a = coordinate(from), b = coordinate(to);
@@ -223,7 +224,7 @@ class FaceIntegral {
     add_sample(piece.curve->point(piece.from + 0.5 * length));
   }
 
-  /// The pieces before count from the line of one column, those after from that of another: what lies between both, up to v.
+  /// Adds the integral between two bases up to v: the previous pieces count from the line of one column, the following ones from that of another.
   void change_base(std::size_t before, std::size_t after, double v) {
     for (std::size_t c = std::min(before, after); c < std::max(before, after); ++c) total_.add(before > after ? 1.0 : -1.0, column_up_to(c, v));
   }
@@ -234,7 +235,7 @@ class FaceIntegral {
     high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
   }
 
-  /// Middles and corners of cells that lie inside of the border, row by row: between odd and even crossings.
+  /// Adds the middles and corners of cells inside the border, row by row: between odd and even crossings.
   void add_inner_samples() {
     const std::vector<double> us = refined(u_, 2), vs = refined(v_, 2);
     for (std::size_t j = 1; j + 1 < vs.size(); ++j) {

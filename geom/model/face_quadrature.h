@@ -7,7 +7,7 @@
 
 namespace sterna {
 
-/// Sums of what model_measures integrates, du x dv as the normal.
+/// Sums of the quantities integrated by model_measures, with du x dv as the normal.
 struct FaceSums {
   double area = 0.0, volume = 0.0, projected = 0.0;
   Vec3 normal, area_moment, volume_moment;
@@ -24,12 +24,13 @@ struct FaceSums {
 struct FaceQuadrature {
   FaceSums sums;
   Point low, high;     ///< box of the samples inside and on the border
-  double error = 0.0;  ///< m2: change of the area, or of the volume over the largest distance, by the last refinement: an upper bound where the face is smooth
+  double error = 0.0;  ///< m2: change of the area (or of the volume divided by the largest distance) by the last refinement: an upper bound if the face is
+                       ///< smooth
 };
-/// \pre the face has a border
+/// Integrates over a face. \pre the face has a border
 FaceQuadrature integrate_face(const Model& model, FaceId face, const Point& about);
 
-/// The same from few samples, at a hundredth of the cost; `error` stays 0, as nothing is known of it.
+/// Integrates with few samples, at a hundredth of the cost; `error` stays 0, since it is not estimated.
 /// \pre the face has a border
 FaceQuadrature integrate_face_roughly(const Model& model, FaceId face, const Point& about);
 

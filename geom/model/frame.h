@@ -1,4 +1,4 @@
-// Frames and affine maps of space.
+// Coordinate frames and affine maps of space.
 #pragma once
 
 #include "geom/base/vec3.h"
@@ -11,12 +11,12 @@ struct Frame {
   Vec3 x{1.0, 0.0, 0.0};
   Vec3 y{0.0, 1.0, 0.0};
   Vec3 z{0.0, 0.0, 1.0};
-  /// In the frame's own coordinates.
+  /// Returns the coordinates of a point in the frame.
   Vec3 local(const Point& p) const { return {dot(p - origin, x), dot(p - origin, y), dot(p - origin, z)}; }
   Point global(const Vec3& p) const { return origin + p.x * x + p.y * y + p.z * z; }
 };
 
-/// Right-handed frame with the given z axis (any length); x as near to `x_hint` as it can be, any direction when that is empty or along z.
+/// Returns a right-handed frame with the given z axis (any length); x as close to `x_hint` as possible, in any direction if `x_hint` is empty or parallel to z.
 Frame frame_along(const Point& origin, const Vec3& z, const Vec3& x_hint = {});
 
 /// p -> p.x * x + p.y * y + p.z * z + shift. Columns, not rows.
@@ -29,25 +29,25 @@ struct Transform {
   Vec3 vector(const Vec3& v) const { return v.x * x + v.y * y + v.z * z; }
   Point point(const Point& p) const { return vector(p) + shift; }
   double determinant() const { return dot(x, cross(y, z)); }
-  /// Rotations, moves, mirrors and equal scaling: all angles stay.
+  /// Returns true for rotations, translations, mirrors and uniform scaling: all angles are preserved.
   bool is_similarity() const;
-  /// Mean factor of lengths: the cube root of the determinant's size.
+  /// Returns the mean scale factor of lengths: the cube root of the determinant's magnitude.
   double scale() const { return std::cbrt(std::abs(determinant())); }
-  /// \throws Error(bad_argument) when space is flattened
+  /// \throws Error(bad_argument) if the map is singular
   Transform inverse() const;
   friend bool operator==(const Transform&, const Transform&) = default;
 };
-/// First `b`, then `a`.
+/// Applies `b` first, then `a`.
 Transform operator*(const Transform& a, const Transform& b);
 
 Transform translation(const Vec3& shift);
-/// Right-hand rule about the axis through `at`, radians.
-/// \throws Error(bad_argument) for an axis without a direction
+/// Returns the rotation by the right-hand rule about the axis through `at`, radians.
+/// \throws Error(bad_argument) for an axis of zero length
 Transform rotation(const Point& at, const Vec3& axis, double angle);
 /// \throws Error(bad_argument) unless factor > 0
 Transform scaling(const Point& about, double factor);
-/// Mirror image in the plane through `at`.
-/// \throws Error(bad_argument) for a normal without a direction
+/// Returns the reflection in the plane through `at`.
+/// \throws Error(bad_argument) for a normal of zero length
 Transform mirroring(const Point& at, const Vec3& normal);
 
 }  // namespace sterna

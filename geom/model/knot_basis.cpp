@@ -9,10 +9,10 @@
 namespace sterna {
 namespace {
 
-/// Buckets of the span table for each span: uniform knots are found without any comparison.
+/// Buckets of the span table per span: spans of uniform knots are found without any comparison.
 constexpr std::size_t k_buckets_per_span = 2;
 constexpr std::size_t k_max_buckets = 1 << 16;
-/// Part of a bucket: rounding may put a parameter into the bucket beside its own.
+/// Fraction of a bucket: rounding may put a parameter into the neighbouring bucket.
 constexpr double k_bucket_margin = 1e-6;
 
 void check_knots(int degree, const std::vector<double>& knots, std::string_view attempted) {
@@ -56,8 +56,8 @@ KnotBasis::KnotBasis(int degree, std::vector<double> knots, bool is_periodic, st
     span.inverse_length = 1.0 / (knots_[i + 1] - knots_[i]);
     span.first = i - p;
     if (degree_ <= 3) {
-      // Taylor's series at the start of the span: functions and derivatives from the recurrence; the third derivative of a cubic is constant,
-      // so it follows from the second at both ends.
+      // Taylor series at the start of the span: functions and derivatives from the recurrence. The third derivative of a cubic is constant, so it follows from
+      // the second derivative at both ends.
       BasisValues at_start, at_end;
       recurrence(knots_[i], span, true, at_start);
       recurrence(knots_[i + 1], span, true, at_end);
@@ -108,7 +108,7 @@ void KnotBasis::recurrence(double t, const Span& span, bool has_derivatives, Bas
   }
   for (std::size_t r = 0; r <= p; ++r) basis.value[r] = table[r][p];
   if (!has_derivatives) return;
-  // d/dt N(r, p) = p (N(r-1, p-1) / (length of its support) - N(r, p-1) / (of its)), twice.
+  // d/dt N(r, p) = p (N(r-1, p-1) / (length of its support) - N(r, p-1) / (length of its support)), applied twice.
   const auto degree = static_cast<double>(p);
   for (std::size_t r = 0; r <= p; ++r) {
     const double before = r > 0 ? table[r - 1][p - 1] / table[p][r - 1] : 0.0;

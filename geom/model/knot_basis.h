@@ -1,4 +1,4 @@
-// B-spline basis functions of one direction: knot span by table, values and two derivatives without allocation.
+// B-spline basis functions of one direction: knot span by table look-up, values and two derivatives without allocation.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace sterna {
 
-/// Four doubles that the processor treats as one; wrapped, so that it can be an element of a vector.
+/// Four doubles processed as one SIMD vector; wrapped so that it can be an element of a std::vector.
 struct Lanes4 {
   using Value [[gnu::vector_size(32), gnu::may_alias]] = double;
   Value value{};
 };
 
-/// Highest degree; the same limit as OpenCASCADE's, so that everything can be exchanged.
+/// Highest degree; the same limit as in OpenCASCADE, so that all splines can be exchanged.
 inline constexpr int k_max_degree = 25;
 
-/// Non-zero basis functions at a parameter: function first + k has value[k] and derivatives; k = 0 .. degree. Left uninitialised beyond.
+/// Non-zero basis functions at a parameter: function first + k has value[k] and derivatives; k = 0 .. degree. Entries beyond are uninitialised.
 struct BasisValues {
   std::size_t first;
   alignas(32) double value[k_max_degree + 3];
@@ -27,8 +27,8 @@ struct BasisValues {
   alignas(32) double d2[k_max_degree + 3];
 };
 
-/// Basis on a clamped knot vector. Up to degree 3 the functions of each span are kept as polynomials of the local parameter (Horner in four
-/// lanes), above they come from the triangular recurrence (de Boor; Piegl & Tiller, The NURBS Book, A2.3).
+/// Basis on a clamped knot vector. Up to degree 3 the functions of each span are stored as polynomials of the local parameter (Horner in four lanes). Above
+/// degree 3 they are computed by the triangular recurrence (de Boor; Piegl & Tiller, The NURBS Book, A2.3).
 class KnotBasis {
  public:
   /// \pre knots as in NurbsCurveForm.
@@ -41,11 +41,11 @@ class KnotBasis {
   bool is_periodic() const { return is_periodic_; }
   std::size_t n_functions() const { return knots_.size() - static_cast<std::size_t>(degree_) - 1; }
 
-  /// Values; `with_derivatives`: first and second derivatives as well. Outside the domain the end pieces go on (periodic: t is wrapped).
+  /// Computes the values; with `with_derivatives` also first and second derivatives. Outside the domain the end pieces are extended (periodic: t is wrapped).
   template <bool with_derivatives>
   void evaluate(double t, BasisValues& basis) const;
 
-  /// Interior knots where splines of this basis are less than twice continuously differentiable.
+  /// Returns the interior knots where splines of this basis are less than twice continuously differentiable.
   std::vector<double> breaks() const;
 
  private:
@@ -62,9 +62,9 @@ class KnotBasis {
   std::vector<double> knots_;
   bool is_periodic_;
   Interval domain_;
-  std::vector<double> ends_;  ///< where each span ends, ascending; spans are those of positive length
+  std::vector<double> ends_;  ///< end of each span, ascending; only spans of positive length
   struct Bucket {
-    std::uint32_t low = 0, high = 0;  ///< spans that may hold a parameter of the bucket, both inclusive
+    std::uint32_t low = 0, high = 0;  ///< spans that may contain a parameter of the bucket, both inclusive
   };
   std::vector<Bucket> buckets_;  ///< equal parts of the domain
   double buckets_per_unit_ = 0.0;
@@ -84,7 +84,7 @@ inline std::size_t KnotBasis::span_of(double t) const {
   return low;
 }
 
-/// `t` moved into the domain by whole periods.
+/// Returns `t` moved into the domain by whole periods.
 double wrapped(double t, const Interval& domain);
 
 template <bool with_derivatives>

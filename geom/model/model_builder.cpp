@@ -15,9 +15,9 @@
 namespace sterna {
 namespace {
 
-/// Metres per metre of size that an edge may be off its surface when both come from the same numbers: rounding of evaluators.
+/// Allowed distance of an edge from its surface, relative to the size, if both come from the same numbers: rounding of evaluators.
 constexpr double k_off_surface = 1e-9;
-/// Part of its size by which a planar border may leave its plane: rounding of rotations.
+/// Allowed distance of a planar border from its plane, relative to its size: rounding of rotations.
 constexpr double k_off_plane = 1e-9;
 
 [[noreturn]] void refuse_model(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
@@ -26,7 +26,7 @@ constexpr double k_off_plane = 1e-9;
 
 Point at_part(const ModelEdge& edge, double part) { return edge.curve->point(edge.range.from + part * edge.range.length()); }
 
-/// Poles of the curve that has one row's poles and weights, evaluated: one pole of the parameter line.
+/// Evaluates the curve with one row's poles and weights: one pole of the parameter line.
 struct BuilderRow {
   std::vector<Point> poles;
   std::vector<double> weights;
@@ -42,7 +42,7 @@ CurvePtr curve_through_rows(const std::vector<BuilderRow>& rows, int row_degree,
       line.poles.push_back(NurbsCurve({row_degree, row_knots, row.poles, {}}).point(at));
       continue;
     }
-    // Homogeneous coordinates: the weight is a spline of its own.
+    // Homogeneous coordinates: the weight is a separate spline.
     std::vector<Point> weights, weighted;
     for (std::size_t i = 0; i < row.poles.size(); ++i) {
       weights.push_back({row.weights[i], 0.0, 0.0});
@@ -97,7 +97,7 @@ EdgeUse ModelBuilder::use_along(const Surface& surface, EdgeId id, Uv from, Uv t
   ModelEdge& edge = model_.edges[id];
   if (edge.is_degenerate()) return {id, false, parameter_segment(from, to, edge.range)};
   const auto on_side = [&](double part) { return surface.point(from + part * (to - from)); };
-  constexpr double k_probe = 1.0 / 3.0;  // tells the directions of closed edges apart too
+  constexpr double k_probe = 1.0 / 3.0;  // also distinguishes the directions of closed edges
   const bool is_reversed = distance(at_part(edge, 1.0 - k_probe), on_side(k_probe)) < distance(at_part(edge, k_probe), on_side(k_probe));
   double off = 0.0, size = 0.0;
   Point worst;
@@ -173,7 +173,7 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
     if (std::abs(frame.local(p).z) > k_off_plane * std::max(size, norm(p)))
       refuse_model(ErrorCode::bad_argument, name + ": the border of a flat end is not planar, " + std::to_string(frame.local(p).z) + " m off its plane",
                    {{p, "here"}});
-  const double margin = 0.05 * size;  // edges reach the box of samples and a little more
+  const double margin = 0.05 * size;  // edges extend slightly beyond the box of samples
   box = {{box.u.from - margin, box.u.to + margin}, {box.v.from - margin, box.v.to + margin}};
   const auto flat = [&](const std::vector<EdgeId>& edges, const std::vector<bool>& is_reversed) {
     Border uses;
@@ -211,11 +211,11 @@ Model ModelBuilder::closed_solid(const std::string& name) {
 
 namespace {
 
-/// Least volume, as a share of area times reach, of which few samples tell the sign. They err by 8e-4 at worst among the aircraft of the tests (a pylon with
-/// kinks, 1e-5 mostly); bodies have some hundredths, slender wings 7e-3. What has less is integrated to rounding.
+/// Smallest volume, as a fraction of area times reach, whose sign can be determined from few samples. Their largest error among the aircraft of the tests is
+/// 8e-4 (a pylon with kinks, 1e-5 mostly); bodies have some hundredths, slender wings 7e-3. Smaller volumes are integrated to rounding.
 constexpr double k_plain_share = 5e-3;
 
-/// Volume of a solid whose faces are oriented alike; right in its sign, and to rounding only where the sign is in doubt.
+/// Returns the volume of a solid with consistently oriented faces; the sign is correct, the value is accurate to rounding only if the sign is in doubt.
 double signed_volume(const Model& model, const ModelSolid& solid) {
   Vec3 corners;
   std::size_t n_corners = 0;

@@ -1,4 +1,4 @@
-// Makes models face by face over shared edges, and proves them closed. What components, tunnels and boxes are built with.
+// Builds models face by face over shared edges, and verifies that they are closed. Used for components, tunnels and boxes.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace sterna {
 
-/// The curve of a surface's NURBS form along one parameter line: u = at (its parameter is v) or v = at (u).
+/// Returns the curve of a surface's NURBS form along one parameter line: u = at (its parameter is v) or v = at (u).
 /// \pre polynomial or rational form, `at` in the domain
 CurvePtr line_of_constant_u(const NurbsSurfaceForm& form, double at);
 CurvePtr line_of_constant_v(const NurbsSurfaceForm& form, double at);
 
-/// The curve S(from + t (to - from)), t in [0, 1], exactly: a spline of the sum of both degrees.
+/// Returns the exact curve S(from + t (to - from)), t in [0, 1]: a spline whose degree is the sum of both degrees.
 /// \pre polynomial form, both points in its domain
 CurvePtr line_on_surface(const NurbsSurfaceForm& form, Uv from, Uv to);
 
@@ -29,34 +29,34 @@ struct SplitCurve {
 
 class ModelBuilder {
  public:
-  /// All faces that are added belong to this component.
+  /// All added faces belong to this component.
   explicit ModelBuilder(Component component);
 
   CornerId corner(const Point& point);
   EdgeId edge(CurvePtr curve, Interval range, CornerId start, CornerId end, std::string name = {});
   EdgeId straight_edge(CornerId start, CornerId end, std::string name = {});
-  /// `at` ascends from the start to the end of the edges; corners between the first and the last are made.
+  /// Cuts a curve into edges. `at` ascends from the start to the end of the edges; corners between the first and the last are created.
   SplitCurve split_curve(CurvePtr curve, std::vector<double> at, CornerId first, CornerId last, const std::string& name = {});
-  /// A pole of a surface.
+  /// Creates a degenerate edge at a pole of a surface.
   EdgeId pole(CornerId at);
 
-  /// Face on the part `box` of a surface; edges in the order v = from, u = to, v = to, u = from. The edges' directions are found from their points; they must
-  /// run over the sides with proportional parameters (poles: any).
+  /// Creates a face on the part `box` of a surface; edges in the order v = from, u = to, v = to, u = from. The directions of the edges are determined from
+  /// their points. The edges must follow the sides with proportional parameters (poles: any).
   /// \throws Error(internal) naming the side that an edge does not follow
   FaceId patch(SurfacePtr surface, const ParameterBox& box, const std::array<EdgeId, 4>& sides, FaceRole role, const std::string& name);
-  /// One side of a face: an edge that follows the straight line between two places of the parameter plane.
+  /// One side of a face: an edge that follows the straight line between two points of the parameter plane.
   struct Side {
     EdgeId edge;
     Uv from, to;
   };
-  /// Face with straight sides in the parameter plane, one after the other, the face on their left. Directions and errors as for patch.
+  /// Creates a face with straight sides in the parameter plane, in sequence, the face on their left. Directions and errors as for patch.
   FaceId face(SurfacePtr surface, const std::vector<Side>& sides, FaceRole role, const std::string& name);
-  /// Face in the plane of its edges, which follow each other around it.
-  /// \throws Error(bad_argument) when they do not lie in a plane, with the place
+  /// Creates a face in the plane of its edges, which form its border in sequence.
+  /// \throws Error(bad_argument) if the edges are not in one plane, with the location
   FaceId plane(const std::vector<EdgeId>& border, FaceRole role, const std::string& name, const std::vector<EdgeId>& hole = {});
 
-  /// The model: one solid of all faces, oriented outwards.
-  /// \throws Error(internal) when an edge is not used twice (in opposite directions) or the volume is not positive
+  /// Returns the model: one solid of all faces, oriented outwards.
+  /// \throws Error(internal) if an edge is not used twice (in opposite directions) or the volume is not positive
   Model closed_solid(const std::string& name);
 
   Model& model() { return model_; }
@@ -67,14 +67,14 @@ class ModelBuilder {
   ComponentId component_;
 };
 
-/// Turns faces of a solid so that neighbours agree and the solid's volume is positive.
-/// \throws Error(internal) where an edge has not two uses or faces cannot agree
+/// Flips faces of a solid so that neighbours are consistently oriented and the solid's volume is positive.
+/// \throws Error(internal) if an edge does not have two uses or the faces cannot be oriented consistently
 void orient_outwards(Model& model, SolidId solid);
 
-/// Turns every face, and so what is fluid and what is body. The shape of OpenCASCADE is dropped.
+/// Reverses every face, which exchanges fluid and body. The OpenCASCADE shape is dropped.
 void turn_inside_out(Model& model);
 
-/// Appends `part`, with its ids shifted. Shapes of OpenCASCADE are dropped.
+/// Appends `part` with shifted ids. OpenCASCADE shapes are dropped.
 void append(Model& model, const Model& part);
 
 }  // namespace sterna

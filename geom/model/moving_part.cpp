@@ -1,4 +1,4 @@
-// Steps: places along the span where something changes -> cross sections there -> faces between them -> nose -> end walls.
+// Steps: locations along the span where the shape changes -> cross sections there -> faces between them -> nose -> end walls.
 #include "geom/model/moving_part.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct PartSection {
   double place = 0.0;
   WingPatch::Place hinge;
   SplitCurve upper, lower;
-  EdgeId thickness;  ///< where it has a blunt trailing edge
+  EdgeId thickness;  ///< edge of a blunt trailing edge
   SlotStation nose;
 };
 

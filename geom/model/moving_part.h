@@ -1,4 +1,4 @@
-// Control surfaces behind open slots as solids of their own. Internal to the wing's builders.
+// Control surfaces behind open slots as separate solids. Internal to the wing's builders.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace sterna {
 
-/// The flap (leading edge flap) of a patch with a slot: its part of the wing's own skin, a nose, walls at both ends; not moved yet.
+/// Builds the flap (leading edge flap) of a patch with a slot: its part of the wing's skin, a nose, and walls at both ends; not yet moved.
 Model make_moving_part(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt);
 
 }  // namespace sterna

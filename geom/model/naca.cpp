@@ -1,5 +1,5 @@
-// Formulas and constants are those of NASA TM-4741 as PDAS's public-domain naca456 has them; what of them is a table: naca_tables.h.
-// A section is a thickness y_t(x) laid at right angles on both sides of a mean line y_c(x). Each series says both; the designation says which.
+// Formulas and constants of NASA TM-4741 as in PDAS's public-domain naca456; tables are in naca_tables.h. A section is a thickness y_t(x) added perpendicular
+// to a mean line y_c(x) on both sides. Each series defines both; the designation selects them.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -43,9 +43,9 @@ Profile four_digit_thickness(double t, int n) {
   return profile;
 }
 
-/// Nose radius index (6: as the 4-digit series), place of the largest thickness. TM-4741, "modified four-digit".
+/// Modified thickness: nose radius index (6: as the 4-digit series), location of the largest thickness. TM-4741, "modified four-digit".
 Profile modified_thickness(double t, int nose_index, double m, int n) {
-  // d1: slope at the trailing edge of a section 0.2 thick, by place of the largest thickness; the curve aft is d0 + d1 s + d2 s^2 + d3 s^3, s = 1 - x.
+  // d1: slope at the trailing edge of a section 0.2 thick, by location of the largest thickness; the curve aft is d0 + d1 s + d2 s^2 + d3 s^3, s = 1 - x.
   const double d1 = m < 0.25 ? 0.200 : m < 0.35 ? 0.234 : m < 0.45 ? 0.315 : m < 0.55 ? 0.465 : 0.700;
   const double s = 1.0 - m, d0 = 0.002;
   const double d2 = (0.294 - 2.0 * s * d1) / (s * s), d3 = (s * d1 - 0.196) / (s * s * s);
@@ -72,7 +72,7 @@ double at_angle(const std::array<double, 21>& value, const std::array<double, 21
   return value[i] * q * q * (1.0 + 2.0 * s) + value[i + 1] * s * s * (3.0 - 2.0 * s) + h * s * q * (slope[i] * q - slope[i + 1] * s);
 }
 
-/// The mapping with epsilon and psi scaled by `scale`: circle -> near circle -> profile (Report 824, p. 263; TM X-3069).
+/// Maps with epsilon and psi scaled by `scale`: circle -> near circle -> profile (Report 824, p. 263; TM X-3069).
 Profile mapped_profile(const airfoil_parts::MappingTable& table, double scale, int n) {
   const auto zeta = [&](double phi) {
     const double psi = scale * at_angle(table.psi, table.psi_slope, phi), epsilon = scale * at_angle(table.epsilon, table.epsilon_slope, phi);
@@ -91,7 +91,7 @@ Profile mapped_profile(const airfoil_parts::MappingTable& table, double scale, i
   return profile;
 }
 
-/// Largest height, by the parabola through the highest point and its neighbours.
+/// Returns the largest height, by the parabola through the highest point and its neighbours.
 double largest(const Profile& profile) {
   const auto top = static_cast<std::size_t>(std::max_element(profile.y.begin(), profile.y.end()) - profile.y.begin());
   if (top == 0 || top + 1 == profile.y.size()) return profile.y[top];
@@ -141,7 +141,7 @@ Height four_digit_mean(double m, double p, double x) {
 struct FiveDigitLine {
   double m, k1, k2_by_k1;
 };
-/// By place of the largest camber, P = 1 .. 5 (p = P / 20); k1 for the lift coefficient 0.3. TM-4741; NACA Report 610.
+/// By location of the largest camber, P = 1 .. 5 (p = P / 20); k1 for the lift coefficient 0.3. TM-4741; NACA Report 610.
 constexpr std::array<FiveDigitLine, 5> k_five_digit = {
     {{0.0580, 361.400, 0.0}, {0.1260, 51.640, 0.0}, {0.2025, 15.957, 0.0}, {0.2900, 6.643, 0.0}, {0.3910, 3.230, 0.0}}};
 constexpr std::array<FiveDigitLine, 5> k_five_digit_reflexed = {
@@ -157,7 +157,8 @@ Height five_digit_mean(const FiveDigitLine& line, bool is_reflexed, double lift,
   return {k * (factor * d * d * d - lift_off * x - m * m * m * x + m * m * m), k * (3.0 * factor * d * d - lift_off - m * m * m)};
 }
 
-/// Uniform load from the leading edge to x = a, then falling to nothing (Report 824, eq. 4.26); the slope at the nose is infinite and taken at x = 0.005.
+/// Mean line of uniform load from the leading edge to x = a, then decreasing to zero (Report 824, eq. 4.26); the slope at the nose is infinite and evaluated at
+/// x = 0.005.
 Height uniform_load_mean(double a, double lift, double x) {
   constexpr double k_nose = 0.005;
   const auto log_or_zero = [](double t) { return t > 0.0 ? std::log(t) : 0.0; };
@@ -203,7 +204,7 @@ Airfoil combined(const std::string& name, const Profile& profile, const MeanLine
   return airfoil_parts::make(name, points);
 }
 
-/// Lower case, without "naca", blanks and the subscripts in brackets or after a comma; the mean line's "a=" apart.
+/// Designation in lower case, without "naca", blanks and the subscripts in brackets or after a comma; the mean line's "a=" is separate.
 struct Designation {
   std::string digits;
   double a = 1.0;
@@ -246,7 +247,7 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
     const double lift = digit(match[1], 0) / 10.0;
     return combined(name, modified_thickness(checked_thickness(percent(match[2])), 4, 0.5, n_side), [&](double x) { return uniform_load_mean(1.0, lift, x); });
   }
-  // Subscripts ("642-015", "64(2)-015", "64,2-015") say how wide the low-drag range is, not the shape.
+  // Subscripts ("642-015", "64(2)-015", "64,2-015") give the width of the low-drag range, not the shape.
   if (is("(6[3-7])(a?)\\d?(a?)-(\\d)(\\d\\d)(a?)") || is("(6[3-7])(a?)\\d?(a?)(\\d)(\\d\\d)(a?)")) {
     const bool is_a = match[2].length() + match[3].length() + match[6].length() > 0;
     const double lift = digit(match[4], 0) / 10.0;

@@ -1,4 +1,4 @@
-// Nacelles of cowls: profiles at angles about the axis -> rows of points around_cowl -> surfaces closed around_cowl the axis, in two halves, with edges along
+// Nacelles of cowls: profiles at angles about the axis -> rows of points around the axis -> surfaces closed around the axis, in two halves, with edges along
 // the lips and the trailing edges.
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@
 namespace sterna {
 namespace {
 
-/// Points around_cowl the axis; even, so that halves end on points.
+/// Number of points around the axis; even, so that halves end on points.
 constexpr std::size_t k_cowl_angles = 32;
 constexpr std::size_t k_cowl_side_points = 32;
-/// Radii and thicknesses below this part of the profile's size are nothing: 6 digits of a file.
+/// Radii and thicknesses below this fraction of the profile's size are zero: files have 6 digits.
 constexpr double k_nothing = 1e-6;
 
 SplineOptions around_cowl() {
@@ -27,7 +27,7 @@ SplineOptions around_cowl() {
   return o;
 }
 
-/// A circle-like edge in two halves at one profile place.
+/// A circle-like edge in two halves at one location of the profile.
 struct Hoop {
   std::array<CornerId, 2> corners;
   std::array<EdgeId, 2> halves;
@@ -40,7 +40,7 @@ class CowlBuilder {
   Model center_body(const std::vector<Uv>& profile);
 
  private:
-  /// Points (profile, angle) from x and radius at each angle; angle 0 at the top, right-hand rule about x.
+  /// Returns points (profile, angle) from x and radius at each angle; angle 0 at the top, right-hand rule about x.
   PointGrid turned(const std::vector<std::vector<Uv>>& profiles) const;
   Hoop hoop(const NurbsSurfaceForm& form, double u);
   void halves(const NurbsSurfaceForm& form, const Hoop& from, const Hoop& to, FaceRole role);
@@ -63,7 +63,7 @@ PointGrid CowlBuilder::turned(const std::vector<std::vector<Uv>>& profiles) cons
 
 Hoop CowlBuilder::hoop(const NurbsSurfaceForm& form, double u) {
   const CurvePtr curve = line_of_constant_u(form, u);
-  constexpr double k_rounding = 1e-13;  // of coordinates: a pole's points differ by the rounding of the basis functions
+  constexpr double k_rounding = 1e-13;  // relative to coordinates: the points of a pole differ by the rounding of the basis functions
   if (distance(curve->point(0.0), curve->point(0.5)) <= k_rounding * (1.0 + norm(curve->point(0.0)))) {
     const CornerId c = builder_.corner(curve->point(0.0));
     return {{c, c}, {builder_.pole(c), builder_.pole(c)}};
@@ -81,7 +81,7 @@ void CowlBuilder::halves(const NurbsSurfaceForm& form, const Hoop& from, const H
   builder_.patch(surface, {u, {0.5, 1.0}}, {bottom, to.halves[1], top, from.halves[1]}, role, name_);
 }
 
-/// The profile at any angle: sections splined around_cowl the circle, point by point in x and radius.
+/// Returns the profile at any angle: sections splined around the circle, point by point in x and radius.
 std::vector<std::vector<Uv>> profiles_of(const Cowl& cowl) {
   std::vector<std::vector<Uv>> rows;
   for (const CowlSection& section : cowl.sections) {
@@ -101,7 +101,7 @@ std::vector<std::vector<Uv>> profiles_of(const Cowl& cowl) {
     std::vector<Point> values;
     for (const std::vector<Uv>& row : rows) values.push_back({row[i].u, row[i].v, 0.0});
     values.push_back(values.front());
-    if (rows.size() == 2) {  // too few for a closed spline: a cosine between both
+    if (rows.size() == 2) {  // too few for a closed spline: cosine interpolation between both
       for (std::size_t j = 0; j < k_cowl_angles; ++j) {
         const double part = 0.5 - 0.5 * std::cos((turn * static_cast<double>(j) / k_cowl_angles - o.at[0]) / (o.at[1] - o.at[0]) * std::numbers::pi);
         const Point p = values[0] + part * (values[1] - values[0]);

@@ -9,8 +9,8 @@ namespace sterna {
 /// Any NURBS curve, degree 1 .. 25.
 class NurbsCurve final : public Curve {
  public:
-  /// `is_periodic`: the end is the start, and parameters outside the domain are wrapped.
-  /// \throws Error(bad_argument) when the form breaks its rules
+  /// `is_periodic`: the end equals the start, and parameters outside the domain are wrapped.
+  /// \throws Error(bad_argument) if the form is invalid
   explicit NurbsCurve(NurbsCurveForm<Point> form, bool is_periodic = false);
   Interval domain() const override { return basis_.domain(); }
   bool is_periodic() const override { return basis_.is_periodic(); }
@@ -29,7 +29,7 @@ class NurbsCurve final : public Curve {
 /// Any NURBS curve in a parameter plane.
 class NurbsParameterCurve final : public ParameterCurve {
  public:
-  /// \throws Error(bad_argument) when the form breaks its rules
+  /// \throws Error(bad_argument) if the form is invalid
   explicit NurbsParameterCurve(NurbsCurveForm<Uv> form);
   Interval domain() const override { return curve_.domain(); }
   Uv point(double t) const override;
@@ -39,7 +39,7 @@ class NurbsParameterCurve final : public ParameterCurve {
 
  private:
   NurbsCurveForm<Uv> form_;
-  NurbsCurve curve_;  ///< the same with z = 0
+  NurbsCurve curve_;  ///< the same curve with z = 0
 };
 
 }  // namespace sterna

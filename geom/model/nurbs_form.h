@@ -1,4 +1,4 @@
-// NURBS as data: the common language between our surfaces, OpenCASCADE and the files of both.
+// NURBS as data: the exchange format between our surfaces, OpenCASCADE and their files.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct NurbsCurveForm {
   int degree = 1;
   std::vector<double> knots;
   std::vector<P> poles;
-  std::vector<double> weights;  ///< empty: polynomial; otherwise one positive weight a pole
+  std::vector<double> weights;  ///< empty: polynomial; otherwise one positive weight per pole
 };
 
 /// Poles in rows: pole(i, j) = poles[i * n_v + j], i along u. Knots of each direction as in NurbsCurveForm.

@@ -1,4 +1,4 @@
-// NURBS surface with the evaluator that meshing leans on: no allocation, poles in four lanes, kernels for each pair of degrees up to 3 x 3.
+// NURBS surface with the evaluator used in meshing: no allocation, poles in four lanes, kernels for each pair of degrees up to 3 x 3.
 #pragma once
 
 #include "geom/model/knot_basis.h"
@@ -6,11 +6,11 @@
 
 namespace sterna {
 
-/// Any NURBS surface, degrees 1 .. 25; spline surfaces through grids of points (spline.h) are these too.
+/// Any NURBS surface, degrees 1 .. 25; spline surfaces through grids of points (spline.h) are also of this class.
 class NurbsSurface final : public Surface {
  public:
-  /// `is_periodic_*`: the last row is the first one, and parameters outside the domain are wrapped. `kind` empty: "NURBS p x q".
-  /// \throws Error(bad_argument) when the form breaks its rules
+  /// `is_periodic_*`: the last row equals the first, and parameters outside the domain are wrapped. `kind` empty: "NURBS p x q".
+  /// \throws Error(bad_argument) if the form is invalid
   explicit NurbsSurface(NurbsSurfaceForm form, bool is_periodic_u = false, bool is_periodic_v = false, std::string kind = {});
   ParameterBox domain() const override { return {basis_u_.domain(), basis_v_.domain()}; }
   bool is_periodic_u() const override { return basis_u_.is_periodic(); }
@@ -31,7 +31,7 @@ class NurbsSurface final : public Surface {
   SurfaceDerivatives derivatives_of(Uv at) const;
   template <int n_u, int n_v>
   void points_of(std::span<const Uv> at, std::span<Point> points) const;
-  /// Calls f with the number of functions in both directions as constants, or with 0, 0 where either degree is above 3.
+  /// Calls f with the number of functions in both directions as constants, or with 0, 0 if either degree is above 3.
   template <class F>
   decltype(auto) with_orders(const F& f) const;
 

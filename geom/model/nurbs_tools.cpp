@@ -13,7 +13,7 @@ namespace sterna {
 namespace {
 
 using Value = Lanes4::Value;
-/// Part of the domain: knots of two splines nearer than this differ by rounding.
+/// Fraction of the domain: knots of two splines nearer than this differ only by rounding.
 constexpr double k_same_knot = 1e-14;
 
 /// Blossom of the piece on [knots[span], knots[span + 1]] at `degree` arguments; pole i is poles[i * stride].
@@ -31,7 +31,7 @@ Value blossom(int degree, const std::vector<double>& knots, const Lanes4* poles,
   return d[p].value;
 }
 
-/// Span of the old spline that holds the middle of the support of new pole j: there the blossom's arguments are near the span.
+/// Returns the span of the old spline that contains the middle of the support of new pole j: the blossom's arguments are near that span.
 std::size_t span_near(int degree, const std::vector<double>& knots, double t) {
   const auto p = static_cast<std::size_t>(degree);
   std::size_t span = static_cast<std::size_t>(std::upper_bound(knots.begin(), knots.end(), t) - knots.begin());
@@ -40,13 +40,13 @@ std::size_t span_near(int degree, const std::vector<double>& knots, double t) {
   return span;
 }
 
-/// Poles of one row on other knots of the same degree or of the next higher one.
+/// Converts the poles of one row to other knots of the same degree or of the next higher one.
 void convert_row(int old_degree, const std::vector<double>& old_knots, const Lanes4* old_poles, std::size_t old_stride, int degree,
                  const std::vector<double>& knots, Lanes4* poles, std::size_t stride) {
   const auto q = static_cast<std::size_t>(degree);
   const std::size_t n = knots.size() - q - 1;
   for (std::size_t j = 0; j < n; ++j) {
-    // Of the spans below the new pole, the longest one gives the least rounding.
+    // Of the spans below the new pole, the longest one gives the smallest rounding error.
     std::size_t widest = j;
     for (std::size_t k = j; k <= j + q; ++k)
       if (knots[k + 1] - knots[k] > knots[widest + 1] - knots[widest]) widest = k;
@@ -56,7 +56,7 @@ void convert_row(int old_degree, const std::vector<double>& old_knots, const Lan
       poles[j * stride].value = blossom(degree, old_knots, old_poles, old_stride, span, arguments);
       continue;
     }
-    // Mean over the argument that is left out.
+    // Mean over the omitted argument.
     Value sum{};
     for (std::size_t out = 0; out < q; ++out) {
       std::vector<double> some = arguments;

@@ -1,4 +1,4 @@
-// Exact operations on NURBS as data: the same curve or surface on other knots, in another parameter, of another degree.
+// Exact operations on NURBS data: the same curve or surface with other knots, another parameter, or another degree.
 #pragma once
 
 #include <span>
@@ -10,38 +10,38 @@
 
 namespace sterna {
 
-/// w * (x, y, z, 1) of every pole.
-/// \throws Error(bad_argument) unless there are `n` poles, none or `n` positive weights, all finite
+/// Returns w * (x, y, z, 1) of every pole.
+/// \throws Error(bad_argument) unless there are `n` poles and no weights or `n` positive weights, all finite
 std::vector<Lanes4> weighted_poles(const std::vector<Point>& poles, const std::vector<double>& weights, std::size_t n, std::string_view attempted);
 
-/// The same curve on other knots of the same or a higher degree.
+/// Returns the same curve on other knots of the same or a higher degree.
 /// \pre the new knots are clamped, lie inside the domain (restriction is allowed) and have every old knot at least as often as the new degree exceeds the old
 /// one plus its old multiplicity (insertion, elevation).
 NurbsCurveForm<Point> on_knots(const NurbsCurveForm<Point>& form, int degree, const std::vector<double>& knots);
 NurbsSurfaceForm on_knots_u(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots);
 NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots);
 
-/// Knots of the part `range` of a spline, clamped at both ends.
-/// \pre range lies in the domain and has a length
+/// Returns the knots of the part `range` of a spline, clamped at both ends.
+/// \pre range lies in the domain and has a positive length
 std::vector<double> restricted_knots(int degree, const std::vector<double>& knots, Interval range);
-/// Knots of the same curve of a higher degree: every distinct knot appears `by` times more.
+/// Returns the knots of the same curve at a higher degree: the multiplicity of every distinct knot increases by `by`.
 std::vector<double> elevated_knots(const std::vector<double>& knots, int by);
-/// Ascending union of two clamped knot vectors of one degree and domain, each knot as often as in the one that has it more often; knots of `b` that
-/// miss one of `a` by rounding (1e-14 of the domain) are taken for it.
+/// Returns the ascending union of two clamped knot vectors of one degree and domain, each knot with the larger of its two multiplicities. Knots of `b` that
+/// differ from one of `a` only by rounding (1e-14 of the domain) are identified with it.
 std::vector<double> united_knots(const std::vector<double>& a, const std::vector<double>& b);
-/// Knots stretched to begin and end where `domain` does.
+/// Returns the knots mapped linearly so that they begin and end at the ends of `domain`.
 std::vector<double> stretched_knots(const std::vector<double>& knots, Interval domain);
 
-/// The part of a curve as a curve.
+/// Returns a part of a curve.
 /// \pre range lies in the domain
 NurbsCurveForm<Point> restricted(const NurbsCurveForm<Point>& form, Interval range);
-/// The part of a surface as a surface.
+/// Returns a part of a surface.
 NurbsSurfaceForm restricted(const NurbsSurfaceForm& form, Interval range_u, Interval range_v);
-/// C(-t): the domain becomes [-to, -from].
+/// Returns C(-t): the domain becomes [-to, -from].
 NurbsCurveForm<Point> reversed(const NurbsCurveForm<Point>& form);
 NurbsSurfaceForm reversed_u(const NurbsSurfaceForm& form);
 NurbsSurfaceForm reversed_v(const NurbsSurfaceForm& form);
-/// S(v, u).
+/// Returns S(v, u).
 NurbsSurfaceForm exchanged(const NurbsSurfaceForm& form);
 
 }  // namespace sterna

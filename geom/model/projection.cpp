@@ -1,6 +1,6 @@
-// Newton on half the squared distance f(u, v) = |S(u, v) - p|^2 / 2 in a box: variables at a limit that the gradient presses against are held;
-// an indefinite Hessian gets the sizes of its eigenvalues; steps are halved until f falls. Cells of samples, spaced by length and turning of the
-// surface, give lower bounds of the distance and starts: branch and bound.
+// Newton's method on half the squared distance f(u, v) = |S(u, v) - p|^2 / 2 in a box. Variables at a limit towards which the gradient points are held; an
+// indefinite Hessian gets the absolute values of its eigenvalues; steps are halved until f decreases. Cells of samples, spaced by length and turning of the
+// surface, give lower bounds of the distance and start values: branch and bound.
 #include "geom/model/projection.h"
 
 #include <algorithm>
@@ -18,32 +18,32 @@
 namespace sterna {
 namespace {
 
-/// A Newton step shorter than this part of the extent leaves an error of about its square: it is the last one.
+/// A Newton step shorter than this fraction of the extent leaves an error of about its square: it is the last one.
 constexpr double k_last_step = 1e-7;
-/// Part of the extent: a step that short is rounding.
+/// Fraction of the extent: a step this short is rounding.
 constexpr double k_no_step = 1e-15;
 constexpr int k_max_steps = 60;
 constexpr int k_max_halvings = 30;
-/// Longest step, part of the box: farther the second derivatives say nothing.
+/// Longest step, fraction of the box: the second derivatives are not valid farther away.
 constexpr double k_longest_step = 0.3;
-/// Determinant of the Hessian over the product of its diagonal below which it counts as singular.
+/// Determinant of the Hessian relative to the product of its diagonal below which it counts as singular.
 constexpr double k_singular = 1e-10;
-/// Smallest eigenvalue of the Hessian per metre squared that is believed; a flat place has 1.
+/// Smallest trusted eigenvalue of the Hessian per metre squared; a flat surface has 1.
 constexpr double k_flattest = 1e-8;
-/// Part of the mean speed: slower is a pole.
+/// Fraction of the mean speed: a lower speed indicates a pole.
 constexpr double k_pole_speed = 1e-7;
-/// Turning of the surface between stations, radians, and the number of intervals that its length alone gives.
+/// Turning of the surface between stations, radians, and the number of intervals for the length alone.
 constexpr double k_turning = 0.35;
 constexpr int k_intervals_by_length = 8;
 constexpr int k_max_intervals = 128;
-/// Fine samples along each line, and lines in each direction, from which stations are made.
+/// Fine samples along each line, and lines in each direction, from which stations are computed.
 constexpr int k_fine_samples = 256;
 constexpr int k_fine_lines = 5;
-/// Part of a cell's size by which its samples may fail to bound it (3 x 3 samples, turning below 0.35: the sag is below 0.1).
+/// Fraction of a cell's size by which the surface may exceed its samples (3 x 3 samples, turning below 0.35: the sag is below 0.1).
 constexpr double k_cell_margin = 0.15;
-/// Directions that are tried at a pole.
+/// Number of directions tried at a pole.
 constexpr int k_pole_directions = 12;
-/// Golden sections of the best direction: to 1e-8 of a direction's share.
+/// Golden section steps for the best direction: to 1e-8 of the spacing of directions.
 constexpr int k_pole_sections = 40;
 constexpr double k_golden = 0.6180339887498949;
 
@@ -61,7 +61,7 @@ double inside(double t, Interval range, bool wraps) {
 
 bool is_whole_period(Interval range, Interval domain, bool is_periodic) { return is_periodic && range.length() >= domain.length() * (1.0 - 1e-12); }
 
-/// Share of length and turning of polylines over `fine`, accumulated; the greatest of all lines in each interval.
+/// Returns the accumulated fraction of length and turning of polylines over `fine`; the largest of all lines in each interval.
 std::vector<double> stations_of(const std::vector<double>& fine, const std::vector<std::vector<Point>>& lines) {
   std::vector<double> density(fine.size() - 1, 0.0);
   for (const std::vector<Point>& line : lines) {
@@ -157,13 +157,14 @@ Cells cells_of(const Surface& surface, const std::vector<double>& stations_u, co
   return cells;
 }
 
-/// Hessian [a b; b c] with its eigenvalues, in metres of both directions, replaced by their sizes: steps leave saddles and maxima downhill.
+/// Replaces the eigenvalues of the Hessian [a b; b c], in metres of both directions, by their absolute values: steps then leave saddles and maxima downhill.
 void make_definite(double speed_u, double speed_v, double& a, double& b, double& c) {
   const double hu = speed_u > 0.0 ? speed_u : 1.0, hv = speed_v > 0.0 ? speed_v : 1.0;
   const double p = a / (hu * hu), q = b / (hu * hv), r = c / (hv * hv);
   const double mean = 0.5 * (p + r), half = 0.5 * (p - r), radius = std::hypot(half, q);
   const double large = std::max(std::abs(mean + radius), k_flattest), small = std::max(std::abs(mean - radius), k_flattest);
-  const double cosine = radius > 0.0 ? half / radius : 1.0, sine = radius > 0.0 ? q / radius : 0.0;  // of twice the angle to the first eigenvector
+  const double cosine = radius > 0.0 ? half / radius : 1.0,
+               sine = radius > 0.0 ? q / radius : 0.0;  // cosine and sine of twice the angle to the first eigenvector
   a = (0.5 * (large + small) + 0.5 * (large - small) * cosine) * hu * hu;
   b = 0.5 * (large - small) * sine * hu * hv;
   c = (0.5 * (large + small) - 0.5 * (large - small) * cosine) * hv * hv;
@@ -233,7 +234,7 @@ SurfaceFoot SurfaceProjector::descend(const Point& p, Uv at) const {
       Uv last{at.u + su, at.v + sv};
       move_inside(last);
       const Point q = surface_->point(last);
-      // Rounding of f hides gains below its own size: such a last step is taken.
+      // Rounding of f hides gains below its own size: such a last step is accepted.
       if (distance(q, p) <= norm(r) * (1.0 + 1e-15) + k_no_step * extent_) return {last, q, distance(q, p)};
     }
     const double f = norm2(r);
@@ -258,7 +259,7 @@ SurfaceFoot SurfaceProjector::leave_pole(const Point& p, const SurfaceFoot& foot
   const bool is_pole_u = norm(d.du) * box_.u.length() <= k_pole_speed * extent_;
   const bool is_pole_v = norm(d.dv) * box_.v.length() <= k_pole_speed * extent_;
   if (is_pole_u == is_pole_v) return foot;
-  // All of the degenerate direction is one point: look which way down the slope is steepest, and start a little inside.
+  // The whole degenerate direction is one point: find the direction of steepest descent, and start slightly inside.
   const Interval along = is_pole_u ? box_.u : box_.v, across = is_pole_u ? box_.v : box_.u;
   const double at_pole = is_pole_u ? foot.at.v : foot.at.u;
   const double inward = at_pole - across.from < across.to - at_pole ? 1.0 : -1.0;
@@ -311,7 +312,7 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
     const std::size_t i = cell / n_v, j = cell % n_v;
     return Uv{0.5 * (stations_u_[i] + stations_u_[i + 1]), 0.5 * (stations_v_[j] + stations_v_[j + 1])};
   };
-  // Entries by lower bound; nodes of the tree and, after them, cells. Ties by number, so that the order is one.
+  // Entries by lower bound; nodes of the tree and, after them, cells. Ties are resolved by number, so that the order is unique.
   struct Entry {
     double bound;
     std::uint32_t index;
@@ -346,7 +347,7 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
       }
     }
   }
-  // Nearest samples first. A cell beside one that came earlier leads to the same foot: only local minima of the samples are starts.
+  // Nearest samples first. A cell beside an earlier one leads to the same base point: only local minima of the samples are start values.
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return std::tie(a.to_middle, a.cell) < std::tie(b.to_middle, b.cell); });
   const std::size_t n_u = stations_u_.size() - 1;

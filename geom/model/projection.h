@@ -1,4 +1,4 @@
-// Nearest points on surfaces and curves: damped Newton from a seed, or from every place that samples leave possible.
+// Nearest points on surfaces and curves: damped Newton iteration from a seed, or from every sample cell that may contain the nearest point.
 #pragma once
 
 #include <span>
@@ -17,27 +17,27 @@ struct SurfaceFoot {
   double distance = 0.0;  ///< metres
 };
 
-/// Projects points onto one surface, within a box of its parameters; made once, used from many threads.
+/// Projects points onto one surface, within a box of its parameters; constructed once, usable from many threads.
 class SurfaceProjector {
  public:
-  /// `box` within the domain; parameters of a whole period may run across the seam. Samples the surface: about 1 ms.
-  /// \throws Error(bad_argument) for a box without size
+  /// `box` within the domain; boxes of a full period may be crossed at the seam. Samples the surface: about 1 ms.
+  /// \throws Error(bad_argument) for a box of zero size
   explicit SurfaceProjector(SurfacePtr surface);
   SurfaceProjector(SurfacePtr surface, const ParameterBox& box);
 
-  /// Local minimum of the distance reached from `seed` (moved into the box), never farther than the seed's point. Feet on the border are found as
-  /// such; at poles all directions are tried. Points accurate to about 1e-12 of the surface's extent.
+  /// Finds the local minimum of the distance reached from `seed` (moved into the box), never farther away than the seed's point. Base points on the border are
+  /// found as such; at poles all directions are tried. Points are accurate to about 1e-12 of the surface's extent.
   SurfaceFoot seeded(const Point& p, Uv seed) const;
-  /// Nearest point: every cell of samples is tried that could hold a nearer one. Cells bound the surface by their samples with a margin, so a feature
-  /// far thinner than a cell may be missed.
+  /// Finds the nearest point: tests every cell of samples that could contain a nearer point. Cells bound the surface by their samples with a margin, so a
+  /// feature much thinner than a cell may be missed.
   SurfaceFoot nearest(const Point& p) const;
-  /// feet[i] = seeded(points[i], seeds[i]); with empty seeds nearest(points[i]). Parallel.
+  /// Computes feet[i] = seeded(points[i], seeds[i]), or nearest(points[i]) if `seeds` is empty. Parallel.
   /// \pre equal sizes
   void project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceFoot> feet, const RunContext& context) const;
 
   const SurfacePtr& surface() const { return surface_; }
   const ParameterBox& box() const { return box_; }
-  /// Diagonal of the samples' box, metres.
+  /// Returns the diagonal of the samples' box, metres.
   double extent() const { return extent_; }
 
  private:
@@ -47,10 +47,10 @@ class SurfaceProjector {
 
   SurfacePtr surface_;
   ParameterBox box_;
-  bool wraps_u_ = false, wraps_v_ = false;  ///< the box is a whole period
+  bool wraps_u_ = false, wraps_v_ = false;  ///< the box is a full period
   double extent_ = 0.0;
   std::vector<double> stations_u_, stations_v_;
-  std::vector<Point> middles_;  ///< of the cells, along v first
+  std::vector<Point> middles_;  ///< middles of the cells, along v first
   BoxTree cells_;
 };
 
@@ -64,7 +64,7 @@ struct CurveFoot {
 class CurveProjector {
  public:
   explicit CurveProjector(CurvePtr curve);
-  /// \throws Error(bad_argument) for a range of no length
+  /// \throws Error(bad_argument) for a range of zero length
   CurveProjector(CurvePtr curve, Interval range);
   CurveFoot seeded(const Point& p, double seed) const;
   CurveFoot nearest(const Point& p) const;
@@ -76,7 +76,7 @@ class CurveProjector {
   double extent_ = 0.0;
   std::vector<double> stations_;
   std::vector<Point> points_;
-  std::vector<double> reach_;  ///< of each interval: how far the curve may leave the sphere over its ends
+  std::vector<double> reach_;  ///< per interval: how far the curve may leave the sphere over its ends
 };
 
 }  // namespace sterna

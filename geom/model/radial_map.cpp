@@ -1,5 +1,5 @@
-// Steps: merge repeated points -> scale coordinates to unit size -> solve the interpolation system (with the linear part as side conditions, in the
-// directions that the points span) -> verify that the points get their displacements.
+// Steps: merge repeated points -> scale coordinates to unit size -> solve the interpolation system (with the linear part as side conditions, in the directions
+// that the points span) -> verify that the points get their displacements.
 #include "geom/model/radial_map.h"
 
 #include <Eigen/Dense>
@@ -15,13 +15,13 @@ namespace sterna {
 namespace {
 
 constexpr std::string_view k_radial_map_attempt = "spreading displacements over space";
-/// The system is dense: 6000 points take 0.3 GB and about a minute.
+/// The system is dense: 6000 points take 0.3 GB and about one minute.
 constexpr std::size_t k_max_points = 6000;
-/// Part of the points' extent: closer ones are one point.
+/// Fraction of the points' extent: closer points are one point.
 constexpr double k_same_place = 1e-9;
-/// Part of the largest displacement: repeated points may differ by it, and the solution may miss its points by it.
+/// Fraction of the largest displacement: tolerance between repeated points, and of the solution at its points.
 constexpr double k_same_shift = 1e-6;
-/// Part of the largest extent: directions in which the points spread less are not spanned by them.
+/// Fraction of the largest extent: directions in which the points extend less are not spanned by them.
 constexpr double k_flat = 1e-6;
 /// Scaled distance below which the logarithm of the second derivative of a thin plate is cut off.
 constexpr double k_core = 1e-9;
@@ -50,7 +50,7 @@ Kernel wendland(double r2, double radius) {
   return {a2 * a2 * (4.0 * q + 1.0), -20.0 / (radius * radius) * a2 * a, r > 0.0 ? 60.0 * a2 / (radius * radius * radius * r) : 0.0};
 }
 
-/// Without repeated points; first occurrences keep their order.
+/// Removes repeated points; first occurrences keep their order.
 ScatteredDisplacements merged(const ScatteredDisplacements& data, double tolerance, double shift_tolerance) {
   std::vector<std::size_t> order(data.at.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -76,7 +76,7 @@ ScatteredDisplacements merged(const ScatteredDisplacements& data, double toleran
   return result;
 }
 
-/// Orthonormal directions (columns) in which the points spread.
+/// Returns orthonormal directions (columns) in which the points extend.
 Eigen::MatrixXd spanned_directions(const std::vector<Vec3>& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Vec3& p : points) mean += Eigen::Vector3d(p.x, p.y, p.z);

@@ -1,4 +1,4 @@
-// Displacements known at scattered points, spread over space by radial basis functions: elastic deflections from a structural solver.
+// Interpolates displacements known at scattered points over space by radial basis functions: elastic deflections from a structural solver.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct ScatteredDisplacements {
   std::vector<Vec3> shift;  ///< metres
 };
 
-/// Text table x y z dx dy dz, one point a line, metres; separated by blanks, tabs, commas or semicolons; '#' starts a comment.
+/// Reads a text table x y z dx dy dz, one point per line, metres; separated by blanks, tabs, commas or semicolons; '#' starts a comment.
 /// \throws Error(file_not_found, file_malformed with the line)
 ScatteredDisplacements read_displacements(const std::filesystem::path& path);
 
@@ -46,12 +46,12 @@ struct Schema<RadialMapOptions> {
   };
 };
 
-/// Interpolates displacements: D(p) = p + sum_k w_k phi(|p - x_k|) (+ linear part). Derivatives are analytic; second ones of thin plates grow as the
-/// logarithm of the distance at the points themselves and are cut off there. Based on: Wendland, Adv. Comp. Math. 4, 1995; Duchon 1977.
+/// Interpolates displacements: D(p) = p + sum_k w_k phi(|p - x_k|) (+ linear part). Derivatives are analytic. Second derivatives of thin plates grow as the
+/// logarithm of the distance at the data points and are cut off there. Based on: Wendland, Adv. Comp. Math. 4, 1995; Duchon 1977.
 class RadialMap final : public SpaceMap {
  public:
   /// O(n^3), n up to 6000.
-  /// \throws Error(bad_argument): no points, too many, two at one place with different displacements, not solvable
+  /// \throws Error(bad_argument): no points, too many, two at one location with different displacements, singular system
   RadialMap(const ScatteredDisplacements& data, const RadialMapOptions& options = {});
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;
@@ -60,7 +60,7 @@ class RadialMap final : public SpaceMap {
  private:
   bool is_thin_plate_;
   double radius_;
-  Point origin_;  ///< coordinates are scaled about it by 1 / scale_
+  Point origin_;  ///< origin about which coordinates are scaled by 1 / scale_
   double scale_;
   std::vector<Vec3> centres_;  ///< scaled
   std::vector<Vec3> weights_;  ///< metres

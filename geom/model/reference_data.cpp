@@ -59,7 +59,7 @@ WingReference wing_reference(const Wing& wing) {
     r.unrolled_area += 0.5 * (c0 + c1) * across(step);
     r.projected_area += 0.5 * (c0 + c1) * std::abs(step.y);
     square += (c0 * c0 + c0 * c1 + c1 * c1) / 3.0 * width;
-    // Integral of the leading edge's place weighted with the chord: both are linear along the panel.
+    // Integral of the leading edge's position weighted with the chord: both are linear along the panel.
     moment += width * ((c0 / 2.0 + c1 / 2.0) * a.leading + (c0 / 6.0 + c1 / 3.0) * step);
   }
   if (!(r.area > 0.0)) return r;

@@ -1,5 +1,5 @@
-// Begin with a few stations in both directions; spline them; compare at places between; split the intervals whose own direction is to blame; again,
-// until no place is worse than the tolerance.
+// Start with a few stations in both directions; spline them; compare at points between; split the intervals in the direction that causes the error; repeat
+// until no point is worse than the tolerance.
 #include "geom/model/sampled.h"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace sterna {
 namespace {
 
 constexpr int k_first_intervals = 4;  ///< between breaks
-/// Places of comparison within an interval; not symmetric, so that a function which repeats itself evenly cannot hide.
+/// Comparison points within an interval; not symmetric, so that errors of periodic functions are not missed.
 constexpr std::array<double, 2> k_between = {0.31, 0.5};
-/// Seams may be open by this part of the tolerance.
+/// Allowed gap of seams, relative to the tolerance.
 constexpr double k_seam = 0.1;
 
 [[noreturn]] void refuse_sampling(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
@@ -55,14 +55,14 @@ struct Stations {
   double between(std::size_t i, double share) const { return at[i] + share * (at[i + 1] - at[i]); }
 
   SplineOptions spline() const {
-    // A closed spline is smooth all round; with kinks it is open, and the seam is one more kink.
+    // A closed spline is smooth everywhere; with kinks it is open, and the seam is an additional kink.
     const bool is_closed = is_periodic && breaks.empty();
     SplineOptions o{.tangents = is_closed ? SplineTangents::periodic : SplineTangents::not_a_knot, .at = at};
     for (const double b : breaks) o.corners.push_back(static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), b) - at.begin()));
     return o;
   }
 
-  /// New stations in the middle of marked intervals.
+  /// Inserts stations in the middle of marked intervals.
   void split(const std::vector<char>& is_marked) {
     std::vector<double> result;
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
@@ -74,7 +74,7 @@ struct Stations {
   }
 };
 
-/// The function with its values kept.
+/// Caches the values of the function.
 class Function {
  public:
   explicit Function(const std::function<Point(Uv)>& f) : f_(f) {}
@@ -116,7 +116,7 @@ NurbsSurfaceForm spline_of(Function& f, const Stations& u, const Stations& v) {
   PointGrid grid{u.at.size(), v.at.size(), {}};
   for (const double a : u.at)
     for (const double b : v.at) grid.points.push_back(f({a, b}));
-  // Ends of a period are the same point to the bit.
+  // Both ends of a period are the same point to the bit.
   if (u.is_periodic)
     for (std::size_t j = 0; j < grid.n_v; ++j) grid.points[(grid.n_u - 1) * grid.n_v + j] = grid.points[j];
   if (v.is_periodic)
@@ -152,7 +152,7 @@ SampledSurface sample_surface(const std::function<Point(Uv)>& function, const Pa
       return error;
     };
     std::vector<char> split_u(u.n_intervals(), 0), split_v(v.n_intervals(), 0);
-    // On the lines of stations each direction shows its own error.
+    // On the station lines each direction shows its own error.
     for (std::size_t i = 0; i < u.n_intervals(); ++i)
       for (const double b : v.at)
         for (const double share : k_between)
@@ -161,7 +161,7 @@ SampledSurface sample_surface(const std::function<Point(Uv)>& function, const Pa
       for (const double a : u.at)
         for (const double share : k_between)
           if (error_at({a, v.between(j, share)}) > options.tolerance) split_v[j] = 1;
-    // Inside cells only where no border was to blame.
+    // Test inside cells only if no border exceeded the tolerance.
     for (std::size_t i = 0; i < u.n_intervals(); ++i)
       for (std::size_t j = 0; j < v.n_intervals(); ++j) {
         if (split_u[i] || split_v[j]) continue;

@@ -13,16 +13,16 @@
 namespace sterna {
 namespace {
 
-/// Samples of the length of a side: the fractions found with so many are even to 1e-6; the points themselves lie on the curve anyway.
+/// Samples for the length of a side: the resulting fractions are even to 1e-6; the points themselves lie on the curve in any case.
 constexpr std::size_t k_length_samples = 2000;
-/// A frame whose size is below this part of its distance from the origin, or of a metre, is a point.
+/// A frame whose size is below this fraction of its distance from the origin, or of a metre, is a point.
 constexpr double k_point_size = 1e-9;
 
 [[noreturn]] void refuse_section(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
   throw Error({.code = code, .attempted = "making a cross section", .problem = problem, .places = std::move(places)});
 }
 
-/// Points of a curve between two parameters at fractions of the length.
+/// Returns points of a curve between two parameters at fractions of the length.
 std::vector<Point> at_fractions(const std::function<Point(double)>& curve, double from, double to, const std::vector<double>& fractions) {
   std::vector<double> length{0.0};
   const auto parameter = [&](double part) { return from + part * (to - from); };
@@ -44,7 +44,7 @@ std::vector<Point> at_fractions(const std::function<Point(double)>& curve, doubl
   return points;
 }
 
-/// Right half of a section given by a formula, unit half width and height, angle 0 at the bottom, pi at the top.
+/// Returns the right half of a section given by a formula, unit half width and height, angle 0 at the bottom, pi at the top.
 std::function<Uv(double)> shape_of(const BodyFrame& frame) {
   const auto power = [](double value, double exponent) { return value <= 0.0 ? 0.0 : std::pow(value, exponent); };
   switch (frame.shape) {
@@ -80,7 +80,7 @@ std::vector<double> even_fractions(std::size_t m) {
   return fractions;
 }
 
-/// Both halves of a smooth closed curve through points, split at point `top`.
+/// Returns both halves of a smooth closed curve through points, split at point `top`.
 std::vector<Point> halves_of(std::vector<Point> loop, std::size_t top, std::size_t m) {
   loop.push_back(loop.front());
   const std::vector<double> at = spline_parameters(loop, SplineParameters::chord_length);
@@ -140,7 +140,7 @@ RowCrossing row_crossing(const std::vector<Point>& row, double fraction) {
   const CurvePtr curve = curve_of(row);
   const Vec3 chord = 0.5 * (row.front() + row.back()) - row[n];
   const auto crossing = [&](bool is_upper) {
-    double behind = 0.0, before = 1.0;  // halving: the fraction falls from the trailing to the leading edge
+    double behind = 0.0, before = 1.0;  // bisection: the fraction decreases from the trailing to the leading edge
     for (int i = 0; i < 60; ++i) {
       const double u = 0.5 * (behind + before);
       (dot(curve->point(is_upper ? u : 2.0 - u) - row[n], chord) > fraction * norm2(chord) ? behind : before) = u;
@@ -169,7 +169,7 @@ std::vector<Point> section_loop(const WingSection& section, const std::optional<
   const Point leading = *nose;
   const Vec3 chord = middle - leading;
   Vec3 gap = upper - lower;
-  if (*trailing_edge > 0.0 && norm(gap) <= k_point_size * norm(chord)) {  // sharp so far: it opens towards the upper side
+  if (*trailing_edge > 0.0 && norm(gap) <= k_point_size * norm(chord)) {  // sharp so far: the edge is opened towards the upper side
     Vec3 up;
     for (std::ptrdiff_t i = 0; i < n_upper; ++i) up += loop[static_cast<std::size_t>(i)] - leading;
     for (auto i = static_cast<std::size_t>(n_upper); i < loop.size(); ++i) up -= loop[i] - leading;
@@ -190,7 +190,7 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
   const std::vector<double> at = spline_parameters(loop, SplineParameters::centripetal);
   const CurvePtr curve = spline_curve(loop, {.tangents = SplineTangents::not_a_knot, .at = at});
   const Point middle = 0.5 * (loop.front() + loop.back());
-  // The leading edge: farthest from the trailing edge, near the farthest point of the list.
+  // The leading edge is farthest from the trailing edge, near the farthest point of the list.
   std::size_t best = 0;
   for (std::size_t i = 0; i < loop.size(); ++i)
     if (distance(loop[i], middle) > distance(loop[best], middle)) best = i;
@@ -203,7 +203,7 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
     if (distance(curve->point(a), middle) > distance(curve->point(b), middle)) high = b;
     else low = a;
   }
-  // Where the list itself has the farthest point, that one is meant.
+  // If the farthest point is a point of the list, use that point.
   const double nose = distance(curve->point(0.5 * (low + high)), middle) > distance(loop[best], middle) * (1.0 + 1e-12) ? 0.5 * (low + high) : at[best];
   const auto point = [&](double t) { return curve->point(t); };
   const std::vector<double> stations = airfoil_stations(n);
@@ -216,11 +216,11 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
 }
 
 WingRows wing_rows(const Wing& wing) {
-  /// Trailing edges thinner than this part of the chord are sharp: 6 digits of a file.
+  /// Trailing edges thinner than this fraction of the chord are sharp: files have 6 digits.
   constexpr double k_sharp = 1e-6;
   WingRows result;
   std::optional<double> thickness = wing.trailing_edge;
-  for (const bool is_first_try : {true, false}) {  // all sharp where any is
+  for (const bool is_first_try : {true, false}) {  // all sharp if any is sharp
     result = {};
     for (const WingSection& section : wing.sections) {
       if (section.is_row) result.rows.push_back(section.loop);

@@ -1,4 +1,4 @@
-// Cross sections of bodies and wings as rows of points that correspond to each other: what surfaces are splined through.
+// Cross sections of bodies and wings as rows of corresponding points, through which surfaces are splined.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,16 @@
 
 namespace sterna {
 
-/// Points of a wing section: n up to the leading edge, that, and n back to the trailing edge; by equal fractions of each side's length, closer at both ends.
+/// Points of a wing section: n up to the leading edge, the leading edge, and n back to the trailing edge; by equal fractions of each side's length, closer at
+/// both ends.
 struct AirfoilRow {
   std::vector<Point> points;  ///< 2 n + 1: trailing edge, upper side, leading edge (index n), lower side, trailing edge
 };
-/// Points of each side of an airfoil in rows of wings: NACA sections are met to 1e-6 chord.
+/// Number of points on each side of an airfoil in rows of wings: NACA sections are approximated to 1e-6 chord.
 inline constexpr std::size_t k_wing_side_points = 48;
-/// Fractions of a side from the trailing to the leading edge at which rows have their points: 0 .. 1, closer at the ends (cosine).
+/// Returns the fractions of a side from the trailing to the leading edge at which rows have their points: 0 .. 1, closer at the ends (cosine).
 std::vector<double> airfoil_stations(std::size_t n);
-/// Parameters of all points of a row: 0 trailing edge, 1 leading edge, 2 trailing edge again below. Surfaces are splined over them.
+/// Returns the parameters of all points of a row: 0 trailing edge, 1 leading edge, 2 trailing edge of the lower side. Surfaces are splined over them.
 std::vector<double> row_parameters(std::size_t n);
 /// Parameter in [0, 1] of each side where the row's spline lies at a fraction of the chord from the leading edge (0: 1, 1: 0).
 struct RowCrossing {
@@ -27,44 +28,45 @@ struct RowCrossing {
 };
 RowCrossing row_crossing(const std::vector<Point>& row, double fraction);
 
-/// Parameter of each side where the row's spline is as far from a point as `radius`, on the way from `from` to the leading (trailing) edge; nothing: nowhere.
+/// Returns the parameter of each side where the distance of the row's spline from a point equals `radius`, between `from` and the leading (trailing) edge;
+/// empty if there is none.
 std::optional<RowCrossing> row_at_distance(const std::vector<Point>& row, const RowCrossing& from, const Point& center, double radius, bool is_forward);
-/// Points of both sides at a crossing.
+/// Returns the points of both sides at a crossing.
 std::pair<Point, Point> points_at(const std::vector<Point>& row, const RowCrossing& crossing);
 
-/// Sections in component axes. `trailing_edge`: thickness in metres (the sides are turned about the leading edge until it fits), nothing: as it is.
+/// Returns the section in component axes. `trailing_edge`: thickness in metres (the sides are rotated about the leading edge to obtain it); empty: unchanged.
 /// \throws Error(bad_argument) naming the section
 std::vector<Point> section_loop(const WingSection& section, const std::optional<double>& trailing_edge);
 AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std::string& name);
 
-/// Rows of all sections of a wing in component axes, right tip first, both halves of a symmetric one. Sharp trailing edges where any section has one (thinner
-/// than 1e-6 chord).
+/// Rows of all sections of a wing in component axes, right tip first, both halves of a symmetric wing. All trailing edges are sharp if any section has a sharp
+/// one (thinner than 1e-6 chord).
 /// \throws Error(bad_argument)
 struct WingRows {
   std::vector<std::vector<Point>> rows;
   std::vector<bool> is_break;  ///< the wing may have a kink at the row; always at the ends
   bool is_blunt = true;
-  std::vector<bool> is_sampled;  ///< the row comes from a smooth wing (WingSection::is_row) or is made by a blend: parts of such rows get no end condition
-  /// All rows between two breaks are sampled.
+  std::vector<bool> is_sampled;  ///< the row belongs to a smooth wing (WingSection::is_row) or to a blend: parts of such rows get no end condition
+  /// Returns true if all rows between two breaks are sampled.
   bool is_sampled_between(std::size_t first_row, std::size_t last_row) const;
 };
-/// With the blend of a winglet (winglet_blend.h) where the wing asks for it.
+/// Returns the rows of a wing, including the blend of a winglet (winglet_blend.h) if the wing specifies one.
 WingRows wing_rows(const Wing& wing);
 
-/// The wing's skin between the rows of two neighbouring breaks: u as row_parameters, v along the span.
+/// The wing's skin between the rows of two consecutive breaks: u as row_parameters, v along the span.
 struct WingPanel {
   NurbsSurfaceForm form;
   std::size_t first_row = 0;
-  std::vector<double> v_of_row;  ///< of first_row and those that follow
-  /// v of a place that is counted in rows from tip to tip: 2.5 half way between rows 2 and 3.
+  std::vector<double> v_of_row;  ///< v of first_row and the rows that follow
+  /// Returns v of a location counted in rows from tip to tip: 2.5 is half way between rows 2 and 3.
   double v(double place) const;
 };
 WingPanel wing_panel(const std::vector<std::vector<Point>>& rows, std::size_t first_row, std::size_t last_row, bool is_sampled);
-/// One for each part between breaks, in order.
+/// Returns one panel for each part between breaks, in order.
 std::vector<WingPanel> wing_panels(const WingRows& rows);
 
-/// Points of a frame in component axes: 2 m + 1, from the bottom over the right side to the top (index m) and back on the left; the last repeats the first. All
-/// equal where the frame is a point.
+/// Returns the points of a frame in component axes: 2 m + 1, from the bottom over the right side to the top (index m) and back on the left; the last repeats
+/// the first. All are equal if the frame is a point.
 /// \throws Error(bad_argument, unsupported_format) naming the frame
 std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m);
 

@@ -1,4 +1,4 @@
-// Part of a model by its faces.
+// Selects part of a model by its faces.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,8 @@
 
 namespace sterna {
 
-/// Faces for which it holds, with their edges and corners; components and solids of which none is left are gone, a solid that lost some is no longer closed.
+/// Returns the faces for which `is_chosen` is true, with their edges and corners. Components and solids without remaining faces are removed; a solid that lost
+/// some faces is no longer closed.
 Model select_faces(const Model& model, const std::function<bool(FaceId)>& is_chosen);
 
 }  // namespace sterna

@@ -18,7 +18,7 @@ namespace {
 
 std::string segment_name(const std::string& surface, std::size_t i) { return surface + "Segment" + std::to_string(i); }
 
-/// What is asked of one surface: by a setting that names it, or by controls.
+/// Deflection requested for one surface: by a setting that names it, or by controls.
 struct Asked {
   const ControlSetting* setting = nullptr;
   double angle = 0.0;
@@ -46,10 +46,10 @@ class ControlSetter {
     return std::ranges::find(result_.control_surfaces, name, &ControlSurface::name) != result_.control_surfaces.end();
   }
 
-  /// Surfaces that the controls asked for move by segments, as a surface for each.
+  /// Splits surfaces that the requested controls move by segments into one surface per segment.
   void split_segments(const std::vector<ControlSetting>& settings) {
     std::set<std::string> moved;
-    for (const ControlSetting& setting : settings) moved.insert(setting.names);  // segments have names of their own
+    for (const ControlSetting& setting : settings) moved.insert(setting.names);  // segments have their own names
     for (const ControlSetting& setting : settings)
       if (const Control* control = is_surface(setting.names) ? nullptr : control_of(setting.names))
         for (const ControlParticipation& p : control->participations) moved.insert(p.segment);
@@ -92,7 +92,7 @@ class ControlSetter {
   void ask_by(const Control& control, const ControlSetting& setting) {
     for (const ControlParticipation& p : control.participations) {
       std::string name = p.segment;
-      if (!is_surface(name))  // the one segment of a surface may have its name or a segment's
+      if (!is_surface(name))  // the only segment of a surface may have its name or a segment's
         for (const ControlSurface& surface : result_.control_surfaces)
           if (segment_name(surface.name, 0) == p.segment && surface.hinge.size() == 2) name = surface.name;
       if (!is_surface(name)) refuse_setting(setting.names, "this control moves \"" + p.segment + "\", which is no control surface", "name surfaces");
@@ -116,7 +116,7 @@ class ControlSetter {
                    "there are " + all);
   }
 
-  /// Segments beside each other that turn alike are one surface again; all of them together have their surface's name.
+  /// Joins adjacent segments with equal deflections again; all segments together have their surface's name.
   void join_segments() {
     std::vector<ControlSurface> joined;
     std::map<std::string, std::string> renamed;  // the first segment of a row that is the whole surface
@@ -147,7 +147,7 @@ class ControlSetter {
     result_.control_surfaces = std::move(joined);
   }
 
-  /// The wing's deflections, and patches of its other surfaces.
+  /// Sets the wing's deflections, and patches of its other surfaces.
   void turn(const Wing& wing) {
     std::vector<Deflection> all;
     std::erase_if(result_.deflections, [&](const Deflection& d) {

@@ -1,4 +1,4 @@
-// Deflections asked of the control surfaces that an aircraft's description has: files of sumo and CPACS.
+// Applies deflections to the control surfaces of an aircraft description from sumo or CPACS files.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 namespace sterna {
 
 struct ControlSetting {
-  std::string names;   ///< of control surfaces or of a control that moves some; a pattern (* and ?)
-  double angle = 0.0;  ///< radians; as of Deflection; of a control: times the factor of each of its participations
+  std::string names;   ///< name of control surfaces or of a control that moves several; a pattern (* and ?)
+  double angle = 0.0;  ///< radians; sign as in Deflection; for a control: multiplied by the factor of each participating surface
   ControlGap gap = ControlGap::sealed;
   double fairing = Deflection::k_automatic_fairing;  ///< m
-  OtherSide other_side = OtherSide::same;            ///< of surfaces that have an image
+  OtherSide other_side = OtherSide::same;            ///< for surfaces that have an image
 };
 
-/// The description with its control surfaces turned: exact names of surfaces count before controls, those before patterns over surfaces; controls that move one
-/// surface together add up. Surfaces of which a control moves single segments become one surface for each segment. Neighbours whose fairings would overlap are
-/// drawn in at their ends (with_room_between). Surfaces that no setting names keep what they have.
-/// \throws Error(bad_argument) for names that nothing has (with those that exist), one surface asked for twice, surfaces of wings that are not there
+/// Returns the description with its control surfaces deflected. Exact names of surfaces take precedence over controls, and controls over patterns of surface
+/// names. Contributions of several controls to one surface are added. If a control moves single segments of a surface, the surface becomes one surface per
+/// segment. Neighbours whose fairings would overlap are shortened at their ends (with_room_between). Surfaces without a setting are unchanged.
+/// \throws Error(bad_argument) for unknown names (with the existing ones), a surface set twice, surfaces of wings that do not exist
 Aircraft with_controls_set(const Aircraft& aircraft, const std::vector<ControlSetting>& settings);
 
 }  // namespace sterna

@@ -18,7 +18,7 @@
 namespace sterna {
 namespace {
 
-/// A duct of rectangular stations: walls between them by cubics (straight or with level ends), flat ends.
+/// Station of a duct with rectangular sections: walls between stations are cubics (straight or with level ends), flat ends.
 struct DuctStation {
   double x, half_width, half_height;
   bool is_level = false;  ///< the part that begins here has walls parallel to x at both ends
@@ -79,7 +79,7 @@ class DuctBuilder {
   std::vector<std::array<EdgeId, 4>> rings_;
 };
 
-/// NACA's symmetric 4-digit section of any thickness, closed at the trailing edge: its heights are proportional to the thickness.
+/// Returns NACA's symmetric 4-digit section of any thickness, closed at the trailing edge: its heights are proportional to the thickness.
 std::vector<Uv> symmetric_section(double thickness) {
   std::vector<Uv> points = with_trailing_edge(naca_airfoil("0010", 40), 0.0).points;
   for (Uv& p : points) p.v *= thickness / 0.1;
@@ -166,8 +166,8 @@ Model make_test_section(const TestSectionOptions& o) {
   return model;
 }
 
-/// Fullness of a nacelle's lip: intakes are much deeper than their lip is thick, and a quarter ellipse down to the fan would begin like a knife (2 mm of
-/// radius on an engine of 4 m); this one has about a quarter of the lip's thickness, and is almost straight behind.
+/// Fullness of a nacelle's lip. Intakes are much deeper than their lip is thick, and a quarter ellipse down to the fan would have a very sharp leading edge (2
+/// mm of radius on an engine of 4 m). This lip has a radius of about a quarter of its thickness, and is almost straight behind.
 constexpr double k_full_lip = 1.6;
 
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& o) {
@@ -181,8 +181,8 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
     body.frames.push_back(
         {.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
   };
-  // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit. The frames are dense where the ellipse begins, so
-  // that it begins across the axis: what the cowl does not turn there the lip would have to.
+  // Front: quarter ellipse from the highlight to the largest diameter; rear: parabola to the exit. The frames are dense at the start of the ellipse, so that it
+  // starts perpendicular to the axis: any missing turning of the cowl would have to be in the lip.
   for (const double t : {0.0, 0.005, 0.02, 0.07, 0.18, 0.38, 0.65})
     add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
   for (const double t : {0.0, 0.35, 0.7, 1.0}) add(o.thickest + t * (1.0 - o.thickest), 1.0 - (1.0 - o.exit_ratio) * t * t);
@@ -193,22 +193,23 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
 
 namespace {
 
-/// Where a pylon's lower end runs in the body: so much of the half height stays between it and the surface.
+/// Distance of a pylon's lower end below the body's surface, as a fraction of the half height.
 constexpr double k_pylon_sink = 0.02;
 /// Samples of the section at that end.
 constexpr int k_pylon_stations = 40;
-/// A trailing edge farther back than this, of the body's length, has no room to leave through the surface before the end plane: it stands behind the body then.
+/// If the trailing edge is farther back than this, relative to the body's length, there is no room to leave through the surface before the end plane: it is
+/// then behind the body.
 constexpr double k_last_trailing = 0.98;
-/// A section behind the body runs out of the surface before the end plane: there it is so much of the half height beyond it.
+/// A section behind the body leaves the surface before the end plane: there it is outside by this fraction of the half height.
 constexpr double k_pylon_rise = 0.05;
 
-/// Upper (side 1) or lower outline of a body over x in its own axes, straight between frames: inside of convex bodies.
+/// Upper (side 1) or lower outline of a body over x in its own axes, straight between frames: inside convex bodies.
 class BodyOutline {
  public:
   BodyOutline(const Body& body, double side) : body_(body), side_(side) {}
   double front() const { return body_.frames.front().center.x; }
   double length() const { return body_.frames.back().center.x - front(); }
-  /// Distance of the surface from z = 0 towards the side, at a distance across from the frames' middle; none where the body is narrower.
+  /// Returns the distance of the surface from z = 0 towards the side, at a lateral distance from the frames' middle; nothing if the body is narrower.
   std::optional<double> height(double x, double across = 0.0) const {
     const auto [i, t] = place(x);
     const BodyFrame &a = body_.frames[i], &b = body_.frames[i + 1];
@@ -232,8 +233,8 @@ class BodyOutline {
   double side_;
 };
 
-/// Ends of the pylon's lower section in the body's axes, as (x, distance from z = 0 towards the wing): just below the surface, all of the section inside, and
-/// its trailing edge so near to the surface that it leaves through that and not through the plane where the body ends.
+/// Returns the ends of the pylon's lower section in the body's axes, as (x, distance from z = 0 towards the wing): just below the surface, with the whole
+/// section inside, and the trailing edge so close to the surface that it leaves through the surface and not through the end plane of the body.
 std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions& o, Uv wing_trailing, const std::string& attempted) {
   const double end = outline.front() + outline.length();
   Uv leading{outline.front() + o.nacelle_from * outline.length(), 0.0}, trailing{outline.front() + o.nacelle_to * outline.length(), 0.0};
@@ -243,7 +244,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
     trailing.v = *outline.height(end) + k_pylon_rise * outline.half_height(end);
   } else {
     double sink = k_pylon_sink * outline.half_height(trailing.u);
-    // On its way to the wing it gains height over the surface; half of the room to the end is enough for it.
+    // On its way to the wing the trailing edge gains height over the surface; half of the room to the end is sufficient.
     const double room = 0.5 * (end - trailing.u), top = *outline.height(trailing.u);
     const double climb = wing_trailing.u > trailing.u ? (wing_trailing.v - top) / (wing_trailing.u - trailing.u) : std::numeric_limits<double>::infinity();
     const double fall = (top - *outline.height(trailing.u + room)) / room;
@@ -255,10 +256,10 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
           "be less");
     trailing.v = top - sink;
   }
-  // The section is thick and the surface round: where it would stand out beside its middle, the leading end goes deeper.
+  // The section is thick and the surface round: where the section would protrude on either side of its middle, the leading end is lowered.
   for (int i = 0; i < k_pylon_stations; ++i) {
     const double t = static_cast<double>(i) / k_pylon_stations, x = leading.u + t * (trailing.u - leading.u);
-    if (is_behind && leading.v + t * (trailing.v - leading.v) > *outline.height(x)) break;  // from here on it stands on the air behind
+    if (is_behind && leading.v + t * (trailing.v - leading.v) > *outline.height(x)) break;  // from here on it is in the air behind the body
     const auto top = outline.height(x, 0.5 * o.thickness * (trailing.u - leading.u));
     if (!top) throw_bad_argument(attempted, "it is thicker than the nacelle is wide: thickness has to be less");
     // Near the trailing edge the section is thin again.
@@ -306,7 +307,7 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
     s.leading_edge.y = y;
     return s;
   };
-  // From the surface that faces the wing, in the nacelle's axes.
+  // Points from the surface that faces the wing, in the nacelle's axes.
   const Transform into_nacelle = nacelle_map.inverse();
   const Point wing_trailing = into_nacelle.point(local->leading + o.wing_to * chord), wing_leading = into_nacelle.point(local->leading + o.wing_from * chord);
   const double up = 0.5 * (wing_leading.z + wing_trailing.z) < 0.5 * (nacelle.frames.front().center.z + nacelle.frames.back().center.z) ? -1.0 : 1.0;

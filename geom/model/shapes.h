@@ -1,4 +1,4 @@
-// Parametric shapes with named options: boxes, cylinders, test sections, and the bodies and wings that nacelles, pylons, booms, fairings and stings are.
+// Parametric shapes with named options: boxes, cylinders, test sections, and the bodies and wings that represent nacelles, pylons, booms, fairings and stings.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 namespace sterna {
 
 /// Axis-parallel box as a solid body.
-/// \throws Error(bad_argument) when it has no size
+/// \throws Error(bad_argument) if its size is zero
 Model make_box(const std::string& name, const Point& from, const Point& to);
 
 /// Solid cylinder between two points.
-/// \throws Error(bad_argument) when it has no length or radius
+/// \throws Error(bad_argument) if its length or radius is zero
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 
-/// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right
+/// Wind-tunnel test section around the x axis, with the fluid inside and the model at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right
 /// at starboard, <wall>_ceiling and <wall>_left), or round (diameter: one wall).
 struct TestSectionOptions {
   double length = k_automatic;
@@ -72,7 +72,7 @@ struct Schema<TestSectionOptions> {
 /// \throws Error(bad_argument)
 Model make_test_section(const TestSectionOptions& options);
 
-/// Nacelle of circular sections with an inlet lip down to a fan face and a flat nozzle; its front stands at `position`.
+/// Nacelle of circular sections with an inlet lip down to a fan face and a flat nozzle; its front is at `position`.
 struct NacelleOptions {
   double length = k_automatic;
   double diameter = k_automatic;
@@ -100,7 +100,7 @@ struct Schema<NacelleOptions> {
 /// \throws Error(bad_argument)
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& options);
 
-/// Pylon between a wing and a nacelle that hangs below or stands above it: from just below the cowl's surface to within the wing.
+/// Pylon between a wing and a nacelle below or above it: from just below the cowl's surface to inside the wing.
 struct PylonOptions {
   double thickness = 0.1;
   double nacelle_from = 0.2;
@@ -124,22 +124,23 @@ struct Schema<PylonOptions> {
       Field<O>{.name = "wing_to", .member = &O::wing_to, .min = 0.0, .max = 1.0, .help = "trailing edge in the wing, of the local chord"},
   };
 };
-/// Its lower end follows the outer surface that faces the wing, and all of it leaves the nacelle through that surface, not through the nozzle plane.
-/// \throws Error(bad_argument) when the nacelle does not stand within the wing's span, is narrower than the pylon is thick, or the trailing edge leads through
-/// the nozzle plane all the same
+/// The lower end of the pylon follows the outer surface that faces the wing. The pylon leaves the nacelle only through that surface, not through the nozzle
+/// plane.
+/// \throws Error(bad_argument) if the nacelle is not within the wing's span, is narrower than the pylon is thick, or the trailing edge still passes through the
+/// nozzle plane
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& options);
 
-/// Where a body stands whose axis leads from a point towards another; no roll.
-/// \throws Error(bad_argument) when they coincide
+/// Returns the placement of a body whose axis points from one point to another; no roll.
+/// \throws Error(bad_argument) if the points coincide
 Placement placement_along(const Point& from, const Point& to);
 
-/// Body of circular sections through profile points: u = x along the axis of `placement`, v = radius; ascending x, radius 0 (a point) only at the ends, which
-/// are flat where it is not. Smooth, nowhere thicker than the points say, or straight between the points.
+/// Body of circular sections through profile points: u = x along the axis of `placement`, v = radius; ascending x. The radius may be 0 (a point) only at the
+/// ends; ends with a positive radius are flat. Smooth without overshoot of the given radii, or straight between the points.
 /// \throws Error(bad_argument) naming the point
 Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight = false,
                         ComponentKind kind = ComponentKind::body);
 
-/// Round tube between two points with half-elliptic ends within its length.
+/// Round tube between two points, with half-elliptic ends within its length.
 struct BoomOptions {
   double diameter = k_automatic;
   double nose_length = k_automatic;
@@ -165,10 +166,10 @@ struct Schema<BoomOptions> {
                .automatic = "two diameters"},
   };
 };
-/// \throws Error(bad_argument) when both ends together are not shorter than the boom
+/// \throws Error(bad_argument) if both ends together are not shorter than the boom
 Body boom_body(const std::string& name, const Point& from, const Point& to, const BoomOptions& options);
 
-/// Streamlined body of superelliptic sections, pointed behind, round in front; its front stands at `position`.
+/// Streamlined body of superelliptic sections, pointed at the rear, round at the front; its front is at `position`.
 struct FairingOptions {
   double length = k_automatic;
   double width = k_automatic;
@@ -191,7 +192,7 @@ struct Schema<FairingOptions> {
 /// \throws Error(bad_argument)
 Body fairing_body(const std::string& name, const Point& position, const FairingOptions& options);
 
-/// Sting of a wind-tunnel model: a cylinder from within the model, then a cone; both ends flat.
+/// Sting of a wind-tunnel model: a cylinder that starts inside the model, then a cone; both ends flat.
 struct StingOptions {
   double diameter = k_automatic;
   double cone_start = k_automatic;

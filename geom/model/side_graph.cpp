@@ -1,4 +1,4 @@
-// Half-edges sorted by angle around every node; each face is walked with itself on the left (de Berg et al., Computational Geometry, ch. 2).
+// Half-edges are sorted by angle around every node; each face is traversed with the face on the left (de Berg et al., Computational Geometry, ch. 2).
 #include "geom/model/side_graph.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::vector<SideGraph::Loop> SideGraph::loops() const {
   std::map<std::pair<double, double>, std::vector<std::size_t>> leaving;
   for (std::size_t h = 0; h < 2 * lines_.size(); ++h) leaving[{from(h).u, from(h).v}].push_back(h);
   for (auto& [place, around] : leaving) std::sort(around.begin(), around.end(), [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
-  const auto next = [&](std::size_t h) {  // the first clockwise from where h came
+  const auto next = [&](std::size_t h) {  // the first half-edge clockwise from the previous one
     const std::vector<std::size_t>& around = leaving.at({to(h).u, to(h).v});
     const auto back = std::find(around.begin(), around.end(), h ^ 1u);
     return back == around.begin() ? around.back() : *(back - 1);

@@ -9,19 +9,19 @@
 
 namespace sterna {
 
-/// A connected net of edges whose places in (u, v) are straight lines that meet only at their ends, and the faces that it bounds.
+/// A connected graph of edges that are straight lines in (u, v) and meet only at their ends, and the faces that it bounds.
 class SideGraph {
  public:
-  /// Mark of the faces at one side of a line; nothing: not said by it.
+  /// Mark of the faces on one side of a line; empty: the line sets none.
   using Mark = std::optional<std::size_t>;
-  /// Ends of lines meet where their coordinates are the same to the bit. Lines of no length are left out.
+  /// Adds a line. Ends of lines meet if their coordinates are identical to the bit. Lines of zero length are ignored.
   void add(EdgeId edge, Uv from, Uv to, Mark left = {}, Mark right = {});
 
   struct Loop {
     std::vector<ModelBuilder::Side> sides;  ///< counter-clockwise in (u, v)
-    Mark mark;                              ///< the first that one of its lines has on the loop's side
+    Mark mark;                              ///< the first mark among its lines on the loop's side
   };
-  /// All bounded faces, in the order of the lines that were added.
+  /// Returns all bounded faces, in the order in which their lines were added.
   std::vector<Loop> loops() const;
 
  private:

@@ -11,7 +11,7 @@
 namespace sterna {
 namespace {
 
-/// Poles of half an arc as a rational quadratic: corner, meeting point of the tangents, foremost point; weights 1, w, 1.
+/// Poles of half an arc as a rational quadratic: corner, intersection of the tangents, foremost point; weights 1, w, 1.
 struct HalfArc {
   Point corner, shoulder, front;
   double weight;
@@ -40,14 +40,14 @@ SectionForm section_form(const Point& upper, const Point& lower, const std::opti
   return {{a.corner, a.shoulder, a.front, b.shoulder, b.corner}, {1.0, a.weight, 1.0, b.weight, 1.0}};
 }
 
-/// A part of a curve as a polynomial form over [0, 1].
+/// Returns a part of a curve as a polynomial form over [0, 1].
 NurbsCurveForm<Point> unit_form(const CurvePtr& curve, Interval range) {
   NurbsCurveForm<Point> form = *part_of(curve, range)->exact_nurbs();
   form.knots = stretched_knots(form.knots, {0.0, 1.0});
   return form;
 }
 
-/// Both forms on the same knots and of the same degree.
+/// Converts both forms to the same knots and the same degree.
 void unify(NurbsCurveForm<Point>& a, NurbsCurveForm<Point>& b) {
   const int degree = std::max(a.degree, b.degree);
   const std::vector<double> knots = united_knots(elevated_knots(a.knots, degree - a.degree), elevated_knots(b.knots, degree - b.degree));
@@ -57,7 +57,7 @@ void unify(NurbsCurveForm<Point>& a, NurbsCurveForm<Point>& b) {
 
 using Side = ModelBuilder::Side;
 
-/// Sides along a split curve, from its start to its end or back; `place` gives (u, v) of its parameter.
+/// Returns sides along a split curve, from its start to its end or back; `place` gives (u, v) of its parameter.
 template <class Place>
 void add_sides(std::vector<Side>& sides, const SplitCurve& split, bool is_forward, const Place& place) {
   const std::size_t n = split.edges.size();
@@ -100,7 +100,7 @@ void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, 
     NurbsSurfaceForm form{is_straight ? 1 : 2, top.degree, knots_of_section(is_straight), top.knots, a.poles.size(), top.poles.size(), {}, {}};
     for (std::size_t r = 0; r < form.n_u; ++r)
       for (std::size_t j = 0; j < form.n_v; ++j) {
-        double t = 0.0;  // Greville's place of the pole: what is linear along the span stays so
+        double t = 0.0;  // Greville abscissa of the pole: linear functions along the span are preserved
         for (int k = 1; k <= top.degree; ++k) t += top.knots[j + static_cast<std::size_t>(k)] / top.degree;
         form.poles.push_back(r == 0 ? top.poles[j] : r + 1 == form.n_u ? bottom.poles[j] : (1.0 - t) * a.poles[r] + t * b.poles[r]);
         if (!is_straight) form.weights.push_back((1.0 - t) * a.weights[r] + t * b.weights[r]);
@@ -116,7 +116,7 @@ void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, 
 
 namespace {
 
-/// Ruled between two polynomial forms, or two rational ones on the same knots.
+/// Returns the ruled surface between two polynomial forms, or two rational ones on the same knots.
 SurfacePtr ruled(NurbsCurveForm<Point> a, NurbsCurveForm<Point> b) {
   const bool is_rational = !a.weights.empty();
   if (!is_rational) unify(a, b);

@@ -9,14 +9,14 @@
 
 namespace sterna {
 
-/// Reads every component, control surface and engine. Values that sumo itself would change on reading are changed likewise: a shape constraint
-/// replaces the points, frames are sorted by x and normalised, repeated points are dropped. Unknown elements and attributes, references to
-/// nothing, and odd values are in the messages, which also go to the log as warnings.
+/// Reads every component, control surface and engine. Values that sumo itself changes on reading are changed in the same way: a shape constraint replaces the
+/// points, frames are sorted by x and normalised, repeated points are dropped. Unknown elements and attributes, unresolved references and suspicious values are
+/// listed in the messages, which also go to the log as warnings.
 /// \throws Error(file_not_found, file_malformed) with line and path of the element
 AircraftReading read_smx(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes what .smx can hold; read_smx of it gives an equal aircraft when `aircraft` came from read_smx.
-/// \throws Error(write_failed), Error(unsupported_format) naming what .smx cannot hold (sections as free loops, blunt trailing edges ...)
+/// Writes the contents that .smx supports. If `aircraft` was read by read_smx, reading the written file again gives an equal aircraft.
+/// \throws Error(write_failed), Error(unsupported_format) naming what .smx cannot represent (sections as free loops, blunt trailing edges ...)
 void write_smx(const Aircraft& aircraft, const std::filesystem::path& path);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// Reader of .smx. Steps: components of the root, then the systems that refer to them, then references are resolved.
+// Reader of .smx. Steps: components of the root, then the systems that refer to them, then resolution of references.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,13 +15,13 @@
 namespace sterna {
 namespace {
 
-/// A polyline that turns by more doubles back: sumo refuses it too.
+/// A polyline that turns by more reverses its direction: sumo rejects it too.
 constexpr double k_max_turn = 175.0 * k_degree;
-/// Normalised frame points off by less are as good as files with 6 digits can say it; moving them would change shapes at every save.
+/// Normalised frame points with a smaller deviation are accurate within the 6 digits of files; moving them would change shapes at every save.
 constexpr double k_normal_slack = 2e-6;
-/// Points closer than this, of a unit section, are the same point written twice.
+/// Points closer than this, relative to a unit section, are one repeated point.
 constexpr double k_same_smx_point = 1e-12;
-/// Half width of a section's end that is meant to lie in the plane of symmetry.
+/// Half width of a section's end that is intended to be in the plane of symmetry.
 constexpr double k_on_plane = 1e-9;
 
 class SmxReader {
@@ -118,7 +118,7 @@ bool SmxReader::read_shape(const Node& node, BodyFrame& frame) {
   return n_shapes > 0;
 }
 
-/// Rescales the points to max y = 1 and z from -1 to 1; center, width and height take it up, the shape stays.
+/// Rescales the points to max y = 1 and z from -1 to 1; center, width and height are adjusted so that the shape is unchanged.
 void SmxReader::normalise(const Node& node, BodyFrame& frame) {
   double y_max = 0.0, z_min = frame.points.front().v, z_max = z_min;
   for (const Uv p : frame.points) {
@@ -231,7 +231,7 @@ WingSection SmxReader::section(const Node& node) {
   if (s.points.empty() && s.naca.empty()) file_.fail(node, "the section has neither airfoil points nor a 'naca' designation");
   if (s.points.empty() && !s.naca.empty()) {
     try {
-      naca_airfoil(s.naca);  // the sections are made from it
+      naca_airfoil(s.naca);  // the sections are generated from it
     } catch (const Error& e) {
       file_.fail(node, "attribute 'naca': " + e.info().problem);
     }
@@ -251,7 +251,7 @@ Wing SmxReader::wing(const Node& node) {
   file_.warn_unknown(node, "name flags origin rotation akimatg", "WingSection Cap Caps WingCriterion MeshCriterion");
   wing.name = file_.required_text(node, "name");
   wing.placement = placement(node);
-  wing.trailing_edge = 0.0;  // sumo closes every airfoil, by turning its sides about the leading edge
+  wing.trailing_edge = 0.0;  // sumo closes every airfoil, by rotating its sides about the leading edge
   const std::string flags = file_.text(node, "flags");
   for (std::size_t at = 0; at < flags.size();) {
     const std::size_t end = std::min(flags.find(',', at), flags.size());

@@ -1,4 +1,4 @@
-// Writer of .smx: the elements and attributes in the order sumo itself has them.
+// Writer of .smx: elements and attributes in sumo's own order.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -27,7 +27,7 @@ void set(Node& node, const char* name, const std::optional<double>& value) {
 void set(Node& node, const char* name, const Vec3& v) { set(node, name, " " + exact_text(v.x) + " " + exact_text(v.y) + " " + exact_text(v.z) + " "); }
 void set(Node& node, const char* name, Uv p) { set(node, name, exact_text(p.u) + " " + exact_text(p.v)); }
 
-/// Degrees that read back as the same radians: the plain number where rounding allows, else a neighbour in the last bit.
+/// Returns degrees that read back as the same radians: the plain number if rounding allows it, else a neighbour in the last bit.
 double degrees_of(double radians) {
   const double near = radians / k_degree;
   for (const double candidate : {std::round(near * 1e9) / 1e9, near, std::nextafter(near, 0.0), std::nextafter(near, HUGE_VAL)})
@@ -158,7 +158,7 @@ void add_body(Node& root, const Body& body) {
   add_criterion(node, body.criterion);
 }
 
-/// Distance of the ends of a section, of the chord, below which .smx, which closes all airfoils, does not change it: rounding of coordinates in files.
+/// Distance of the ends of a section, relative to the chord, below which .smx, which closes all airfoils, does not change it: rounding of coordinates in files.
 constexpr double k_closed_airfoil = 1e-6;
 
 void add_wing(Node& root, const Wing& wing) {

@@ -31,7 +31,7 @@ SpaceMapDerivatives FunctionMap::derivatives(const Point& p) const {
   const Vec3 axes[3] = {{h, 0.0, 0.0}, {0.0, h, 0.0}, {0.0, 0.0, h}};
   Vec3* first[3] = {&d.dx, &d.dy, &d.dz};
   Vec3* second[3] = {&d.dxx, &d.dyy, &d.dzz};
-  Vec3* mixed[3] = {&d.dyz, &d.dxz, &d.dxy};  // by the axis that is left out
+  Vec3* mixed[3] = {&d.dyz, &d.dxz, &d.dxy};  // by the omitted axis
   for (int a = 0; a < 3; ++a) {
     const Point f1 = point(p + axes[a]), b1 = point(p - axes[a]), f2 = point(p + 2.0 * axes[a]), b2 = point(p - 2.0 * axes[a]);
     *first[a] = (8.0 * (f1 - b1) - (f2 - b2)) / (12.0 * h);

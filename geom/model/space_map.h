@@ -1,4 +1,4 @@
-// Deformations of space D(p), and curves and surfaces seen through them: S'(u, v) = D(S(u, v)). No refit: same parameters, exact to rounding.
+// Deformations of space D(p), and curves and surfaces composed with them: S'(u, v) = D(S(u, v)). No refit: same parameters, exact to rounding.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct SpaceMapDerivatives {
   Vec3 second(const Vec3& a, const Vec3& b) const {
     return a.x * b.x * dxx + a.y * b.y * dyy + a.z * b.z * dzz + (a.x * b.y + a.y * b.x) * dxy + (a.x * b.z + a.z * b.x) * dxz + (a.y * b.z + a.z * b.y) * dyz;
   }
-  /// Of the Jacobian: volume of the image of a unit volume; not positive where space folds over.
+  /// Returns the determinant of the Jacobian: volume of the image of a unit volume; not positive where the map folds over.
   double determinant() const { return dot(dx, cross(dy, dz)); }
 };
 
@@ -29,13 +29,13 @@ class SpaceMap {
 };
 using SpaceMapPtr = std::shared_ptr<const SpaceMap>;
 
-/// A function as a map. Derivatives are central differences of fourth order (mixed ones of second) with `step` metres: 25 calls. About 1e-3 of the
-/// length over which the function bends is a good step; second derivatives then are good to about 1e-9 of it.
+/// A function as a map. Derivatives are central differences of fourth order (mixed derivatives: second order) with `step` metres: 25 calls. A good step is
+/// about 1e-3 of the length scale over which the function varies; second derivatives are then accurate to about 1e-9 relative to that scale.
 class FunctionMap final : public SpaceMap {
  public:
   /// \throws Error(bad_argument) unless step > 0
   FunctionMap(std::function<Point(const Point&)> function, double step);
-  /// \throws Error(bad_argument) with the place where the function gives something that is not finite
+  /// \throws Error(bad_argument) with the location where the function returns a value that is not finite
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;
 

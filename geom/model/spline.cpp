@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::string_view k_curve = "making a spline curve";
 constexpr std::string_view k_surface = "making a spline surface";
-/// Neighbours closer than this part of the whole length coincide: parameters could not tell them apart.
+/// Neighbours closer than this fraction of the total length coincide: parameters could not distinguish them.
 constexpr double k_coincident = 1e-12;
-/// Differences of slopes below this part of the slopes are rounding, not bends (Akima's weights).
+/// Differences of slopes below this fraction of the slopes are rounding, not bends (Akima's weights).
 constexpr double k_straight = 1e-10;
-/// A seam closes when its ends are apart by less than this part of the whole length.
+/// A seam closes if its ends are closer than this fraction of the total length.
 constexpr double k_closed = 1e-9;
 
 bool is_smooth(SplineTangents t) {
@@ -40,7 +40,7 @@ double step_length(double distance, SplineParameters kind) {
   return distance;
 }
 
-/// Running sum of steps scaled to [0, 1].
+/// Returns the cumulative sum of steps scaled to [0, 1].
 std::vector<double> scaled_sum(const std::vector<double>& steps) {
   std::vector<double> t(steps.size() + 1, 0.0);
   for (std::size_t i = 0; i < steps.size(); ++i) t[i + 1] = t[i] + steps[i];
@@ -86,7 +86,7 @@ Tangents slopes_of(const Points& p, const Numbers& t) {
   return d;
 }
 
-/// Solves a tridiagonal system with any number of right-hand sides of vectors; no pivoting is needed for those of splines.
+/// Solves a tridiagonal system with any number of right-hand sides of vectors; no pivoting is needed for spline systems.
 void solve_tridiagonal(const Numbers& below, Numbers diagonal, const Numbers& above, Tangents& x) {
   const std::size_t n = diagonal.size();
   for (std::size_t i = 1; i < n; ++i) {
@@ -107,7 +107,7 @@ Tangents open_smooth_tangents(const Points& p, const Numbers& t, bool is_not_a_k
   const std::size_t n = p.size();
   const Tangents d = slopes_of(p, t);
   const auto h = [&](std::size_t i) { return t[i + 1] - t[i]; };
-  if (is_not_a_knot && n == 3) {  // the parabola
+  if (is_not_a_knot && n == 3) {  // three points: the parabola
     const Vec3 middle = (h(1) * d[0] + h(0) * d[1]) / (h(0) + h(1));
     return {2.0 * d[0] - middle, middle, 2.0 * d[1] - middle};
   }
@@ -140,7 +140,7 @@ Tangents open_smooth_tangents(const Points& p, const Numbers& t, bool is_not_a_k
   return m;
 }
 
-/// The same around a closed curve: n - 1 unknowns in a cyclic system, by Sherman and Morrison's formula.
+/// Solves the same equations on a closed curve: n - 1 unknowns in a cyclic system, by the Sherman-Morrison formula.
 Tangents periodic_tangents(const Points& p, const Numbers& t) {
   const std::size_t n = p.size() - 1;
   const Tangents d = slopes_of(p, t);
@@ -169,12 +169,12 @@ Tangents periodic_tangents(const Points& p, const Numbers& t) {
   return m;
 }
 
-/// Akima's or Bessel's tangents from the slopes beside each point.
+/// Returns Akima's or Bessel's tangents from the slopes beside each point.
 Tangents local_tangents(const Points& p, const Numbers& t, bool is_akima, bool closed) {
   const std::size_t n = p.size();
   const Tangents inner = slopes_of(p, t);
   if (n == 2) return {inner[0], inner[0]};
-  // Slopes d[i + 2] of segment i with two more at each end: those of the other end, or extrapolated (Akima).
+  // Slopes d[i + 2] of segment i with two more at each end: those of the other end (closed), or extrapolated (Akima).
   Tangents d(n + 3);
   std::copy(inner.begin(), inner.end(), d.begin() + 2);
   if (closed) {
@@ -209,14 +209,15 @@ Tangents local_tangents(const Points& p, const Numbers& t, bool is_akima, bool c
   return m;
 }
 
-/// Fritsch and Butland's slope at an inner point (SIAM J. Sci. Stat. Comput. 5, 1984): nothing at an extremum, else the weighted harmonic mean of both slopes.
+/// Returns Fritsch and Butland's slope at an inner point (SIAM J. Sci. Stat. Comput. 5, 1984): zero at an extremum, else the weighted harmonic mean of both
+/// slopes.
 double monotone_slope(double h_before, double h_after, double before, double after) {
   if (!(before * after > 0.0)) return 0.0;
   const double w_before = h_before + 2.0 * h_after, w_after = 2.0 * h_before + h_after;
   return (w_before + w_after) / (w_before / before + w_after / after);
 }
 
-/// At an end: of the parabola through three points, cut back until the first segment is monotone.
+/// Returns the slope at an end: that of the parabola through three points, limited so that the first segment is monotone.
 double monotone_end(double h_first, double h_second, double first, double second) {
   const double slope = ((2.0 * h_first + h_second) * first - h_first * second) / (h_first + h_second);
   if (!(slope * first > 0.0)) return 0.0;
@@ -253,7 +254,7 @@ Tangents tangents_of(const Points& p, const Numbers& t, const SplineOptions& o, 
 
 // ---------------------------------------------------------------- one row
 
-/// First and last point of each piece between corners.
+/// Returns the first and last point of each piece between corners.
 std::vector<std::array<std::size_t, 2>> pieces_of(const SplineOptions& o, std::size_t n) {
   std::vector<std::array<std::size_t, 2>> pieces;
   std::size_t from = 0;
@@ -284,7 +285,7 @@ std::vector<double> knots_of(const Numbers& t, const SplineOptions& o) {
 void append_piece(const Points& p, const Numbers& t, const SplineOptions& o, const EndTangents& ends, Points& poles) {
   const Tangents m = tangents_of(p, t, o, ends);
   const auto h = [&](std::size_t i) { return t[i + 1] - t[i]; };
-  const auto second = [&](std::size_t i) { return p[i] + h(i) / 3.0 * m[i]; };  // Bezier's points of segment i
+  const auto second = [&](std::size_t i) { return p[i] + h(i) / 3.0 * m[i]; };  // Bezier points of segment i
   const auto third = [&](std::size_t i) { return p[i + 1] - h(i) / 3.0 * m[i + 1]; };
   const std::size_t last = p.size() - 1;
   poles.push_back(second(0));
@@ -292,7 +293,7 @@ void append_piece(const Points& p, const Numbers& t, const SplineOptions& o, con
     if (!is_smooth(o.tangents)) {
       poles.push_back(third(i - 1));
       poles.push_back(second(i));
-    } else if (h(i) >= h(i - 1)) {  // blossom at (t_(i-1), t_i, t_(i+1)), from the longer segment: less rounding
+    } else if (h(i) >= h(i - 1)) {  // blossom at (t_(i-1), t_i, t_(i+1)), from the longer segment: smaller rounding error
       poles.push_back(second(i) + (t[i - 1] - t[i]) / h(i) * (third(i) - second(i)));
     } else {
       poles.push_back(second(i - 1) + (t[i + 1] - t[i - 1]) / h(i - 1) * (third(i - 1) - second(i - 1)));
@@ -302,7 +303,7 @@ void append_piece(const Points& p, const Numbers& t, const SplineOptions& o, con
   poles.push_back(p[last]);
 }
 
-/// Poles of the spline through one row of points.
+/// Returns the poles of the spline through one row of points.
 Points poles_of(const Points& p, const Numbers& t, const SplineOptions& o, const EndTangents& ends) {
   if (o.tangents == SplineTangents::linear) return p;
   Points poles{p.front()};
@@ -326,7 +327,7 @@ void check_seam(const Point& first, const Point& last, double length, std::strin
 
 // ---------------------------------------------------------------- rows of a grid
 
-/// Mean parameters of `n_rows` rows of n points; get(i, row).
+/// Returns the mean parameters of `n_rows` rows of n points; get(i, row).
 template <class Get>
 Numbers mean_parameters(std::size_t n, std::size_t n_rows, const Get& get, SplineParameters kind) {
   Numbers length(n_rows, 0.0);
@@ -425,7 +426,8 @@ NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions&
     }
     columns.push_back(poles_of(p, tu, u, ends_of(u, j)));
   }
-  // The end tangents along v belong to rows of points; rows of poles need theirs: splined along u like the points, without twist where u is clamped.
+  // The end tangents along v belong to rows of points, but rows of poles are required: they are splined along u like the points, without twist where u is
+  // clamped.
   const Vec3 none{};
   const auto splined_tangents = [&](const std::vector<Vec3>& tangents) {
     return tangents.empty() ? Points{} : poles_of(tangents, tu, u, u.tangents == SplineTangents::clamped ? EndTangents{&none, &none} : EndTangents{});

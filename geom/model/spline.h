@@ -11,32 +11,32 @@
 
 namespace sterna {
 
-/// What decides the tangents at the points.
+/// Rule for the tangents at the points.
 enum class SplineTangents {
   natural,     ///< twice continuously differentiable, no curvature at the ends
   clamped,     ///< twice continuously differentiable, given tangents at the ends
-  not_a_knot,  ///< twice continuously differentiable, the third derivative goes on across the second and the last but one point
+  not_a_knot,  ///< twice continuously differentiable, third derivative continuous at the second and the last but one point
   periodic,    ///< twice continuously differentiable, also across the seam; the last point repeats the first
   akima,       ///< Akima (1970): keeps straight segments straight; once continuously differentiable
   bessel,      ///< tangent of the parabola through three points; once continuously differentiable
-  monotone,    ///< Fritsch and Butland (1984), each coordinate for itself: never beyond the two points that a segment joins; once continuously differentiable
+  monotone,    ///< Fritsch and Butland (1984), separately for each coordinate: never overshoots the two points of a segment; once continuously differentiable
   linear,      ///< straight segments
 };
 
 enum class SplineParameters {
   uniform,
-  chord_length,  ///< proportional to the distance of the points
-  centripetal,   ///< proportional to its square root: less overshoot where distances change suddenly
+  chord_length,  ///< proportional to the distance between the points
+  centripetal,   ///< proportional to the square root of the distance: less overshoot where distances change suddenly
 };
 
-/// How one direction is splined.
+/// Options of a spline in one direction.
 struct SplineOptions {
   SplineTangents tangents = SplineTangents::not_a_knot;
   SplineParameters parameters = SplineParameters::chord_length;
-  std::vector<double> at;            ///< parameters of the points, ascending; empty: made by `parameters`
+  std::vector<double> at;            ///< parameters of the points, ascending; empty: computed by `parameters`
   std::vector<Vec3> start_tangents;  ///< clamped: dC/dt at the first point, one for each row of a surface; empty: natural there
   std::vector<Vec3> end_tangents;    ///< at the last point
-  std::vector<std::size_t> corners;  ///< inner points where the curve may bend: it is splined piece by piece with the same end conditions
+  std::vector<std::size_t> corners;  ///< inner points where the curve may have a kink: it is splined piece by piece with the same end conditions
   bool is_closed = false;            ///< akima and bessel: smooth across the seam; the last point repeats the first
 };
 
@@ -48,18 +48,19 @@ struct PointGrid {
   const Point& operator()(std::size_t i, std::size_t j) const { return points[i * n_v + j]; }
 };
 
-/// Parameters of the points of a curve in [0, 1].
-/// \throws Error(bad_argument) with the place where two neighbours coincide
+/// Returns the parameters of the points of a curve in [0, 1].
+/// \throws Error(bad_argument) with the location where two neighbours coincide
 std::vector<double> spline_parameters(std::span<const Point> points, SplineParameters kind);
 
-/// Spline through at least two points.
-/// \throws Error(bad_argument) with the place of what is wrong
+/// Returns the spline through at least two points.
+/// \throws Error(bad_argument) with the location of the fault
 NurbsCurveForm<Point> spline_form(std::span<const Point> points, const SplineOptions& options);
 CurvePtr spline_curve(std::span<const Point> points, const SplineOptions& options);
 
-/// Spline surface through a grid: along u first, then along v through the poles of that; so S(u, v_j) is the spline of column j exactly. All columns share
-/// their parameters, means of those of the columns (columns of no length, poles, do not count). Clamped in u and in v: without twist at the corners.
-/// \throws Error(bad_argument) with the place of what is wrong
+/// Returns the spline surface through a grid: along u first, then along v through the resulting poles; so S(u, v_j) is exactly the spline of column j. All
+/// columns share their parameters, the means of those of the columns (columns of zero length, poles, are ignored). Clamped in u and in v: zero twist at the
+/// corners.
+/// \throws Error(bad_argument) with the location of the fault
 NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v);
 /// kind(): "bicubic spline", "linear-cubic spline" or "bilinear spline".
 SurfacePtr spline_surface(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v);

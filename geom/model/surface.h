@@ -1,4 +1,4 @@
-// Surfaces: what a face lies on. Immutable and shared; every member may be called from many threads.
+// Surfaces that faces lie on. Immutable and shared; every member may be called from many threads.
 #pragma once
 
 #include <memory>
@@ -26,8 +26,8 @@ struct SurfaceDerivatives {
   Vec3 dvv;
 };
 
-/// Surface S(u, v) in metres. Its normal is du x dv (faces may be reversed against it). Evaluators accept any (u, v) of the domain and of any
-/// period; a little outside they extend the border pieces, never throw. Infinite surfaces (plane, cylinder) have the box given on construction.
+/// Surface S(u, v) in metres. Its normal is du x dv (a face may be reversed relative to it). Evaluators accept any (u, v) of the domain and of any period.
+/// Slightly outside the domain they extend the border pieces and never throw. Infinite surfaces (plane, cylinder) are limited to the box given on construction.
 class Surface {
  public:
   virtual ~Surface() = default;
@@ -35,17 +35,17 @@ class Surface {
   virtual bool is_periodic_u() const { return false; }  ///< S(u + domain().u.length(), v) == S(u, v)
   virtual bool is_periodic_v() const { return false; }
   virtual Point point(Uv at) const = 0;
-  /// Point and all derivatives to the second order.
+  /// Returns the point and all derivatives up to second order.
   virtual SurfaceDerivatives derivatives(Uv at) const = 0;
-  /// points[i] = point(at[i]), faster than one by one where the surface can.
+  /// Computes points[i] = point(at[i]), faster than one by one if the surface supports it.
   /// \pre equal sizes
   virtual void points(std::span<const Uv> at, std::span<Point> points) const;
-  /// Parameters inside the domain, ascending, along which the surface is less than twice continuously differentiable.
+  /// Returns the parameters inside the domain, ascending, along which the surface is less than twice continuously differentiable.
   virtual std::vector<double> breaks_u() const { return {}; }
   virtual std::vector<double> breaks_v() const { return {}; }
-  /// The same surface, same parameters, as NURBS; nothing where there is no exact form.
+  /// Returns the same surface with the same parameters as NURBS; empty if there is no exact form.
   virtual std::optional<NurbsSurfaceForm> exact_nurbs() const { return std::nullopt; }
-  /// "plane", "bicubic spline", "NURBS 3 x 5"
+  /// Returns the kind of surface: "plane", "bicubic spline", "NURBS 3 x 5".
   virtual std::string kind() const = 0;
 };
 using SurfacePtr = std::shared_ptr<const Surface>;

@@ -13,7 +13,7 @@ namespace sterna {
 namespace {
 
 constexpr double k_sweep_turn = 2.0 * std::numbers::pi;
-/// Part of a period by which a whole one may be missed: rounding of the files that give angles.
+/// Tolerance of a full period, relative to it: rounding of angles in files.
 constexpr double k_whole_period = 1e-12;
 
 void check_range(Interval range, const char* attempted) {
@@ -21,12 +21,12 @@ void check_range(Interval range, const char* attempted) {
     throw_bad_argument(attempted, "its parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length");
 }
 
-/// Length within which a vector counts as one of length 1 and stays as it is: dividing it again would move its last digits.
+/// Tolerance within which a vector counts as a unit vector and is unchanged: dividing it again would change its last digits.
 constexpr double k_unit_length = 1e-15;
 
 Vec3 unit(const Vec3& v) { return std::abs(dot(v, v) - 1.0) <= k_unit_length ? v : normalized(v); }
 
-/// A curve's poles as the row v = const of a surface with `rows` of them.
+/// Returns a surface with a curve's poles as the row v = const, with two rows.
 NurbsSurfaceForm rows_of(const NurbsCurveForm<Point>& a, const NurbsCurveForm<Point>& b, Interval range) {
   NurbsSurfaceForm form;
   form.degree_u = a.degree;
@@ -114,10 +114,10 @@ std::optional<NurbsSurfaceForm> RuledSurface::exact_nurbs() const {
   std::optional<NurbsCurveForm<Point>> a = a_->exact_nurbs(), b = b_->exact_nurbs();
   if (!a || !b) return std::nullopt;
   const bool is_rational = !a->weights.empty() || !b->weights.empty();
-  // (1 - v) A / w_a + v B / w_b has one denominator of the same degree only when the weights are the same.
+  // (1 - v) A / w_a + v B / w_b has one denominator of the same degree only if the weights are equal.
   if (is_rational && (a->weights != b->weights || a->knots != b->knots)) return std::nullopt;
   const int degree = std::max(a->degree, b->degree);
-  // Each curve's knots in the common degree, then those of both.
+  // Elevate each curve's knots to the common degree, then unite both.
   const std::vector<double> knots = united_knots(elevated_knots(a->knots, degree - a->degree), elevated_knots(b->knots, degree - b->degree));
   if (!is_rational) {
     a = on_knots(*a, degree, knots);
@@ -131,7 +131,7 @@ std::optional<NurbsSurfaceForm> RuledSurface::exact_nurbs() const {
 namespace {
 
 constexpr const char* k_view = "taking a part of a surface";
-/// Part of a domain by which a view may reach beyond it: rounding of its own limits.
+/// Allowed overreach of a view beyond its domain, relative to it: rounding of its own limits.
 constexpr double k_swept_overreach = 1e-9;
 
 Interval image(const SurfaceView::Map& map, Interval range) {

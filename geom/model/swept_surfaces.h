@@ -1,4 +1,4 @@
-// Surfaces made of curves: of revolution, extruded, ruled; and views of any surface: a part, other parameters, reversed, exchanged.
+// Surfaces built from curves: of revolution, extruded, ruled. Views of any surface: a part, other parameters, reversed, exchanged.
 #pragma once
 
 #include "geom/model/curve.h"
@@ -7,11 +7,11 @@
 
 namespace sterna {
 
-/// A profile turned about an axis: u is the angle (right-hand rule, 0 where the profile lies), v the profile's parameter. No exact NURBS: a rational
-/// form would have another parameter along the circles.
+/// A profile rotated about an axis: u is the angle (right-hand rule, 0 at the profile), v the profile's parameter. No exact NURBS form: a rational form has a
+/// different parameter along the circles.
 class RevolutionSurface final : public Surface {
  public:
-  /// \throws Error(bad_argument) for an axis without direction, or angles of no length or more than a turn
+  /// \throws Error(bad_argument) for an axis of zero length, or an angle range of zero length or more than a full turn
   RevolutionSurface(CurvePtr profile, const Point& axis_point, const Vec3& axis, Interval angles);
   ParameterBox domain() const override { return {angles_, profile_->domain()}; }
   bool is_periodic_u() const override;
@@ -35,7 +35,7 @@ class RevolutionSurface final : public Surface {
 /// C(u) + v * direction.
 class ExtrusionSurface final : public Surface {
  public:
-  /// \throws Error(bad_argument) for a direction or a range of no length
+  /// \throws Error(bad_argument) for a direction or a range of zero length
   ExtrusionSurface(CurvePtr curve, const Vec3& direction, Interval range);
   ParameterBox domain() const override { return {curve_->domain(), range_}; }
   bool is_periodic_u() const override { return curve_->is_periodic(); }
@@ -53,8 +53,8 @@ class ExtrusionSurface final : public Surface {
   Interval range_;
 };
 
-/// (1 - v) A(u) + v B(u), u and v in [0, 1], each curve's domain stretched to [0, 1]. Exact NURBS when both curves have one and at most one of them,
-/// or both with equal weights on equal knots, are rational.
+/// (1 - v) A(u) + v B(u), u and v in [0, 1], each curve's domain mapped to [0, 1]. Has an exact NURBS form if both curves have one and either at most one of
+/// them is rational, or both are rational with equal weights on equal knots.
 class RuledSurface final : public Surface {
  public:
   RuledSurface(CurvePtr a, CurvePtr b);
@@ -81,8 +81,8 @@ class SurfaceView final : public Surface {
     double operator()(double t) const { return scale * t + shift; }
     friend bool operator==(const Map&, const Map&) = default;
   };
-  /// `domain` is the view's own.
-  /// \throws Error(bad_argument) for a scale of 0, or a part that is not within the base (to 1e-9) where that is not periodic
+  /// `domain` is that of the view.
+  /// \throws Error(bad_argument) for a scale of 0, or a part that is not within the base (to 1e-9) where the base is not periodic
   SurfaceView(SurfacePtr base, const ParameterBox& domain, Map u, Map v, bool is_exchanged = false);
   ParameterBox domain() const override { return domain_; }
   bool is_periodic_u() const override;
@@ -95,7 +95,7 @@ class SurfaceView final : public Surface {
   std::optional<NurbsSurfaceForm> exact_nurbs() const override;
   std::string kind() const override { return base_->kind(); }
   const SurfacePtr& base() const { return base_; }
-  /// The base's parameters of the view's.
+  /// Returns the base's parameters for parameters of the view.
   Uv base_uv(Uv at) const { return is_exchanged_ ? Uv{u_(at.v), v_(at.u)} : Uv{u_(at.u), v_(at.v)}; }
   Map map_u() const { return u_; }
   Map map_v() const { return v_; }
@@ -107,14 +107,14 @@ class SurfaceView final : public Surface {
   Map u_, v_;
   bool is_exchanged_;
 };
-/// The part of a surface over `box`, same parameters.
+/// Returns the part of a surface over `box`, with the same parameters.
 SurfacePtr part_of(const SurfacePtr& surface, const ParameterBox& box);
-/// The same surface with its parameters stretched to `box`.
+/// Returns the same surface with its parameters mapped linearly to `box`.
 SurfacePtr reparametrised(const SurfacePtr& surface, const ParameterBox& box);
-/// Backwards along u (the normal turns round) over the same domain.
+/// Returns the surface reversed along u (the normal is reversed) over the same domain.
 SurfacePtr reversed_u(const SurfacePtr& surface);
 SurfacePtr reversed_v(const SurfacePtr& surface);
-/// S(v, u) (the normal turns round).
+/// Returns S(v, u) (the normal is reversed).
 SurfacePtr exchanged(const SurfacePtr& surface);
 
 }  // namespace sterna

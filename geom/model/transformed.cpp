@@ -32,13 +32,13 @@ Frame transformed_frame(const Frame& frame, const Transform& t) {
 
 Interval scaled(Interval range, double s) { return {s * range.from, s * range.to}; }
 
-/// Lengths among the parameters (v of a cylinder) must stay what they were: a view takes the factor out again.
+/// Restores the parameters if lengths among them (v of a cylinder) were scaled: a view removes the factor.
 SurfacePtr with_old_parameters(SurfacePtr surface, const ParameterBox& box, double scale_u, double scale_v) {
   if (scale_u == 1.0 && scale_v == 1.0) return surface;
   return std::make_shared<SurfaceView>(std::move(surface), box, SurfaceView::Map{scale_u, 0.0}, SurfaceView::Map{scale_v, 0.0});
 }
 
-/// Surfaces with a frame, under a similarity; empty for other types.
+/// Returns surfaces with a frame under a similarity; empty for other types.
 SurfacePtr transformed_analytic(const Surface& surface, const Transform& t) {
   constexpr double k_same_size = 1e-14;  // rounding of a rotation's matrix
   const double s = std::abs(t.scale() - 1.0) <= k_same_size ? 1.0 : t.scale();
@@ -58,7 +58,7 @@ SurfacePtr transformed_analytic(const Surface& surface, const Transform& t) {
   if (const auto* torus = dynamic_cast<const TorusSurface*>(&surface))
     return std::make_shared<TorusSurface>(transformed_frame(torus->frame(), t), s * torus->major_radius(), s * torus->minor_radius(), box);
   if (const auto* turned = dynamic_cast<const RevolutionSurface*>(&surface)) {
-    const double sense = t.determinant() < 0.0 ? -1.0 : 1.0;  // a mirror turns the sense of rotation round
+    const double sense = t.determinant() < 0.0 ? -1.0 : 1.0;  // a mirror reverses the sense of rotation
     return std::make_shared<RevolutionSurface>(transformed(turned->profile(), t), t.point(turned->axis_point()), sense * t.vector(turned->axis()), box.u);
   }
   return nullptr;

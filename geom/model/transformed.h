@@ -1,4 +1,4 @@
-// Moved, turned, scaled, mirrored curves and surfaces; same parameters, so parameter curves stay valid.
+// Moved, rotated, scaled and mirrored curves and surfaces; parameters are unchanged, so parameter curves stay valid.
 #pragma once
 
 #include "geom/model/curve.h"
@@ -7,9 +7,9 @@
 
 namespace sterna {
 
-/// T(C(t)): poles and frames are transformed where the type allows (NURBS and lines by any map, circles by similarities), others are wrapped. A mirror turns
-/// the normal du x dv of a surface against its image: faces change `is_reversed`.
-/// \throws Error(bad_argument) when T flattens space
+/// Returns T(C(t)): poles and frames are transformed where the type allows it (NURBS and lines by any map, circles by similarities), other curves are wrapped.
+/// A mirror reverses the normal du x dv of a surface relative to its image: faces change `is_reversed`.
+/// \throws Error(bad_argument) if T is singular
 CurvePtr transformed(const CurvePtr& curve, const Transform& transform);
 SurfacePtr transformed(const SurfacePtr& surface, const Transform& transform);
 

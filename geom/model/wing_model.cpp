@@ -1,5 +1,5 @@
-// Wings: rows of points through the sections -> a surface around the airfoil between sections, split at leading edge -> upper and lower faces over
-// shared edges, patches cut out of them -> trailing edge and tips -> coves and walls of open slots -> the moving parts.
+// Wings: rows of points through the sections -> a surface around the airfoil between sections, split at the leading edge -> upper and lower faces over shared
+// edges, patches cut out of them -> trailing edge and tips -> coves and walls of open slots -> the moving parts.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,19 +22,19 @@ namespace sterna {
 namespace {
 
 constexpr std::size_t k_side_points = k_wing_side_points;
-/// First and last section of a symmetric wing that are nearer to each other than this part of the span: the wing is a ring.
+/// If the first and last section of a symmetric wing are nearer to each other than this fraction of the span, the wing is a ring.
 constexpr double k_ring = 1e-6;
-/// Cosine of the angle, seen along x, between a panel and the one before it turned round, above which it lies over that: 15 degrees.
+/// Cosine of the angle, seen along x, between a panel and the reversed previous panel, above which it overlaps that one: 15 degrees.
 constexpr double k_fold = 0.9659258262890683;
 
-/// What the faces at both sides of a section share.
+/// Edges shared by the faces on both sides of a section.
 struct Station {
   SplitCurve upper, lower;  ///< from the trailing to the leading edge
-  EdgeId thickness;         ///< where the trailing edge is blunt; else upper and lower begin at the same corner
+  EdgeId thickness;         ///< edge of a blunt trailing edge; else upper and lower begin at the same corner
   CornerId leading() const { return upper.corners.back(); }
 };
 
-/// To rounding of a turned section, 1e-10 of its size: within what a planar face takes.
+/// Returns true if the row is planar to the rounding of a rotated section, 1e-10 of its size: within the tolerance of a planar face.
 bool is_planar(const std::vector<Point>& row) {
   Vec3 normal;
   double size = 0.0, off = 0.0;
@@ -47,12 +47,12 @@ bool is_planar(const std::vector<Point>& row) {
   return off <= 1e-10 * size;
 }
 
-/// Edges around the cut-out of a slot, gathered while the sides are made.
+/// Edges around the cut-out of a slot, collected while the sides are built.
 struct CutOut {
-  std::vector<double> places;                        ///< where the lips have corners
-  std::vector<EdgeId> upper, lower;                  ///< lips between them
-  std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< across the chord at its first and last place
-  std::array<EdgeId, 2> thickness;                   ///< of a blunt trailing edge there
+  std::vector<double> places;                        ///< locations of the corners of the lips
+  std::vector<EdgeId> upper, lower;                  ///< lips between the corners
+  std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< across the chord at its first and last location
+  std::array<EdgeId, 2> thickness;                   ///< edges of a blunt trailing edge there
 };
 
 /// Ends of a wing where a moving part was cut off: walls.
@@ -80,7 +80,7 @@ class WingBuilder {
   const WingPatch* slot_at(ControlKind kind, double place) const;
   void keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across);
   void make_cove(std::size_t patch);
-  /// Of a control surface that is the whole wing there, or the wing's.
+  /// Returns the name of a control surface that covers the whole chord there, else that of the wing.
   const std::string& name_at_end(std::size_t section, std::size_t neighbour) const;
   void tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap);
 
@@ -89,7 +89,7 @@ class WingBuilder {
   Transform map_;
   ModelBuilder builder_;
   std::vector<WingSides> panels_;
-  std::vector<CutOut> cut_outs_;  ///< of every patch
+  std::vector<CutOut> cut_outs_;  ///< one for every patch
   WingRows made_;
   std::vector<std::vector<Point>>& rows_ = made_.rows;
   bool is_blunt_ = true;
@@ -117,13 +117,13 @@ void WingBuilder::make_rows() {
       refuse("two neighbouring sections, number " + std::to_string(i) + " and " + std::to_string(i + 1) + " along the whole span, stand in the same place");
 }
 
-/// A panel that runs back over the one before it: sections out of order. \pre rows in component axes
+/// Rejects a panel that folds back over the previous one: sections out of order. \pre rows in component axes
 void WingBuilder::refuse_fold_back() const {
   for (std::size_t i = 2; i < rows_.size(); ++i) {
     const Vec3 before = rows_[i - 1][k_side_points] - rows_[i - 2][k_side_points], after = rows_[i][k_side_points] - rows_[i - 1][k_side_points];
     const Vec3 a{0.0, before.y, before.z}, b{0.0, after.y, after.z};
     if (!(norm(a) > 0.0 && norm(b) > 0.0 && dot(a, b) < -k_fold * norm(a) * norm(b))) continue;
-    // The chord of the panel before where this one ends: a joined wing may run back beside it.
+    // Chord of the previous panel at the end of this one: a joined wing may return beside it.
     const double t = std::max(0.0, 1.0 - norm(b) / norm(a));
     const auto between = [&](std::size_t k) { return rows_[i - 2][k].x + t * (rows_[i - 1][k].x - rows_[i - 2][k].x); };
     if (rows_[i][k_side_points].x < between(0) && between(k_side_points) < rows_[i][0].x)
@@ -135,14 +135,14 @@ void WingBuilder::refuse_fold_back() const {
   }
 }
 
-/// The patch of a kind that lies over the whole of a range.
+/// Returns the patch of a kind that covers the whole of a range.
 const WingPatch* WingBuilder::patch_over(ControlKind kind, double from_place, double to_place) const {
   for (const WingPatch& patch : wing_.patches)
     if (patch.kind == kind && first_place(patch) <= from_place && last_place(patch) >= to_place) return &patch;
   return nullptr;
 }
 
-/// Ends of patches of a kind within a range, and the range's own.
+/// Returns the ends of patches of a kind within a range, and those of the range itself.
 std::vector<double> WingBuilder::patch_ends(ControlKind kind, double from_place, double to_place) const {
   std::vector<double> ends{from_place, to_place};
   for (const WingPatch& patch : wing_.patches)
@@ -151,7 +151,7 @@ std::vector<double> WingBuilder::patch_ends(ControlKind kind, double from_place,
   return ends;
 }
 
-/// The patch with an open slot within whose cut-out a place lies, not at its ends.
+/// Returns the patch with an open slot whose cut-out contains a location, excluding its ends.
 const WingPatch* WingBuilder::slot_at(ControlKind kind, double place) const {
   for (const WingPatch& patch : wing_.patches)
     if (patch.kind == kind && patch.slot && first_place(patch) < place && last_place(patch) > place) return &patch;
@@ -188,7 +188,7 @@ void WingBuilder::keep_ends(Crossing side, std::size_t patch, bool is_last, cons
   (side == &WingPatch::Place::upper ? out.upper_ends : out.lower_ends)[is_last ? 1 : 0] = kept;
 }
 
-/// The faces of one side: what the patches leave, and theirs.
+/// Builds the faces of one side: the patches, and the remaining parts.
 void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to,
                             const SplitCurve& leading, const SplitCurve& trailing) {
   const bool is_upper = side == &WingPatch::Place::upper;
@@ -209,7 +209,7 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
     if (is_new) found->second = builder_.corner(surface->point(at));
     return found->second;
   };
-  const auto beside_slots = [&](const Station& station, double place) {  // a cut-out that begins at the station takes its part of it
+  const auto beside_slots = [&](const Station& station, double place) {  // a cut-out that begins at the station takes part of its edge
     const SplitCurve& split = is_upper ? station.upper : station.lower;
     double low = 0.0, high = 1.0;
     for (std::size_t k = 0; k < wing_.patches.size(); ++k) {
@@ -227,7 +227,7 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
   add(beside_slots(to, to_place), true, panel.v(to_place));
   add(trailing, false, 0.0);
   for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::leading_edge}) {
-    for (const double end : patch_ends(kind, from_place, to_place)) {  // the sides of the patches, across the span
+    for (const double end : patch_ends(kind, from_place, to_place)) {  // sides of the patches, across the span
       if (end == from_place || end == to_place) continue;
       const double edge_u = kind == ControlKind::trailing_edge ? 0.0 : 1.0;
       std::vector<double> at{edge_u};
@@ -244,7 +244,7 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
         if (const WingPatch& patch = wing_.patches[k]; patch.slot && patch.kind == kind && (first_place(patch) == end || last_place(patch) == end))
           keep_ends(side, k, last_place(patch) == end, across);
     }
-    for (std::size_t k = 0; k < wing_.patches.size(); ++k) {  // their borders, along the span
+    for (std::size_t k = 0; k < wing_.patches.size(); ++k) {  // borders of the patches, along the span
       const WingPatch& patch = wing_.patches[k];
       if (patch.kind != kind || first_place(patch) >= to_place || last_place(patch) <= from_place) continue;
       std::vector<double> places{std::max(from_place, first_place(patch)), std::min(to_place, last_place(patch))};
@@ -271,7 +271,7 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
   }
 }
 
-/// The faces between two stations of a panel.
+/// Builds the faces between two stations of a panel.
 void WingBuilder::make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to) {
   // Pieces within cut-outs have no edge, and no corner where they end at a station.
   const auto along = [&](const NurbsSurfaceForm& form, double u, const std::vector<double>& places, CornerId first, CornerId last, const char* name) {
@@ -319,7 +319,7 @@ void WingBuilder::make_part(const WingSides& panel, double from_place, double to
   }
 }
 
-/// The faces of a cut-out: cove and walls at both ends.
+/// Builds the faces of a cut-out: cove and walls at both ends.
 void WingBuilder::make_cove(std::size_t k) {
   const WingPatch& patch = wing_.patches[k];
   const CutOut& out = cut_outs_[k];
@@ -364,7 +364,7 @@ void WingBuilder::make_panels() {
     if (wing_.patches[k].slot && wing_.patches[k].kind != ControlKind::all_moving) make_cove(k);
   if (is_ring_) return;
   const auto end = [&](const Station& station, std::size_t section, std::size_t neighbour, const EndCap& cap, bool is_cut) {
-    const bool is_flat = !(cap.height > 0.0) && is_planar(rows_[section]);  // a bent section need not be
+    const bool is_flat = !(cap.height > 0.0) && is_planar(rows_[section]);  // a bent section need not be planar
     if (!is_cut && (cap.height > 0.0 || is_flat)) return tip(station, section, neighbour, cap);
     const EdgeId trailing = is_blunt_ ? station.thickness : builder_.pole(station.upper.corners.front());
     ruled_wall(builder_, station.upper, station.lower, trailing, builder_.pole(station.leading()), is_cut ? FaceRole::control_side : FaceRole::tip,
@@ -381,8 +381,8 @@ const std::string& WingBuilder::name_at_end(std::size_t section, std::size_t nei
   return patch && !patch->slot ? patch->name : wing_.name;
 }
 
-/// Flat, or half ellipses between upper and lower side as rational quadratics: side, side + bulge, crest line, side + bulge, side. The bulge is the
-/// section's half thickness times the height, outwards along the section's normal.
+/// Builds a tip: flat, or half ellipses between upper and lower side as rational quadratics: side, side + bulge, crest line, side + bulge, side. The bulge is
+/// the section's half thickness times the height, outwards along the section's normal.
 void WingBuilder::tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap) {
   const std::string& name = name_at_end(section, neighbour);
   if (!(cap.height > 0.0)) {
@@ -437,7 +437,7 @@ Model WingBuilder::build() {
   return model;
 }
 
-/// The sections between two rows as a wing; patches that lie within it.
+/// Returns the sections between two rows as a wing, with the patches that lie within it.
 Wing part_of(const Wing& wing, double from, double to) {
   Wing part = wing;
   part.sections = {wing.sections.begin() + static_cast<std::ptrdiff_t>(from), wing.sections.begin() + static_cast<std::ptrdiff_t>(to) + 1};
@@ -455,7 +455,7 @@ Wing part_of(const Wing& wing, double from, double to) {
   return part;
 }
 
-/// Parts of a wing beside and between its open all-moving surfaces, and these.
+/// Builds the parts of a wing beside and between its open all-moving surfaces, and these surfaces.
 Model make_parts(const Wing& wing, std::vector<WingPatch> moving, const Transform& map) {
   Model model;
   const double end = static_cast<double>(wing.sections.size() - 1);

@@ -12,7 +12,7 @@ WingSides wing_sides(WingPanel panel) {
   const Interval v{sides.form.knots_v.front(), sides.form.knots_v.back()};
   sides.upper = restricted(sides.form, {0.0, 1.0}, v);
   sides.lower = reversed_u(restricted(sides.form, {1.0, 2.0}, v));
-  sides.lower.knots_u = sides.upper.knots_u;  // stations are mirrored: the same but for rounding
+  sides.lower.knots_u = sides.upper.knots_u;  // stations are mirrored: equal except for rounding
   const std::string kind = sides.v_of_row.size() == 2 ? "linear-cubic spline" : "bicubic spline";
   sides.upper_surface = std::make_shared<NurbsSurface>(sides.upper, false, false, kind);
   sides.lower_surface = std::make_shared<NurbsSurface>(sides.lower, false, false, kind);

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// Samples between two rows where the wing is curved along the span: lengths are found to 1e-4 of the part that lies beyond straight lines.
+/// Samples between two rows if the wing is curved along the span: the additional length relative to straight lines is accurate to 1e-4.
 constexpr std::size_t k_curved_samples = 32;
 
 }  // namespace
@@ -80,7 +80,8 @@ double WingSpan::place_from_root(const Wing& wing, double part) const {
   const double across = wing.is_symmetric ? 0.5 * whole * (1.0 - part) : is_first ? part * whole : (1.0 - part) * whole;
   const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, across, [](double value, const Sample& s) { return value < s.across; });
   const Sample &a = *(above - 1), &b = *above;
-  return b.across > a.across ? a.place + (across - a.across) / (b.across - a.across) * (b.place - a.place) : a.place;  // beyond the ends the end parts go on
+  return b.across > a.across ? a.place + (across - a.across) / (b.across - a.across) * (b.place - a.place)
+                             : a.place;  // beyond the ends the end parts are extrapolated
 }
 
 }  // namespace sterna

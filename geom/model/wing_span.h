@@ -1,4 +1,4 @@
-// Places along the span of a wing, and its cross sections there.
+// Locations along the span of a wing, and its cross sections there.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace sterna {
 
-/// Point in the middle of a row's chord, and the chord from the leading edge to the middle of the trailing edge.
+/// Returns the midpoint of a row's chord, and the chord vector from the leading edge to the midpoint of the trailing edge.
 Point chord_middle(const std::vector<Point>& row);
 Vec3 chord_vector(const std::vector<Point>& row);
 
-/// The wing's length along the middles of its chords, tip to tip. Places are counted in two ways: as a fraction of that length, and in rows (2.5: half way
+/// The wing's length along the midpoints of its chords, tip to tip. Locations are given in two ways: as a fraction of that length, and in rows (2.5: half way
 /// in the parameter between rows 2 and 3).
 class WingSpan {
  public:
@@ -19,14 +19,15 @@ class WingSpan {
   const std::vector<std::vector<Point>>& rows() const { return made_.rows; }
   const WingRows& made() const { return made_; }
   double length() const { return length_; }
-  /// Fractions of the rows.
+  /// Returns the fractions of the rows.
   std::vector<double> fractions() const;
   double place_of(double fraction) const;
   double fraction_of(double place) const;
-  /// The wing's own cross section; at whole places the row, to the bit.
+  /// Returns the wing's cross section; at integer locations exactly the row, to the bit.
   std::vector<Point> row(double place) const;
-  /// Place at a part of the way from the root (0) to the tip (1), measured across the flow: along the middles of the chords, seen along x. The root is the
-  /// plane of symmetry; of wings that are not symmetric the end nearer to it where they have a mirror image, else the one with the longer chord.
+  /// Returns the location at a fraction `part` of the way from the root (0) to the tip (1), measured perpendicular to the flow: along the midpoints of the
+  /// chords, seen along x. The root is the plane of symmetry. For wings that are not symmetric it is the end nearer to the plane if they have a mirror image,
+  /// else the end with the longer chord.
   double place_from_root(const Wing& wing, double part) const;
 
  private:
@@ -37,7 +38,7 @@ class WingSpan {
   };
   WingRows made_;
   std::vector<WingPanel> panels_;
-  std::vector<std::size_t> panel_of_row_;  ///< of the part behind each row
+  std::vector<std::size_t> panel_of_row_;  ///< panel behind each row
   std::vector<Sample> samples_;            ///< ascending in all members
   double length_ = 0.0;
 };

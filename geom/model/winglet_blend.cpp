@@ -6,7 +6,7 @@
 namespace sterna {
 namespace {
 
-/// From row `i` towards row `k`, seen along x.
+/// Returns the vector from row `i` to row `k`, seen along x.
 Vec3 across(const WingRows& rows, std::size_t i, std::size_t k) {
   const std::size_t nose = rows.rows[i].size() / 2;
   const Vec3 d = rows.rows[k][nose] - rows.rows[i][nose];
@@ -14,7 +14,7 @@ Vec3 across(const WingRows& rows, std::size_t i, std::size_t k) {
 }
 double turn_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
-/// Where the lines a0 -> a1 and b0 -> b1 cross, seen along x (x half way between), and whether that lies beyond both their ends.
+/// Intersection of the lines a0 -> a1 and b0 -> b1, seen along x (x half way between), and if it lies beyond both their ends.
 struct Meeting {
   Point point;
   bool is_ahead = false;
@@ -27,7 +27,7 @@ Meeting meeting(const Point& a0, const Point& a1, const Point& b0, const Point& 
   return {0.5 * (a1 + s * u) + 0.5 * (b1 + t * v), s > 0.0 && t > 0.0};
 }
 
-/// Inserts the rows between `outer` and `outer` + 1, of a winglet at the first row.
+/// Inserts the rows between `outer` and `outer` + 1 for a winglet at the first row.
 void insert_blend(WingRows& rows, std::size_t outer) {
   const std::vector<Point>&tip = rows.rows[outer - 1], &a = rows.rows[outer], &b = rows.rows[outer + 1], &inner = rows.rows[outer + 2];
   const double turn = turn_between(across(rows, outer + 2, outer + 1), across(rows, outer, outer - 1)), weight = std::cos(0.5 * turn);

@@ -1,14 +1,15 @@
-// Winglets that join their wing round instead of with kinks. sumo's own rule ("detectwinglet") is not documented; this one is ours.
+// Winglets joined to their wing by a round blend without kinks. sumo's own rule ("detectwinglet") is not documented; this rule is our own.
 #pragma once
 
 #include "geom/model/section_rows.h"
 
 namespace sterna {
 
-/// From a tip inwards, seen along x: the first panel that leads from a winglet (the panel outside it) to the wing (the panel inside it), where those two
-/// enclose at least k_min_winglet_turn and it stands between them, within the outer k_max_winglet_part of the half span. It is replaced by k_winglet_rows rows
-/// along elliptic arcs: each point of a section goes from the inner to the outer one along the conic that is tangent to the wing there and to the winglet here.
-/// `at_both_ends`: the last row is a tip too. Rows that are there stay. Where no panel fits, nothing changes.
+/// Searches from a tip inwards, seen along x, for the first panel that leads from a winglet (the panel outboard of it) to the wing (the panel inboard of it).
+/// Those two must enclose at least k_min_winglet_turn, and the panel must be at an angle between them, within the outer k_max_winglet_part of the half span. It
+/// is replaced by k_winglet_rows rows along elliptic arcs: each point of a section moves from the inner to the outer section along the conic that is tangent to
+/// the wing at one end and to the winglet at the other. `at_both_ends`: the last row is also a tip. Existing rows are kept. If no panel qualifies, nothing is
+/// changed.
 void blend_winglets(WingRows& rows, bool at_both_ends);
 
 inline constexpr double k_min_winglet_turn = 0.5235987755982988;  ///< radians: 30 degrees

@@ -24,7 +24,7 @@ bool is_listed(std::string_view names, std::string_view name) {
   return false;
 }
 
-/// Line and column of a byte, from 1.
+/// Returns line and column of a byte, counted from 1.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> line_and_column(const std::string& bytes, std::ptrdiff_t offset) {
   const auto end = bytes.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(bytes));
   const auto line = std::count(bytes.begin(), end, '\n');
@@ -123,7 +123,7 @@ double XmlFile::number(const pugi::xml_node& node, const char* attribute, double
 std::int64_t XmlFile::integer(const pugi::xml_node& node, const char* attribute, std::int64_t fallback) const {
   const std::optional<double> value = optional_number(node, attribute);
   if (!value) return fallback;
-  constexpr double k_largest = 9007199254740992.0;  // 2^53: beyond, a double no longer holds every integer
+  constexpr double k_largest = 9007199254740992.0;  // 2^53: above it a double cannot represent every integer
   if (std::floor(*value) != *value || std::abs(*value) > k_largest)
     fail(node, std::string("attribute '") + attribute + "' is " + exact_text(*value) + ", not an integer");
   return static_cast<std::int64_t>(*value);

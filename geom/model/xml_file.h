@@ -1,4 +1,4 @@
-// An XML file with places: every complaint names file, line and path of the element.
+// An XML file with locations for messages: every error names file, line and path of the element.
 #pragma once
 
 #include <filesystem>
@@ -21,52 +21,52 @@ namespace sterna {
 
 class XmlFile {
  public:
-  /// \throws Error(file_not_found, file_malformed) with line and column of what is not XML
+  /// \throws Error(file_not_found, file_malformed) with line and column of the XML syntax error
   explicit XmlFile(const std::filesystem::path& path);
   ~XmlFile();
   XmlFile(const XmlFile&) = delete;
   XmlFile& operator=(const XmlFile&) = delete;
 
   pugi::xml_node root() const;
-  /// "line 12, /Assembly/BodySkeleton[Fuselage]/BodyFrame[FrameX0]"; elements by name or uID, else by their place among equals.
+  /// Returns "line 12, /Assembly/BodySkeleton[Fuselage]/BodyFrame[FrameX0]"; elements by name or uID, else by their index among equal elements.
   std::string place(const pugi::xml_node& node) const;
   /// \throws Error(file_malformed)
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& problem, const std::string& hint = {}) const;
-  /// Adds "line 12, /path: text" to the messages, once.
+  /// Adds "line 12, /path: text" to the messages, without duplicates.
   void tell(const pugi::xml_node& node, const std::string& text);
   std::vector<std::string>& messages() { return messages_; }
 
   std::string text(const pugi::xml_node& node, const char* attribute, std::string_view fallback = {}) const;
-  /// Attribute that must be there.
+  /// Returns an attribute that must exist.
   /// \throws Error(file_malformed)
   std::string required_text(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute, double fallback) const;
   std::optional<double> optional_number(const pugi::xml_node& node, const char* attribute) const;
   std::int64_t integer(const pugi::xml_node& node, const char* attribute, std::int64_t fallback) const;
-  /// "true" or "false"; anything else is told and counts as false.
+  /// Returns true for "true", false for "false"; any other value is reported and counts as false.
   bool boolean(const pugi::xml_node& node, const char* attribute, bool fallback);
-  /// Three numbers of an attribute.
+  /// Returns the three numbers of an attribute.
   /// \throws Error(file_malformed)
   Vec3 vector(const pugi::xml_node& node, const char* attribute) const;
   Vec3 vector(const pugi::xml_node& node, const char* attribute, const Vec3& fallback) const;
-  /// All numbers of a text, separated by blanks, line ends or ';'.
-  /// \throws Error(file_malformed) naming the first word that is no finite number
+  /// Returns all numbers of a text, separated by blanks, line ends or ';'.
+  /// \throws Error(file_malformed) naming the first word that is not a finite number
   std::vector<double> numbers(const pugi::xml_node& node, std::string_view text) const;
-  /// Text of an element and its CDATA sections.
+  /// Returns the text of an element and its CDATA sections.
   static std::string content(const pugi::xml_node& node);
-  /// The same as pairs.
-  /// \throws Error(file_malformed) when their number is odd
+  /// Returns the numbers of an element as pairs.
+  /// \throws Error(file_malformed) if their number is odd
   std::vector<Uv> pairs(const pugi::xml_node& node) const;
 
-  /// Number in the text of a child element, `fallback` where there is no such child.
+  /// Returns the number in the text of a child element, or `fallback` if there is no such child.
   /// \throws Error(file_malformed)
   double child_number(const pugi::xml_node& node, const char* child, double fallback) const;
   double required_child_number(const pugi::xml_node& node, const char* child) const;
-  /// Text of a child without blanks around it; empty where there is none.
+  /// Returns the text of a child, without surrounding blanks; empty if there is no such child.
   static std::string child_text(const pugi::xml_node& node, const char* child);
 
-  /// Tells every attribute and child element that is in none of the lists (names separated by blanks).
+  /// Reports every attribute and child element that is in none of the lists (names separated by blanks).
   void warn_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children);
   void warn_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children) { warn_unknown(node, attributes, {children}); }
 
@@ -77,9 +77,9 @@ class XmlFile {
   std::vector<std::string> messages_;
 };
 
-/// Shortest text that reads back as the same number, independent of the locale.
+/// Returns the shortest text that reads back as the same number, independent of the locale.
 std::string exact_text(double value);
-/// `text` as a finite number; nothing when it is none.
+/// Returns `text` as a finite number; empty if it is not a finite number.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// Boxes that part space, with about as many points in each: who works where.
+// Partition of space into boxes with about the same number of points in each, for parallel work.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace sterna::tets {
 
-/// A box without its upper sides; all of space at first.
+/// A box without its upper sides; initially all of space.
 struct Block {
   Vec3 low = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   Vec3 high = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -19,16 +19,16 @@ struct Block {
   bool holds(const Vec3& p) const { return p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y && p.z >= low.z && p.z < high.z; }
 };
 
-/// Space is halved time after time at the longest side of the points there, so that the lower part has a share of them.
+/// Recursive bisection of space at the longest side of the points' box, so that the lower part contains a given fraction of the points.
 class Blocks {
  public:
-  /// \p n_halvings: at most 6; there are 2^n_halvings blocks. \p share: in (0, 1). Others give other planes everywhere.
+  /// \p n_halvings: at most 6; there are 2^n_halvings blocks. \p share: in (0, 1). A different share gives different planes everywhere.
   /// \post the same for any number of threads
   Blocks(std::vector<Vec3> points, int n_halvings, double share, const RunContext& context);
 
   std::size_t size() const { return blocks_.size(); }
   const Block& operator[](std::size_t i) const { return blocks_[i]; }
-  /// The block that holds a point. \pre finite
+  /// Returns the block that contains a point. \pre finite
   std::size_t find(const Vec3& p) const;
 
  private:
@@ -36,7 +36,7 @@ class Blocks {
     std::size_t axis = 0;
     double at = 0.0;
   };
-  std::vector<Plane> planes_;  ///< those that halve plane i's sides are 2 i + 1 and 2 i + 2
+  std::vector<Plane> planes_;  ///< the planes that divide the two sides of plane i are 2 i + 1 and 2 i + 2
   std::vector<Block> blocks_;
 };
 

@@ -13,15 +13,15 @@ namespace sterna::tets {
 namespace {
 
 constexpr int k_most_block_halvings = 6;
-/// Lower parts of halves, pass after pass: planes are elsewhere, and most of what they barred is inside of a block next time.
+/// Fractions of the lower parts, pass after pass: the planes move, so most seeds that they blocked are inside a block in the next pass.
 constexpr std::array<double, 3> k_shares = {0.5, 0.4, 0.6};
-constexpr std::size_t k_block_seeds = 4096;  ///< at least, in the mean
-/// New places that a block gets for each seed: a point makes six and a half tetrahedra more in the mean, and not every seed is inserted.
+constexpr std::size_t k_block_seeds = 4096;  ///< minimum mean number per block
+/// New slots of a block per seed: a point adds six and a half tetrahedra in the mean, and not every seed is inserted.
 constexpr std::size_t k_places_per_seed = 3;
 constexpr std::size_t k_more_places = 256;
-constexpr std::size_t k_stop_seeds = 4096;  ///< between two looks at the stop token
+constexpr std::size_t k_stop_seeds = 4096;  ///< seeds between two checks of the stop token
 
-/// Where a tetrahedron belongs that reaches far: the corner that is nearest to another one.
+/// Returns the corner that determines the block of a large tetrahedron: the one nearest to another corner.
 std::uint8_t nearest_corner(const TetMesh& mesh, const Corners& v) {
   std::uint8_t at = 0;
   double shortest = std::numeric_limits<double>::infinity();
@@ -36,7 +36,7 @@ std::uint8_t nearest_corner(const TetMesh& mesh, const Corners& v) {
   return at;
 }
 
-/// Where corner i comes when `last` becomes the last one and the sense stays.
+/// Returns the new index of corner i if `last` becomes the last corner and the orientation is kept.
 std::size_t corner_after(std::size_t i, std::uint8_t last) {
   if (last == 3) return i;
   if (i == last) return 3;
@@ -44,7 +44,7 @@ std::size_t corner_after(std::size_t i, std::uint8_t last) {
   return 3 - last - i;
 }
 
-/// The corners of each tetrahedron such that the last one tells where it belongs. Those that are gone belong nowhere.
+/// Orders the corners of each tetrahedron such that the last one determines its block. Empty slots have no block.
 void put_owners_last(TetMesh& mesh, const RunContext& context) {
   const std::size_t n = mesh.nodes.size();
   std::vector<std::uint8_t> last(n, 3);
@@ -95,7 +95,7 @@ void BulkInserter::make_room(std::size_t n_places) {
                  .attempted = "refining tetrahedra",
                  .problem = std::to_string(n_places) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
                  .hint = "a size, or a source, is very small in a large region"});
-  if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // not twice: memory
+  if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // not doubled, to save memory
   mesh_.nodes.resize(n_places, {k_none, k_none, k_none, k_none});
   mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});
   mark_.resize(n_places, 0);
@@ -103,7 +103,7 @@ void BulkInserter::make_room(std::size_t n_places) {
   is_changed_.resize(n_places / k_chunk + 1, 0);
 }
 
-/// The free places: where a tetrahedron was, to its block, so that who starts from there is near; the others in equal parts.
+/// Distributes the free slots: those of former tetrahedra to their block, so that walks from them start nearby; the others in equal parts.
 std::vector<std::vector<std::uint32_t>> BulkInserter::dealt_out(const Blocks& blocks, const RunContext& context) {
   std::vector<std::vector<std::uint32_t>> free(blocks.size());
   if (blocks.size() == 1) {
@@ -126,13 +126,13 @@ std::vector<std::vector<std::uint32_t>> BulkInserter::dealt_out(const Blocks& bl
   return free;
 }
 
-/// The seeds that are to be tried later, in the same order.
+/// Runs one pass. Returns the seeds to be retried, in the same order.
 std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, std::span<const std::uint32_t> order, const Blocks& blocks,
                                                   std::uint32_t first_point, std::vector<Insertion>& results, const RunContext& context) {
   const std::size_t n_blocks = blocks.size();
   struct Start {
     std::uint8_t block;
-    bool is_own;  ///< where the seed starts belongs to its block, too
+    bool is_own;  ///< the start of the seed is also in its block
   };
   std::vector<Start> starts(order.size());
   parallel_for(context, order.size(), [&](std::size_t i) {
@@ -140,7 +140,7 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
     const std::size_t block = blocks.find(seed.position);
     starts[i] = {static_cast<std::uint8_t>(block), seed.start < mesh_.nodes.size() && mesh_.nodes[seed.start][3] != k_none && is_in(seed.start, blocks[block])};
   });
-  std::vector<std::vector<std::uint32_t>> own(n_blocks);  // places in the order
+  std::vector<std::vector<std::uint32_t>> own(n_blocks);  // indices in the order
   for (std::size_t i = 0; i < order.size(); ++i) own[starts[i].block].push_back(static_cast<std::uint32_t>(i));
 
   std::vector<std::vector<std::uint32_t>> free = dealt_out(blocks, context);
@@ -229,7 +229,7 @@ std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, std::ve
     order = run_pass(seeds, order, Blocks(std::move(places), n_halvings, share, context), static_cast<std::uint32_t>(first_point), results, context);
   }
   n_serial_ += static_cast<std::int64_t>(order.size());
-  // More than once only where the new places were too few.
+  // Repeated only if the new slots were not sufficient.
   while (!order.empty()) order = run_pass(seeds, order, Blocks({}, 0, 0.5, context), static_cast<std::uint32_t>(first_point), results, context);
   return results;
 }

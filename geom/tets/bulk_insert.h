@@ -1,4 +1,4 @@
-// Many points into a mesh of tetrahedra at once, in blocks of the curve that work beside each other: same mesh for any number of threads.
+// Inserts many points into a tetrahedral mesh at once, in parallel in blocks along the curve: same mesh for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -20,34 +20,34 @@ struct Seed {
   Room room;
 };
 
-/// Inserts into one mesh, time after time. While it lives nobody else adds or removes tetrahedra. 34 bytes for each tetrahedron with the mesh's own.
+/// Inserts into one mesh repeatedly. During its lifetime no other code may add or remove tetrahedra. 34 bytes per tetrahedron in addition to the mesh.
 class BulkInserter {
  public:
-  /// \post the mesh is the same but for the order of corners within tetrahedra
-  /// \p n_corners: the first points, those of the boundary, for Room::to_corners
+  /// \post the mesh is unchanged except for the order of corners within tetrahedra
+  /// \p n_corners: the number of boundary points, which come first, for Room::to_corners
   /// \p most_effort: as InsertTarget
   explicit BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners = 0, std::size_t most_effort = k_largest_cavity);
 
-  /// Seeds are taken along the curve. A pass in blocks, a fixed number whatever the threads; what another block bars waits for a pass with other blocks, the
-  /// rest is inserted one by one. \return what became of each; never foreign
-  /// \post mesh.points has one more for each seed, in no order; those that were not inserted are used by no tetrahedron
+  /// Inserts the seeds in the order along the curve. Runs a fixed number of passes in blocks, independent of the number of threads. Seeds blocked by another
+  /// block's tetrahedra are deferred to a pass with other blocks; the rest is inserted one by one. \return the result for each seed; never foreign
+  /// \post mesh.points has one more point for each seed, in no particular order; points that were not inserted are not used by any tetrahedron
   std::vector<Insertion> insert(std::span<const Seed> seeds, const RunContext& context);
-  /// The same in the order given. \pre neighbours in it are near to each other
+  /// Inserts the seeds in the given order. \pre consecutive seeds are close together
   std::vector<Insertion> insert_in_order(std::span<const Seed> seeds, const RunContext& context);
 
-  /// For seeds of which nothing is known: each begins at a tetrahedron that is near to it on the curve.
+  /// Sets start tetrahedra for seeds without one: a tetrahedron that is near on the curve.
   void find_starts(std::span<Seed> seeds, const RunContext& context) const;
-  /// Indices of seeds along the curve.
+  /// Returns the indices of seeds along the curve.
   std::vector<std::uint32_t> order_along_curve(std::span<const Seed> seeds, const RunContext& context) const;
 
-  /// Room for so many tetrahedra.
+  /// Reserves memory for n tetrahedra.
   void reserve(std::size_t n);
-  /// A mark of each place for the caller's use, 0 for each new tetrahedron. Places without tetrahedron may have any.
+  /// Marks of each slot for the caller's use, 0 for each new tetrahedron. Slots without tetrahedron may have any value.
   std::vector<std::uint8_t>& state() { return state_; }
   const std::vector<std::uint8_t>& state() const { return state_; }
-  /// Of each chunk of k_chunk places whether there may be new tetrahedra, for the caller to take back. All at first.
+  /// For each chunk of k_chunk slots: may contain new tetrahedra; reset by the caller. Initially set for all.
   std::vector<std::uint8_t>& is_changed() { return is_changed_; }
-  std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could take; for reports
+  std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could insert; for reports
 
  private:
   std::vector<Insertion> insert(std::span<const Seed> seeds, std::vector<std::uint32_t> order, const RunContext& context);

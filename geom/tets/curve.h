@@ -1,4 +1,4 @@
-// Places along Hilbert's curve in space: what is near on the curve is near in space.
+// Positions along a Hilbert curve in space: points close on the curve are close in space.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace sterna::tets {
 
-/// Corners of the box around some points; infinite, the low one above the high one, where there are none.
+/// Corners of the bounding box of points; infinite, low above high, if there are no points.
 struct Extent {
   Vec3 low, high;
   double longest_side() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
@@ -19,9 +19,9 @@ Extent extent_of(std::span<const Vec3> points);
 /// A cube cut into 2^63 cells, numbered along the curve.
 class Curve {
  public:
-  /// Around these points. \pre finite
+  /// Constructs the cube around these points. \pre finite
   explicit Curve(std::span<const Vec3> points);
-  /// Of the cell that a point lies in; of a point outside of the cube the nearest cell's.
+  /// Returns the key of the cell that contains a point; for a point outside the cube, that of the nearest cell.
   std::uint64_t key(const Vec3& p) const;
 
  private:

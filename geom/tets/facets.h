@@ -1,4 +1,4 @@
-// Triangles that a mesh of tetrahedra is to have, and their edges, to be looked up by their corners.
+// Triangles that a tetrahedral mesh must contain, and their edges, indexed by their corners.
 #pragma once
 
 #include <array>
@@ -19,15 +19,15 @@ class FacetIndex {
  public:
   static constexpr std::uint32_t k_missing = 0xffffffffu;
 
-  /// \pre corners below n_points, three different ones
+  /// \pre corner indices below n_points, three different ones
   FacetIndex(std::span<const Facet> facets, std::size_t n_points, const RunContext& context);
 
   std::span<const Facet> facets() const { return facets_; }
   std::size_t n_edges() const { return high_.size(); }
   Edge edge(std::size_t i) const { return {low_[i], high_[i]}; }
-  /// Number of the edge between two points, any points; or k_missing.
+  /// Returns the number of the edge between two points (any points), or k_missing.
   std::uint32_t find_edge(std::uint32_t a, std::uint32_t b) const;
-  /// Number of the facet with these corners in any order, any points; or k_missing.
+  /// Returns the number of the facet with these corners in any order (any points), or k_missing.
   std::uint32_t find_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
  private:
@@ -35,9 +35,9 @@ class FacetIndex {
     std::uint32_t middle, high, facet;
   };
   std::span<const Facet> facets_;
-  std::vector<std::uint32_t> first_edge_, low_, high_;  ///< edges at their lower corner
+  std::vector<std::uint32_t> first_edge_, low_, high_;  ///< edges, stored at their lower corner
   std::vector<std::uint32_t> first_facet_;
-  std::vector<AtPoint> at_point_;  ///< facets at their lowest corner
+  std::vector<AtPoint> at_point_;  ///< facets, stored at their lowest corner
 };
 
 }  // namespace sterna::tets

@@ -1,5 +1,5 @@
-// Why positive tetrahedra with the same hull fill the same place: their signed volumes cover each point of it as often as the old ones did, once, and none
-// counts backwards.
+// Why positive tetrahedra with the same hull fill the same region: their signed volumes cover each point of it as often as the old ones did, once, and none
+// counts negatively.
 
 #include "geom/tets/flips.h"
 
@@ -12,17 +12,17 @@
 namespace sterna::tets {
 namespace {
 
-/// Of a larger ring nothing is asked: the effort grows with the cube.
+/// Larger rings are not processed: the effort grows with the cube.
 constexpr std::size_t k_largest_ring = 60;
-/// Of an edge that is only in the way of another one.
+/// Limit for the ring of an edge that only obstructs another one.
 constexpr std::size_t k_largest_other_ring = 24;
-/// What all diagonals of a ring together may cost for their lengths: less than the least of other costs.
+/// Limit of the length costs of all diagonals of a ring together: less than the smallest of the other costs.
 constexpr double k_length_cost = 0.5;
-/// Edges that are tried for the sake of one.
+/// Number of edges that are tried for the removal of one.
 constexpr int k_most_effort = 400;
-/// Tetrahedra that a new point takes the place of.
+/// Limit of tetrahedra that are replaced by a new point.
 constexpr std::size_t k_most_cavity = 200;
-constexpr int k_most_walk = 2000;  ///< on the way to a new point
+constexpr int k_most_walk = 2000;  ///< steps of the walk to a new point
 
 std::size_t corner_of(const Corners& v, std::uint32_t node) { return static_cast<std::size_t>(std::ranges::find(v, node) - v.begin()); }
 bool has(const Corners& v, std::uint32_t node) { return v[0] == node || v[1] == node || v[2] == node || v[3] == node; }
@@ -66,7 +66,7 @@ std::uint32_t Flips::tet_with_edge(std::uint32_t p, std::uint32_t q) {
 bool Flips::find_ring(std::uint32_t p, std::uint32_t q, Ring& ring) {
   const std::uint32_t first = tet_with_edge(p, q);
   if (first == k_none) return false;
-  // Of the two other corners the one that makes p, q, r, s positive.
+  // Select the order of the two other corners that makes p, q, r, s positive.
   const Corners& v = mesh_.nodes[first];
   const std::size_t ip = corner_of(v, p), iq = corner_of(v, q);
   std::size_t ir = 0;
@@ -121,7 +121,7 @@ void Flips::undo(std::size_t state) {
   journal_.resize(state);
 }
 
-/// \pre the new ones are positive. False, and nothing is changed, where they have another hull.
+/// Replaces tetrahedra. \pre the new ones are positive. Returns false, and changes nothing, if they have another hull.
 bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners> made) {
   sides_.clear();
   const auto sorted = [](const Corners& v, std::size_t corner) {
@@ -136,7 +136,7 @@ bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners
       sides_.push_back({sorted(mesh_.nodes[t], corner), n, true});
     }
   }
-  // Pairs of faces; numbers of the new tetrahedra are those in the list at first.
+  // Pairs of faces; the new tetrahedra are first numbered as in the list.
   std::vector<std::array<std::uint32_t, 4>> links(made.size(), {k_none, k_none, k_none, k_none});
   std::vector<std::array<bool, 4>> is_outer(made.size(), std::array<bool, 4>{});
   for (std::uint32_t i = 0; i < made.size(); ++i) {
@@ -160,7 +160,7 @@ bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners
   for (const std::uint32_t t : gone) save(t);
   while (places.size() < made.size()) {
     const auto t = static_cast<std::uint32_t>(mesh_.nodes.size());
-    // Saved before it is there, so that the way back is without it.
+    // Saved before it exists, so that undo removes it.
     journal_.push_back({t, {k_none, k_none, k_none, k_none}, {k_none, k_none, k_none, k_none}, t});
     mesh_.nodes.push_back({k_none, k_none, k_none, k_none});
     mesh_.neighbours.push_back({k_none, k_none, k_none, k_none});
@@ -198,8 +198,8 @@ bool Flips::flip_face(std::uint32_t face) {
   return replace(std::array{t, n / 4}, made);
 }
 
-/// Triangulations of the ring's polygon, each triangle a tetrahedron with p and one with q: the least cost between any two corners from those of shorter
-/// pieces (Klincsek 1980; Shewchuk 2002 for rings).
+/// Finds the best triangulation of the ring's polygon, each triangle being a tetrahedron with p and one with q: the lowest cost between any two corners follows
+/// from those of shorter pieces (Klincsek 1980; Shewchuk 2002 for rings).
 bool Flips::fill_ring(std::uint32_t p, std::uint32_t q, const Ring& ring, const FlipCosts& costs) {
   const std::size_t n = ring.vertices.size();
   if (n < 3) return false;
@@ -210,7 +210,8 @@ bool Flips::fill_ring(std::uint32_t p, std::uint32_t q, const Ring& ring, const 
   const auto length2 = [&](std::size_t i, std::size_t j) { return norm2(mesh_.points[r(i)] - mesh_.points[r(j)]); };
   double longest = 0.0;
   for (std::size_t i = 0; i < n; ++i) longest = std::max(longest, length2(i, (i + n / 2) % n));
-  const double length_cost = longest > 0.0 ? 0.25 * k_length_cost / (static_cast<double>(n) * longest) : 0.0;  // no two are more than twice as far apart
+  const double length_cost = longest > 0.0 ? 0.25 * k_length_cost / (static_cast<double>(n) * longest) : 0.0;  // no two corners are more than twice as far
+                                                                                                               // apart
   for (std::size_t length = 1; length < n; ++length) {
     for (std::size_t i = 0; i + length < n; ++i) {
       const std::size_t j = i + length;
@@ -271,7 +272,7 @@ bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipC
     for (std::size_t i = 0; i < n && !has_changed; ++i) {
       const std::uint32_t last = ring.vertices[(i + n - 1) % n], at = ring.vertices[i], next = ring.vertices[(i + 1) % n];
       for (const bool is_top : {true, false}) {
-        // An ear that can be cut on this side is not in the way here.
+        // An ear that can be cut on this side is not an obstruction.
         if (is_top ? is_positive({last, at, next, q}) : is_positive({last, next, at, p})) continue;
         if (--effort_ <= 0) break;
         const std::size_t step = state();
@@ -285,7 +286,7 @@ bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipC
       }
       if (effort_ <= 0) break;
     }
-    // An ear that can be cut may open others.
+    // Cutting an ear may make others possible.
     for (std::size_t i = 0; i < n && !has_changed && effort_ > 0; ++i) {
       const std::uint32_t t = ring.tets[i], next = ring.vertices[(i + 1) % n];
       has_changed = flip_face(4 * t + static_cast<std::uint32_t>(corner_of(mesh_.nodes[t], next)));
@@ -296,7 +297,7 @@ bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipC
   return is_gone;
 }
 
-/// Whether an edge of the cavity's tetrahedra that is wanted has lost its place on the cavity's hull: then one of those tetrahedra, not the first.
+/// Returns a tetrahedron of the cavity, not the first, at a required edge that is not on the cavity's hull; k_none if there is no such edge.
 std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity, std::span<const Facet> hull) const {
   for (const std::uint32_t t : cavity) {
     const Corners& v = mesh_.nodes[t];
@@ -314,7 +315,7 @@ std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity,
 }
 
 bool Flips::add_point(const Vec3& position, std::uint32_t start) {
-  // To the tetrahedron that holds the place.
+  // Walk to the tetrahedron that contains the point.
   std::uint32_t base = start;
   for (int step = 0;; ++step) {
     if (step == k_most_walk) return false;
@@ -334,7 +335,8 @@ bool Flips::add_point(const Vec3& position, std::uint32_t start) {
   mesh_.points.push_back(position);
   tet_at_.push_back(k_none);
 
-  // The tetrahedra whose spheres hold it, but not behind wanted facets; fewer, until all faces see it and no wanted edge is lost.
+  // Collect the tetrahedra whose spheres contain the point, but not behind required facets; remove some until all faces are visible and no required edge is
+  // lost.
   std::vector<std::uint32_t> cavity = {base};
   std::vector<std::uint32_t> barred;
   const auto is_in = [](const std::vector<std::uint32_t>& list, std::uint32_t t) { return std::ranges::find(list, t) != list.end(); };

@@ -1,4 +1,4 @@
-// Other tetrahedra in the place of some: flips of faces and edges that keep every tetrahedron positive and every wanted edge and facet, with a way back.
+// Replaces groups of tetrahedra: flips of faces and edges that keep every tetrahedron positive and every required edge and facet, with undo.
 #pragma once
 
 #include <cstdint>
@@ -16,57 +16,57 @@ struct Ring {
   std::vector<std::uint32_t> tets, vertices;
 };
 
-/// What new elements should not do: a number for how bad it would be to have an edge, or a face; 0 is good. May be empty.
+/// Penalties of new elements: a number for an edge or a face, larger is worse; 0 is good. May be empty.
 struct FlipCosts {
   std::function<int(std::uint32_t, std::uint32_t)> edge;
   std::function<int(std::uint32_t, std::uint32_t, std::uint32_t)> face;
 };
 
-/// Works on a mesh that fills a convex region: a face without neighbour is of its hull. Serial. While it lives nobody else changes the mesh. Places of
-/// tetrahedra that are gone stay empty.
+/// Operates on a mesh that fills a convex region: a face without neighbour is on its hull. Serial. During its lifetime no other code may change the mesh. Slots
+/// of removed tetrahedra stay empty.
 class Flips {
  public:
-  /// \p wanted: edges and facets that are kept where they are there
+  /// \p wanted: required edges and facets, kept where they exist
   Flips(TetMesh& mesh, const FacetIndex& wanted);
 
   const TetMesh& mesh() const { return mesh_; }
   const FacetIndex& wanted() const { return wanted_; }
-  /// A tetrahedron at a point that has one.
+  /// Returns a tetrahedron at a point that has one.
   std::uint32_t tet_at(std::uint32_t v) const { return tet_at_[v]; }
-  /// All tetrahedra at a point, the first being tet_at().
+  /// Collects all tetrahedra at a point, the first being tet_at().
   void star(std::uint32_t v, std::vector<std::uint32_t>& tets);
-  /// A tetrahedron with both points, or k_none.
+  /// Returns a tetrahedron with both points, or k_none.
   std::uint32_t tet_with_edge(std::uint32_t p, std::uint32_t q);
-  /// False where there is no such edge, or where it lies on the hull.
+  /// Collects the tetrahedra around an edge. Returns false if there is no such edge, or if it lies on the hull.
   bool find_ring(std::uint32_t p, std::uint32_t q, Ring& ring);
   bool has_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-  /// Puts the edge through two neighbours in the place of their face (2-3). False where that gives a flat or inverted tetrahedron, for a wanted facet, and on
-  /// the hull. \p face: 4 tet + corner
+  /// Replaces a face by the edge through its two neighbours (2-3 flip). Returns false if that gives a flat or inverted tetrahedron, for a required facet, and
+  /// on the hull. \p face: 4 tet + corner
   bool flip_face(std::uint32_t face);
-  /// Fills the ring around an edge without that edge: of all ways with positive tetrahedra the one of least cost. Where there is none, and depth is above 0,
-  /// edges from p or q to the ring that stand in the way are removed first, in the same way. False for wanted edges, and on the hull.
-  /// \post false: what has been done is undone
+  /// Retetrahedralises the ring around an edge without that edge, choosing the way with positive tetrahedra of lowest cost. If there is none and depth is above
+  /// 0, edges from p or q to the ring that prevent it are removed first, in the same way. Returns false for required edges, and on the hull.
+  /// \post false: all changes are undone
   bool remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipCosts& costs);
-  /// A new point, connected with what the tetrahedra have around whose spheres hold it, as far as wanted edges and facets stay. False where it falls on a
-  /// face. \p start: a tetrahedron near to it. There is no way back behind it.
+  /// Inserts a new point and connects it to the boundary of the tetrahedra whose spheres contain it, as far as required edges and facets allow. Returns false
+  /// if it falls on a face. \p start: a tetrahedron near to it. The insertion cannot be undone.
   bool add_point(const Vec3& position, std::uint32_t start);
 
-  /// A new point in the tetrahedra around p-q from the ring's vertex `a` to its vertex `b`, in the ring's sense: afterwards it is the only one between them.
-  /// False where one of them does not see it, or where there is no such ring.
+  /// Inserts a new point in the tetrahedra around p-q from the ring's vertex `a` to its vertex `b`, in the ring's orientation; these tetrahedra are replaced by
+  /// tetrahedra with the new point. Returns false if one of them is not visible from it, or if there is no such ring.
   bool add_point_in_ring(std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b, const Vec3& position);
 
-  /// A state to which undo() goes back, as long as none before has been gone back to.
+  /// Returns a state to which undo() can return, as long as no earlier state has been restored.
   std::size_t state() const { return journal_.size(); }
   void undo(std::size_t state);
-  /// Forgets the way back.
+  /// Discards the undo history.
   void accept() { journal_.clear(); }
 
  private:
   struct Entry {
     std::uint32_t tet;
     Corners nodes, neighbours;
-    std::uint32_t n_tets;  ///< places before
+    std::uint32_t n_tets;  ///< number of slots before
   };
   struct Side {
     Facet corners;  ///< ascending
@@ -84,10 +84,10 @@ class Flips {
   std::vector<std::uint32_t> tet_at_;
   std::vector<Entry> journal_;
   std::vector<Side> sides_;
-  std::vector<std::uint32_t> seen_;  ///< of each place: stamp of the walk that has been there
+  std::vector<std::uint32_t> seen_;  ///< per slot: stamp of the last walk that visited it
   std::uint32_t stamp_ = 0;
   std::vector<std::uint32_t> star_;
-  int effort_ = 0;  ///< edges that may still be tried before remove_edge() gives up
+  int effort_ = 0;  ///< number of edges that may still be tried before remove_edge() gives up
 };
 
 }  // namespace sterna::tets

@@ -1,5 +1,5 @@
-// Why the filled cavity is a mesh again: every face of the cavity sees the point strictly from inside (exact), so a ray from the point leaves the cavity once
-// and never comes back: the cavity is star-shaped around the point, whatever the mesh was before.
+// Why the filled cavity is a valid mesh: every face of the cavity is strictly visible from the point from inside (exact), so a ray from the point leaves the
+// cavity once and never returns. The cavity is therefore star-shaped around the point, whatever the mesh was before.
 
 #include "geom/tets/insert.h"
 
@@ -12,13 +12,13 @@ namespace sterna::tets {
 namespace {
 
 constexpr std::uint8_t k_inside = 1, k_outside = 2, k_dropped = 3;
-/// A cavity that loses more tetrahedra than this, and more than this share, because they do not see the point has fallen apart.
+/// A cavity has fallen apart if it loses more tetrahedra than this number, and more than this fraction, because they are not visible from the point.
 constexpr std::size_t k_least_loss = 30;
 constexpr double k_lost_share = 0.5;
-/// Tetrahedra that are added to a cavity so that it does not fall apart.
+/// Limit of tetrahedra that are added to a cavity to keep it connected.
 constexpr int k_most_grown = 200;
 
-/// Whether a point stands over a triangle and less than `height` above it.
+/// Returns true if a point is over a triangle and less than `height` above it.
 bool is_low(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, double height) {
   const Vec3 normal = cross(b - a, c - a);
   if (dot(p - a, normal) >= height * norm(normal)) return false;
@@ -30,7 +30,7 @@ bool is_low(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, double h
 int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point) {
   const std::vector<Vec3>& p = mesh.points;
   if (const int side = sphere_side(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]], p[point]); side != 0) return side;
-  // A corner that is lifted takes the sphere up with it on its own side of the opposite face: below it the point comes in.
+  // A lifted corner moves the sphere up on its own side of the opposite face: a point below it is then inside.
   std::array<std::uint32_t, 5> order = {tet[0], tet[1], tet[2], tet[3], point};
   std::ranges::sort(order, std::greater());
   for (const std::uint32_t highest : order) {
@@ -39,7 +39,7 @@ int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t
     *std::ranges::find(moved, highest) = point;
     if (const int side = orientation(p[moved[0]], p[moved[1]], p[moved[2]], p[moved[3]]); side != 0) return side;
   }
-  return -1;  // the point is at a corner's place
+  return -1;  // the point coincides with a corner
 }
 
 Insertion Inserter::insert(std::uint32_t point, std::uint32_t start, const Room& room) {
@@ -66,16 +66,16 @@ Insertion Inserter::insert(std::uint32_t point, std::uint32_t start, const Room&
   return why;
 }
 
-/// Walks from tetrahedron to tetrahedron through a face that the point is behind.
+/// Walks from tetrahedron to tetrahedron through a face that has the point on its other side.
 std::uint32_t Inserter::locate(const Vec3& p, std::uint32_t start, Insertion& why) {
   std::uint32_t t = start, from = k_none;
-  for (std::size_t step = 0; step < target_.most_effort; ++step) {  // meshes that are not Delaunay can lead it in circles
+  for (std::size_t step = 0; step < target_.most_effort; ++step) {  // in meshes that are not Delaunay the walk may cycle
     const Corners& v = mesh_.nodes[t];
     const Corners& n = mesh_.neighbours[t];
     std::uint32_t next = t;
     bool is_barred = false;
     for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t i = (k + static_cast<std::uint32_t>(step)) % 4;  // another first face each time: no short circles
+      const std::uint32_t i = (k + static_cast<std::uint32_t>(step)) % 4;  // a different first face in each step: prevents short cycles
       if (n[i] != k_none && n[i] / 4 == from) continue;
       if (orientation(mesh_.points[v[k_face[i][0]]], mesh_.points[v[k_face[i][1]]], mesh_.points[v[k_face[i][2]]], p) >= 0) continue;
       if (n[i] == k_none) {
@@ -100,7 +100,7 @@ std::uint32_t Inserter::locate(const Vec3& p, std::uint32_t start, Insertion& wh
   return t;
 }
 
-/// The tetrahedra whose spheres hold the point, connected through faces that are not the boundary's.
+/// Collects the tetrahedra whose spheres contain the point, connected through faces that are not boundary faces.
 Insertion Inserter::gather(std::uint32_t point, std::uint32_t base, const Room& room) {
   const Vec3 p = mesh_.points[point];
   cavity_.assign(1, base);
@@ -135,7 +135,7 @@ void Inserter::collect_faces() {
   }
 }
 
-/// Keeps what is still connected with the base.
+/// Keeps the tetrahedra that are still connected with the base.
 void Inserter::reach(std::uint32_t base) {
   constexpr std::uint8_t k_reached = 4;
   std::vector<std::uint32_t> reached = {base};
@@ -153,9 +153,9 @@ void Inserter::reach(std::uint32_t base) {
   cavity_ = std::move(reached);
 }
 
-/// Until every face of the cavity sees the point: adds the tetrahedron behind a face that does not, at most so many of them; else gives back the one before it.
-/// On a mesh that is far from Delaunay, as flips of the recovery leave it, each that is given back hides others: one of them can cost a cavity of a thousand,
-/// and what stays there is flat and long, and hides more from the next point.
+/// Makes every face of the cavity visible from the point. If a face is not, adds the tetrahedron behind it, up to a limit; else removes the one before it. In a
+/// mesh that is far from Delaunay, such as after flips of the recovery, each removed tetrahedron obstructs others: a single one can cost a cavity of a
+/// thousand, and the remaining tetrahedra are flat and long and obstruct the next point.
 Insertion Inserter::make_visible(const Vec3& p, std::uint32_t base, const Room& room, int most_grown) {
   int n_grown = 0;
   for (;;) {
@@ -169,7 +169,7 @@ Insertion Inserter::make_visible(const Vec3& p, std::uint32_t base, const Room& 
       }
       if (face.outer != k_none && n_grown < most_grown) {
         const std::uint32_t other = face.outer / 4;
-        if (target_.mark[other] == k_inside) continue;  // since the faces were collected
+        if (target_.mark[other] == k_inside) continue;  // added since the faces were collected
         if (is_foreign(other)) return Insertion::foreign;
         if (target_.mark[other] != k_dropped && nearness(mesh_.nodes[other][face.outer % 4], p, room) == Insertion::done) {
           if (target_.mark[other] == 0) touched_.push_back(other);
@@ -206,9 +206,9 @@ void Inserter::link(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
   }
 }
 
-/// One tetrahedron on each face of the cavity.
+/// Creates one tetrahedron on each face of the cavity.
 void Inserter::fill(std::uint32_t point) {
-  if (2 * faces_.size() > edges_.size() / 2) edges_.assign(8 * faces_.size() | 1023, {});  // made a power of two below
+  if (2 * faces_.size() > edges_.size() / 2) edges_.assign(8 * faces_.size() | 1023, {});  // rounded up to a power of two below
   if ((edges_.size() & (edges_.size() - 1)) != 0) {
     std::size_t size = 1024;
     while (size < edges_.size()) size *= 2;
@@ -235,7 +235,7 @@ void Inserter::fill(std::uint32_t point) {
     mesh_.neighbours[t] = {k_none, k_none, k_none, face.outer};
     target_.mark[t] = 0;
     target_.state[t] = 0;
-    std::atomic_ref(target_.is_changed[t / k_chunk]).store(1, std::memory_order_relaxed);  // chunks have places of several blocks
+    std::atomic_ref(target_.is_changed[t / k_chunk]).store(1, std::memory_order_relaxed);  // chunks contain slots of several blocks
     if (face.outer != k_none) mesh_.neighbours[face.outer / 4][face.outer % 4] = 4 * t + 3;
     link(face.nodes[1], face.nodes[2], 4 * t);
     link(face.nodes[0], face.nodes[2], 4 * t + 1);

@@ -1,5 +1,5 @@
-// One point into a mesh of tetrahedra: the Delaunay cavity around it, within what the boundary lets it see, is filled anew from the point (Bowyer 1981, Watson
-// 1981).
+// Inserts one point into a tetrahedral mesh: the Delaunay cavity around it, as far as it is visible within the boundary, is refilled from the point (Bowyer
+// 1981, Watson 1981).
 #pragma once
 
 #include <array>
@@ -12,64 +12,64 @@
 
 namespace sterna::tets {
 
-/// Whether a point lies inside the sphere around a positive tetrahedron. Of points on one sphere the one with the highest number counts as lifted furthest off
-/// the paraboloid, then the next, so every set of points has one Delaunay triangulation (Devillers and Teillaud 2003). Never 0.
+/// Tests if a point lies inside the sphere around a positive tetrahedron. Among cospherical points the one with the highest number counts as lifted furthest
+/// off the paraboloid, then the next, so every set of points has a unique Delaunay triangulation (Devillers and Teillaud 2003). Never 0.
 int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point);
 
-/// Tetrahedra; beyond strips of needles each point would see all others.
+/// Limit in tetrahedra; beyond strips of sliver triangles each point would see all others.
 inline constexpr std::size_t k_largest_cavity = 4000;
-inline constexpr std::size_t k_chunk = 1 << 13;  ///< places of tetrahedra that are looked at together, or not at all where nothing has changed
+inline constexpr std::size_t k_chunk = 1 << 13;  ///< slots of tetrahedra that are processed together, or skipped if nothing has changed
 
 enum class Insertion : std::uint8_t {
   done,
-  outside,     ///< the way to the point is barred by the boundary
-  too_near,    ///< a point of the mesh is nearer than was allowed
-  beaten,      ///< the same, and that point has come by the same call of BulkInserter
-  encroaches,  ///< the point is too low above a triangle of the boundary
-  no_cavity,   ///< no tetrahedra around it can be replaced by positive ones
-  foreign,     ///< another block's tetrahedra are in the way, or there is no room: to be tried later
+  outside,     ///< the path to the point is blocked by the boundary
+  too_near,    ///< a point of the mesh is nearer than allowed
+  beaten,      ///< as too_near, and that point was inserted by the same call of BulkInserter
+  encroaches,  ///< the point is too low above a boundary triangle
+  no_cavity,   ///< the tetrahedra around it cannot be replaced by positive ones
+  foreign,     ///< another block's tetrahedra are affected, or there are no free slots: to be retried later
 };
 
-/// What insertions of a whole pass work on. Each place belongs to the block that holds the last corner of its tetrahedron, or of the one that was there. That
-/// block alone changes it while blocks work at the same time; others read of it at most the corners, next to their own, where it does not change.
+/// Data that insertions of a whole pass work on. Each slot belongs to the block that contains the last corner of its tetrahedron, or of its former tetrahedron.
+/// Only that block changes it while blocks run in parallel; other blocks read at most the corners of slots next to their own, which do not change.
 struct InsertTarget {
   TetMesh& mesh;
-  std::vector<std::uint8_t>& mark;             ///< of each place: 0 between insertions
-  std::vector<std::uint8_t>& state;            ///< of each place: set to 0 for each new tetrahedron
-  std::vector<std::uint8_t>& is_changed;       ///< of each chunk of k_chunk places: set to 1 where a tetrahedron is made
-  std::uint32_t n_corners = 0;                 ///< points of the boundary: the first
-  std::uint32_t first_new_point = k_none;      ///< of the pass's points
-  std::size_t most_effort = k_largest_cavity;  ///< tetrahedra of a cavity, and steps of a walk, at most
+  std::vector<std::uint8_t>& mark;             ///< per slot: 0 between insertions
+  std::vector<std::uint8_t>& state;            ///< per slot: set to 0 for each new tetrahedron
+  std::vector<std::uint8_t>& is_changed;       ///< per chunk of k_chunk slots: set to 1 if a tetrahedron is created
+  std::uint32_t n_corners = 0;                 ///< number of boundary points, which come first
+  std::uint32_t first_new_point = k_none;      ///< first point of the pass
+  std::size_t most_effort = k_largest_cavity;  ///< limit of tetrahedra in a cavity, and of steps in a walk
 };
 
-/// What a point may come near to.
+/// Minimum distances of a new point.
 struct Room {
-  double to_points = 0.0;    ///< m; to any point of the mesh but those of the boundary
-  double to_corners = 0.0;   ///< m; to those
+  double to_points = 0.0;    ///< m; to any point of the mesh except those of the boundary
+  double to_corners = 0.0;   ///< m; to points of the boundary
   double to_boundary = 0.0;  ///< m; above a boundary triangle that it stands over
 };
 
-/// Inserts points for one block. Keeps its memory.
+/// Inserts points for one block. Reuses its memory.
 class Inserter {
  public:
-  /// `free` and [`first_new`, `end_new`): places where this block may put new tetrahedra; `first_start`: where points begin of which nothing better is known,
+  /// `free` and [`first_new`, `end_new`): slots in which this block may store new tetrahedra; `first_start`: start of walks for points without a better start,
   /// or k_none.
   Inserter(const InsertTarget& target, const Block& block, std::vector<std::uint32_t> free, std::uint32_t first_new, std::uint32_t end_new,
            std::uint32_t first_start)
       : target_(target), mesh_(target.mesh), block_(block), free_(std::move(free)), next_(first_new), end_(end_new), last_(first_start) {}
 
-  /// \p point: its place is in mesh.points already, in the block; \p start: a place of the block near to it, or k_none
-  /// \post with another answer than done the mesh is as before
+  /// \p point: its position is already in mesh.points, within the block; \p start: a slot of the block near to it, or k_none
+  /// \post unless the result is done, the mesh is unchanged
   Insertion insert(std::uint32_t point, std::uint32_t start, const Room& room);
 
-  /// Places that were not used, ascending behind those that were given back.
+  /// Returns the unused slots: those given back, followed by the unused new ones, ascending.
   std::vector<std::uint32_t> take_free();
 
  private:
   struct CavityFace {
-    std::array<std::uint32_t, 3> nodes;  ///< the cavity is on the side to which their normal points
+    std::array<std::uint32_t, 3> nodes;  ///< the cavity is on the side to which the normal points
     std::uint32_t outer;                 ///< face of the tetrahedron behind it, or k_none
-    std::uint32_t tet;                   ///< of the cavity
+    std::uint32_t tet;                   ///< tetrahedron of the cavity
   };
   struct EdgeEntry {
     std::uint64_t edge = 0;
@@ -78,7 +78,7 @@ class Inserter {
   };
 
   bool is_foreign(std::uint32_t t) const { return !block_.holds(mesh_.points[mesh_.nodes[t][3]]); }
-  /// done where it is not
+  /// Returns done if the point is not too near to v.
   Insertion nearness(std::uint32_t v, const Vec3& p, const Room& room) const {
     const double least = v < target_.n_corners ? room.to_corners : room.to_points;
     if (norm2(mesh_.points[v] - p) >= least * least) return Insertion::done;

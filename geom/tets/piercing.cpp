@@ -7,9 +7,9 @@
 namespace sterna::tets {
 namespace {
 
-constexpr std::size_t k_most_crossings = 5000;  ///< beyond that nothing is gained by going on
+constexpr std::size_t k_most_crossings = 5000;  ///< beyond this number the search is not worth continuing
 
-/// From a to b, one element after the other.
+/// Walk from a to b, one element after the other.
 class Walk {
  public:
   Walk(Flips& flips, std::uint32_t a, std::uint32_t b) : flips_(flips), mesh_(flips.mesh()), a_(a), b_(b) {}
@@ -50,7 +50,7 @@ class Walk {
       std::size_t zero = 0;
       bool is_inside = true;
       for (std::size_t i = 0; i < 3 && is_inside; ++i) {
-        const int side = sign(v[(i + 1) % 3], v[i], a_, b_);  // of the face through a and the edge from v[i]
+        const int side = sign(v[(i + 1) % 3], v[i], a_, b_);  // side of b relative to the plane through a and the edge from v[i]
         is_inside = side >= 0;
         if (side != 0) continue;
         ++n_zero;
@@ -97,7 +97,7 @@ class Walk {
       }
       const int between = sign(a_, b_, r, s);
       if (between == 0) return through_edge(r, s);
-      const std::uint32_t exit_without = between == sign(a_, b_, p, r) ? q : p;  // the face that is left through has the other one
+      const std::uint32_t exit_without = between == sign(a_, b_, p, r) ? q : p;  // the exit face contains the other vertex
       const Corners& v = mesh_.nodes[ring_.tets[i]];
       return through_face(4 * ring_.tets[i] + static_cast<std::uint32_t>(std::ranges::find(v, exit_without) - v.begin()));
     }
@@ -144,7 +144,7 @@ std::optional<std::vector<Edge>> piercing_edges(Flips& flips, const Facet& facet
     break;
   }
   if (found.empty()) return std::nullopt;
-  // From tetrahedron to tetrahedron around each edge that pierces.
+  // Move from tetrahedron to tetrahedron around each piercing edge.
   for (std::size_t k = 0; k < found.size() && found.size() < k_most_crossings; ++k) {
     const auto [p, q] = found[k];
     if (!flips.find_ring(p, q, ring)) return std::nullopt;

@@ -17,26 +17,26 @@
 namespace sterna::tets {
 namespace {
 
-/// The box around the points is so many times as wide: its corners are to be far from all.
+/// Width of the box relative to that of the points: its corners must be far from all points.
 constexpr double k_box_factor = 8.0;
-/// Points of the first round; each of the next has so many times as many as there are.
+/// Points of the first round; each following round has this multiple of the points already inserted.
 constexpr std::size_t k_first_points = 64, k_round_factor = 8;
-constexpr int k_most_tries = 4;  ///< of a point
-/// A point far from all others sees the hull of all that is there: the corners of a room around an aircraft of 300 000 points have cavities of more than 4000.
+constexpr int k_most_tries = 4;  ///< attempts per point
+/// A point far from all others sees the whole hull: the corners of a room around an aircraft of 300 000 points have cavities of more than 4000 tetrahedra.
 constexpr std::size_t k_delaunay_effort = std::size_t{1} << 18;
-/// How far remove_edge() may look.
+/// Recursion limit of remove_edge().
 constexpr int k_most_depth = 3;
-constexpr int k_most_points = 3;  ///< in the volume for one edge or facet
-constexpr int k_most_passes = 6;  ///< over what is missing, the first one aside
-/// How far off a facet's plane new points are, in lengths of what crosses there.
+constexpr int k_most_points = 3;  ///< points in the volume per edge or facet
+constexpr int k_most_passes = 6;  ///< passes over the missing entities, not counting the first one
+/// Distance of new points from a facet's plane, relative to the length of the crossing entities.
 constexpr double k_beside = 0.3;
-/// And how far towards an end of the other edge, as a share of the way.
+/// Displacement towards an end of the other edge, as a fraction of the way.
 constexpr double k_aside = 0.1;
-/// So often the distance is halved where they do not see what is around.
+/// Number of halvings of the distance if the surrounding faces are not visible.
 constexpr int k_most_edge_halvings = 30;
 constexpr std::size_t k_stop_tries = 256;
 
-/// Any order in which neighbours in the list are no neighbours in space (Steele, Lea and Flood 2014).
+/// Returns a pseudo-random key, so that neighbours in the list are not neighbours in space (Steele, Lea and Flood 2014).
 std::uint64_t shuffled(std::uint64_t i) {
   std::uint64_t z = i + 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -44,7 +44,7 @@ std::uint64_t shuffled(std::uint64_t i) {
   return z ^ (z >> 31);
 }
 
-/// The Delaunay mesh of the points and the eight corners of a box, which come behind them. Empty where a point could not be put in, which is told.
+/// Returns the Delaunay mesh of the points and the eight corners of a box, which follow them. Empty if a point could not be inserted, which is reported.
 TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const RunContext& context) {
   const Extent extent = extent_of(points);
   const Vec3 center = 0.5 * (extent.low + extent.high);
@@ -60,7 +60,7 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
   parallel_for(context, n, [&](std::size_t i) { order[i] = {shuffled(i), static_cast<std::uint32_t>(i)}; });
   parallel_sort(context, order, [](const auto& a, const auto& b) { return a < b; });
-  // Points are inserted in that order, behind the corners; of each its number as given, the corners being the last.
+  // Points are inserted in this order, after the corners; `number` maps each to its given index, the corners being the last.
   std::vector<std::uint32_t> number(corners.size());
   std::iota(number.begin(), number.end(), static_cast<std::uint32_t>(n));
   {
@@ -69,7 +69,7 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
       count = std::min(count, n - first);
       std::vector<std::uint32_t> round(count);
       for (std::size_t i = 0; i < count; ++i) round[i] = order[first + i].second;
-      // Where the mesh is long and thin the way to some is too long; once their neighbours are there it is not.
+      // In long and thin regions the walk to some points is too long; it is shorter once their neighbours are inserted.
       for (int tries = 0; tries < k_most_tries && !round.empty(); ++tries) {
         std::vector<Seed> seeds(round.size());
         for (std::size_t i = 0; i < round.size(); ++i) seeds[i].position = points[round[i]];
@@ -98,7 +98,7 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
   return mesh;
 }
 
-/// Numbers of what the index has and the mesh has not.
+/// Returns the numbers of indexed entities that the mesh does not contain.
 template <class Mark>
 std::vector<std::uint32_t> missing(std::size_t n, const TetMesh& mesh, const Mark& mark, const RunContext& context) {
   std::vector<std::uint8_t> is_there(n, 0);
@@ -118,7 +118,7 @@ class Recoverer {
  public:
   Recoverer(TetMesh& mesh, const FacetIndex& wanted, const RunContext& context) : mesh_(mesh), wanted_(wanted), context_(context), flips_(mesh, wanted) {}
 
-  /// Edges, then facets. What is left is told.
+  /// Recovers edges, then facets. Remaining ones are reported.
   void run(RecoverReport& report, RecoverFailure& failure);
 
  private:
@@ -131,7 +131,7 @@ class Recoverer {
   bool help_facet(const Facet& facet, int n_before, RecoverReport& report);
   template <class Make, class Help>
   void make_all(std::vector<std::uint32_t>& list, const Make& make, const Help& help);
-  /// Keeps what `flip` does where `count` gets smaller.
+  /// Keeps the changes by `flip` if `count` decreases.
   template <class Flip, class Count>
   bool try_flip(const Flip& flip, const Count& count, std::size_t n_before);
 
@@ -202,13 +202,14 @@ Recoverer::Made Recoverer::make_facet(const Facet& facet, int depth) {
   }
 }
 
-/// A length for new points: of two that cross the shorter one, then ever nearer to how wide what they span is, which is much less for needles.
+/// Returns a length for new points: the shorter of two crossing lengths, then gradually closer to the width of the region that they span, which is much smaller
+/// for slivers.
 double between(double a, double b, double area, int n_before) {
   const double width = area / std::max(a, b), share = std::min(1.0, n_before / static_cast<double>(k_most_points - 1));
   return std::min(a, b) * std::pow(std::min(1.0, width / std::min(a, b)), share);
 }
 
-/// On both sides of a plane, off it by a share of what is there: what is connected across the plane now ends at these points.
+/// Adds points on both sides of a plane, at a distance relative to the local size: connections across the plane now end at these points.
 bool Recoverer::add_points_beside(const Vec3& at, const Vec3& normal, double length, std::uint32_t start, RecoverReport& report) {
   bool is_done = false;
   for (const double side : {k_beside, -k_beside}) {
@@ -221,12 +222,12 @@ bool Recoverer::add_points_beside(const Vec3& at, const Vec3& normal, double len
   return is_done;
 }
 
-/// The same where the edge crosses one other in its plane and nothing else: with a point on each side, so near that it sees the whole ring around the other
-/// edge, that one can always be replaced.
+/// Adds a point on each side where the edge crosses one other edge in its plane and nothing else. The points are so near that the whole ring around the other
+/// edge is visible from them; that edge can then always be replaced.
 bool Recoverer::add_points_in_ring(const Edge& edge, const Edge& across, const Vec3& at, const Vec3& normal, double length, RecoverReport& report) {
   const auto [p, q] = across;
   const Vec3 from = mesh_.points[p];
-  const Vec3 foot = at + k_aside * (from - at);  // not where the two cross: the edge between both points would be as good as the wanted one
+  const Vec3 foot = at + k_aside * (from - at);  // not at the crossing: the edge between both points would be as good as the required one
   const double side = dot(cross(mesh_.points[q] - from, mesh_.points[edge[0]] - from), normal) > 0.0 ? 1.0 : -1.0;
   for (const bool is_first : {true, false}) {
     const Edge ends = is_first ? edge : Edge{edge[1], edge[0]};
@@ -250,7 +251,7 @@ bool Recoverer::help_edge(const Edge& edge, int n_before, RecoverReport& report)
   if (c.is_edge) {
     const Vec3 &p = mesh_.points[c.edge[0]], &q = mesh_.points[c.edge[1]];
     const Vec3 normal = cross(b - a, q - p);
-    const double t = dot(cross(p - a, q - p), normal) / norm2(normal);  // where the two cross
+    const double t = dot(cross(p - a, q - p), normal) / norm2(normal);  // crossing of the two edges
     if (!std::isfinite(t)) return false;
     const Vec3 at = a + std::clamp(t, 0.0, 1.0) * (b - a);
     const double length = between(norm(b - a), norm(q - p), norm(normal), n_before);
@@ -271,14 +272,14 @@ bool Recoverer::help_facet(const Facet& facet, int n_before, RecoverReport& repo
   const Edge& e = (*edges)[edges->size() / 2];
   const Vec3 &a = mesh_.points[facet[0]], &p = mesh_.points[e[0]], &q = mesh_.points[e[1]];
   const Vec3 normal = cross(mesh_.points[facet[1]] - a, mesh_.points[facet[2]] - a);
-  const double t = dot(a - p, normal) / dot(q - p, normal);  // where the edge pierces
+  const double t = dot(a - p, normal) / dot(q - p, normal);  // piercing point of the edge
   if (!std::isfinite(t)) return false;
   const double length = std::max(distance(a, mesh_.points[facet[1]]), distance(a, mesh_.points[facet[2]]));
   return add_points_beside(p + std::clamp(t, 0.0, 1.0) * (q - p), normal, between(length, norm(q - p), norm(normal), n_before),
                            flips_.tet_with_edge(e[0], e[1]), report);
 }
 
-/// Leaves in the list what could not be made. Some become possible when others are there.
+/// Leaves in the list the entities that could not be recovered. Some become possible when others exist.
 template <class Make, class Help>
 void Recoverer::make_all(std::vector<std::uint32_t>& list, const Make& make, const Help& help) {
   std::size_t n_tries = 0;
@@ -334,9 +335,9 @@ void Recoverer::run(RecoverReport& report, RecoverFailure& failure) {
     });
 }
 
-/// Keeps what lies on the side of the facets to which their normals point. False where that is not one side.
+/// Keeps the tetrahedra on the side of the facets to which their normals point. Returns false if that is not a single side.
 bool keep_domain(TetMesh& mesh, const FacetIndex& wanted, std::size_t n_facets, std::size_t n_points, const RunContext& context) {
-  // First facets become faces without neighbour; of each its own side begins.
+  // First make facets faces without neighbour; the inside is then grown from the inner side of each.
   constexpr std::uint8_t k_outside = 0, k_inside = 1;
   std::vector<std::uint8_t> side(mesh.nodes.size(), k_outside);
   struct Cut {
@@ -403,7 +404,7 @@ Recovery recover(std::span<const Vec3> points, std::span<const Facet> facets, st
     return recovery;
   }
   compact(recovery.mesh, static_cast<std::uint32_t>(points.size()));
-  recovery.report.n_points = static_cast<std::int64_t>(recovery.mesh.points.size() - points.size());  // those outside are gone
+  recovery.report.n_points = static_cast<std::int64_t>(recovery.mesh.points.size() - points.size());  // points outside have been removed
   return recovery;
 }
 

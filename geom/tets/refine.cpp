@@ -15,33 +15,33 @@
 namespace sterna::tets {
 namespace {
 
-// Lengths below are in units of the wanted edge length times this: so the geometric mean of the edges is the wanted length (measured in a field of constant
-// size).
+// Lengths below are in units of the target edge length times this factor: the geometric mean of the edges then equals the target length (measured in a field of
+// constant size).
 constexpr double k_length_factor = 1.07;
-/// Edge that a point in front of a face is to have.
+/// Edge length for a point in front of a face.
 constexpr double k_front_edge = 0.85;
-/// A larger circumradius is refined. A regular tetrahedron has 0.61.
+/// Circumradius above which a tetrahedron is refined. A regular tetrahedron has 0.61.
 constexpr double k_radius_limit = 0.76;
-/// No two points of the volume are nearer to each other.
+/// Minimum distance between two points of the volume.
 constexpr double k_least_distance = 0.7;
-/// And no point of the volume nearer than this to one of the boundary: where triangles are narrow.
+/// Minimum distance between a point of the volume and one of the boundary: for narrow triangles.
 constexpr double k_corner_distance = 0.6;
-/// A point in front of a face is at least so high above it.
+/// Minimum height of a point in front of a face.
 constexpr double k_least_height = 0.6;
-/// Above a face of the boundary no point is lower than this.
+/// Minimum height of a point above a boundary face.
 constexpr double k_boundary_height = 0.4;
-/// A circumcentre that is at most so much further off than the front's point is taken instead: no second point would fit behind.
+/// If the circumcentre is farther than the front's point by at most this factor, it is used instead: a second point would not fit behind.
 constexpr double k_merge = 1.2;
-/// Proposals along the curve of which none is kept that is too near to another one; where two parts meet that shows at insertion.
+/// Number of proposals along the curve that are thinned out together; conflicts between two such groups are detected at insertion.
 constexpr std::size_t k_thinned_together = 1 << 15;
 constexpr int k_most_rounds = 1000;
-constexpr double k_share_expected = 0.75;  ///< of the tetrahedra for which there is room to begin with, there are so many in the end
+constexpr double k_share_expected = 0.75;  ///< ratio of the final number of tetrahedra to the number for which memory is reserved initially
 
-// States of tetrahedra; from k_waiting on the number of points that it has proposed in vain.
+// States of tetrahedra; from k_waiting on: the number of rejected proposals.
 constexpr std::uint8_t k_unseen = 0, k_right = 1, k_given_up = 2, k_waiting = 3;
 constexpr int k_most_proposals = 3;
 
-/// Wanted lengths: a tetrahedron that nothing could part reaches far with an edge in the volume, and its sphere with a radius, beyond these.
+/// Far tetrahedra: those that could not be split, whose edge in the volume and circumradius exceed these multiples of the target length.
 constexpr double k_far_edge = 5.0, k_far_radius = 20.0;
 
 struct Sphere {
@@ -58,10 +58,10 @@ Sphere circumsphere(const std::array<Vec3, 4>& p) {
   return {p[0] + offset, norm(offset)};
 }
 
-/// A face as its tetrahedron sees it.
+/// A face as seen from its tetrahedron.
 struct Base {
   Vec3 normal;  ///< unit, into the tetrahedron
-  Vec3 center;  ///< of the circle through its corners
+  Vec3 center;  ///< centre of the circle through its corners
   Vec3 middle;  ///< centroid
   double radius = std::numeric_limits<double>::infinity();
 };
@@ -98,7 +98,7 @@ class Refiner {
       tell_progress();
       judge();
       const std::int64_t n_inserted = round(needs_front);
-      if (n_inserted < 0) {  // nobody had a point to propose
+      if (n_inserted < 0) {  // no tetrahedron had a proposal
         if (!needs_front) break;
         needs_front = false;
         continue;
@@ -119,7 +119,7 @@ class Refiner {
     return {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]], mesh_.points[v[3]]};
   }
   double length_at(const Vec3& p) const { return k_length_factor * sizes_(p); }
-  /// By tetrahedra, of about as many as will be.
+  /// Reports the progress by the number of tetrahedra relative to the expected number.
   void tell_progress() const {
     const double n = static_cast<double>(mesh_.nodes.size()), all = k_share_expected * static_cast<double>(expected_);
     context_.progress(n < all ? n / all : n / (n + 0.1 * all));
@@ -135,7 +135,7 @@ class Refiner {
   std::optional<Seed> propose(std::uint32_t t, bool needs_front) const;
   struct Place {
     Vec3 position;
-    double length = 0.0;  ///< wanted there
+    double length = 0.0;  ///< target length there
   };
   std::optional<Place> in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const;
 
@@ -145,12 +145,12 @@ class Refiner {
   const RunContext& context_;
   BulkInserter inserter_;
   std::uint32_t n_corners_;
-  std::size_t expected_;                   ///< tetrahedra for which there is room
-  std::vector<std::uint8_t> has_waiting_;  ///< of each chunk: some of its tetrahedra may have points to propose
+  std::size_t expected_;                   ///< number of tetrahedra for which memory is reserved
+  std::vector<std::uint8_t> has_waiting_;  ///< per chunk: some of its tetrahedra may have proposals
   RefineReport report_;
 };
 
-/// Which of the new tetrahedra are too large.
+/// Determines which of the new tetrahedra are too large.
 void Refiner::judge() {
   std::vector<std::uint8_t>&state = inserter_.state(), &is_changed = inserter_.is_changed();
   has_waiting_.resize(is_changed.size(), 0);
@@ -188,12 +188,12 @@ std::int64_t Refiner::count_far() const {
   return parallel_reduce(context_, mesh_.nodes.size(), std::int64_t{0}, count, std::plus());
 }
 
-/// The point in front of a face, between its circle's centre and that of the sphere.
+/// Returns the point in front of a face, between the centre of its circle and that of the sphere.
 std::optional<Refiner::Place> Refiner::in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
   const Base base = base_of(p[k_face[face][0]], p[k_face[face][1]], p[k_face[face][2]]);
-  // About where the point will be: as high above the face as a regular tetrahedron.
+  // Approximate position of the new point: at the height of a regular tetrahedron above the face.
   const double length = length_at(base.middle + std::numbers::sqrt2 * base.radius * base.normal), edge = k_front_edge * length;
-  if (base.radius > 0.95 * edge) {  // larger than wanted here
+  if (base.radius > 0.95 * edge) {  // larger than the target here
     const Vec3 low = base.middle + k_least_height * edge * base.normal;
     return Place{low, length_at(low)};
   }
@@ -230,7 +230,7 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
   return seed;
 }
 
-/// Without those that are too near to a corner of their own tetrahedron: it is given up where it has nothing else to propose.
+/// Removes proposals that are too near to a corner of their own tetrahedron, which is given up if it has no other proposal.
 void Refiner::drop_hopeless(std::vector<Seed>& proposed) {
   std::vector<std::uint8_t> is_hopeless(proposed.size());
   parallel_for(context_, proposed.size(), [&](std::size_t i) {
@@ -248,7 +248,7 @@ void Refiner::drop_hopeless(std::vector<Seed>& proposed) {
   proposed.resize(n_kept);
 }
 
-/// \return -1: nobody had anything to propose
+/// Runs one round. \return -1: no tetrahedron had a proposal
 std::int64_t Refiner::round(bool needs_front) {
   std::vector<std::uint8_t>& state = inserter_.state();
   std::vector<Seed> proposed = parallel_collect<Seed>(
@@ -272,7 +272,7 @@ std::int64_t Refiner::round(bool needs_front) {
         for (const std::uint32_t i : thinned(proposed, std::span(order).subspan(begin, end - begin))) list.push_back(proposed[i]);
       },
       k_thinned_together);
-  // Whoever has proposed has done so; those that are still there and have gained nothing will know.
+  // Count the proposals before the insertion: tetrahedra that still exist afterwards gained nothing. Proposals beaten by a point of this round do not count.
   std::vector<std::uint8_t> before;
   for (const Seed& seed : seeds) {
     before.push_back(state[seed.start]);

@@ -1,4 +1,5 @@
-// Points inside a boundary until tetrahedra have the sizes that are asked for: by fronts from the boundary inwards, then circumcentres where they meet.
+// Inserts points inside a boundary until the tetrahedra have their target sizes: advancing fronts from the boundary inwards, then circumcentres where fronts
+// meet.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,7 @@
 
 namespace sterna::tets {
 
-/// Wanted length of edges at a place, m; a reference to a callable double(const Vec3&) that any thread may call. Positive, and it grows slower than the
-/// distance.
+/// Target edge length at a location, m; a reference to a callable double(const Vec3&) that any thread may call. Positive, with a slope below 1.
 class SizeFunction {
  public:
   template <class F>
@@ -27,21 +27,21 @@ struct RefineReport {
   int rounds = 0;
   std::int64_t n_candidates = 0;
   std::int64_t n_inserted = 0;
-  std::int64_t n_serial = 0;   ///< candidates that no block could take
-  std::int64_t n_left = 0;     ///< tetrahedra that are larger than wanted, and no point helped
-  std::int64_t n_far = 0;      ///< of these, with corners far apart and a sphere that is far larger: flat ones that lie over many triangles of the boundary
-  double bytes = 0.0;          ///< of the arrays at their largest
-  bool is_over_limit = false;  ///< more bytes than were allowed: unfinished
+  std::int64_t n_serial = 0;   ///< candidates that no block could insert
+  std::int64_t n_left = 0;     ///< tetrahedra that are larger than the target and could not be improved by a point
+  std::int64_t n_far = 0;      ///< of these, tetrahedra with corners far apart and a much larger sphere: flat ones that lie over many triangles of the boundary
+  double bytes = 0.0;          ///< largest size of the arrays
+  bool is_over_limit = false;  ///< stopped early because the memory limit was exceeded
 };
 
-/// Inserts points until every tetrahedron's circumradius fits the size at its centroid, as far as the boundary lets it. In rounds: each tetrahedron that is too
-/// large and touches the boundary, or one that is right, proposes a point at the wanted distance from that face on the line of the points that its corners have
-/// as nearest (Rebay 1993), or its circumcentre where that is nearer; where nobody proposes, circumcentres. A point is inserted unless one of the mesh is
-/// nearer than 0.7 of the size, of the boundary 0.6. Points nearer to a boundary triangle than would leave room for a good tetrahedron are not. Edges have the
-/// wanted length in the geometric mean. Parallel, same bytes for any number of threads.
-/// \pre as connect() makes it; the first points, and those of the boundary, stay
-/// \post the same boundary; tetrahedra positive; new points behind the old ones, each used. Points in the volume may be gone.
-/// \p most_bytes: looked at after each round; \p expected: tetrahedra, for room to begin with, or 0
+/// Inserts points until every tetrahedron's circumradius fits the size at its centroid, as far as the boundary allows. Works in rounds. Each tetrahedron that
+/// is too large and touches the boundary, or one of the right size, proposes a point at the target distance from that face, on the line of the points
+/// equidistant from the corners of the face (Rebay 1993), or its circumcentre if that is nearer; if there are no such tetrahedra, circumcentres are proposed. A
+/// point is inserted unless a point of the mesh is nearer than 0.7 of the size, or a boundary point nearer than 0.6. Points too near to a boundary triangle for
+/// a good tetrahedron are not inserted. Edges have the target length in the geometric mean. Parallel, same bytes for any number of threads.
+/// \pre mesh as made by connect(); the first points, and those of the boundary, stay
+/// \post the same boundary; tetrahedra positive; new points after the old ones, each used. Points in the volume may have been removed.
+/// \p most_bytes: checked after each round; \p expected: number of tetrahedra for the initial reservation, or 0
 /// \throws Error(cancelled); Error(overflow) for more tetrahedra than a mesh can have
 RefineReport refine(TetMesh& mesh, std::uint32_t n_kept_points, const SizeFunction& sizes, const RunContext& context,
                     double most_bytes = std::numeric_limits<double>::infinity(), std::size_t expected = 0);

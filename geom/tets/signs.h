@@ -1,4 +1,4 @@
-// Predicates with filters that are cheap where nearly all answers are clear; what they leave open goes to the exact ones.
+// Predicates with cheap filters for the usual case of clear answers; undecided cases are passed to the exact predicates.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace sterna::tets {
 
-/// The sign of orient3d.
+/// Returns the sign of orient3d.
 inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   // Six terms of at most x y z, each with 8 roundings (exact::Bounded has the rule): 9 * 6 * 2^-53 covers them and the rounding of the bound.
   constexpr double k_bound = 6.1e-15;
@@ -23,7 +23,7 @@ inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
   return orient3d(a, b, c, d);
 }
 
-/// The sign of insphere.
+/// Returns the sign of insphere.
 inline int sphere_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
   // 4 * 6 terms of at most 3 m^2 x y z, each with 17 roundings: 72 * 18 * 2^-53.
   constexpr double k_bound = 1.46e-13;

@@ -14,14 +14,14 @@ namespace {
 constexpr std::size_t k_tet_chunk = 1 << 14;
 constexpr std::size_t k_tet_node_chunk = 1 << 12;
 
-/// A face at its lowest node.
+/// A face stored at its lowest node.
 struct FaceAtNode {
   std::uint32_t middle = 0, high = 0;
   std::uint32_t face = 0;  ///< 4 tet + corner
   bool is_odd = false;     ///< the corners' order is an odd permutation of low, middle, high
 };
 
-/// Corners of a face in ascending order; true where that is an odd permutation.
+/// Sorts the corners of a face in ascending order; returns true if that is an odd permutation.
 bool sort_corners(std::array<std::uint32_t, 3>& v) {
   bool is_odd = false;
   const auto order = [&](std::size_t i, std::size_t j) {
@@ -41,7 +41,7 @@ std::array<std::uint32_t, 3> corners_of(const Corners& nodes, std::size_t corner
 
 struct BadPlaces {
   std::int64_t count = 0;
-  std::vector<std::uint32_t> tets;  ///< the first
+  std::vector<std::uint32_t> tets;  ///< the first few
   void add(std::uint32_t t) {
     if (++count <= static_cast<std::int64_t>(k_max_places)) tets.push_back(t);
   }
@@ -73,7 +73,7 @@ void throw_if_any(const BadPlaces& bad, const TetMesh& mesh, const std::string& 
 
 /// Faces sorted by their lowest node: counting and scattering in fixed chunks.
 struct FacesByNode {
-  std::vector<std::uint32_t> first;  ///< of each node, and the end
+  std::vector<std::uint32_t> first;  ///< start of each node, and the end
   std::vector<std::uint32_t> faces;  ///< 4 tet + corner
 };
 

@@ -1,4 +1,4 @@
-// A hash grid for each exponent of two; its cells are at least as long as the distances there.
+// A hash grid for each power of two; its cells are at least as long as the distances there.
 
 #include "geom/tets/thin.h"
 
@@ -26,10 +26,10 @@ std::uint64_t hash_of(const Cell& cell) {
 std::vector<std::uint32_t> thinned(std::span<const Seed> seeds, std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> kept;
   kept.reserve(order.size());
-  std::vector<Cell> cells;  // of the kept ones
+  std::vector<Cell> cells;  // cells of the kept seeds
   std::vector<std::uint32_t> next;
   const std::size_t last = std::bit_ceil(2 * order.size() + 1) - 1;
-  std::vector<std::uint32_t> heads(last + 1, k_none);  // by the hash alone: cells that share one share a list
+  std::vector<std::uint32_t> heads(last + 1, k_none);  // by hash only: cells with the same hash share a list
   for (const std::uint32_t i : order) {
     const Vec3& p = seeds[i].position;
     const double distance = seeds[i].room.to_points;

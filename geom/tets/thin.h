@@ -1,4 +1,4 @@
-// Of places that are too near to each other, one.
+// Thins out points that are too near to each other.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace sterna::tets {
 
-/// Indices of seeds, in the order given, none nearer to one before it in the list than its own `room.to_points`; as far as both distances have the same
-/// exponent of two, what is left over is found at insertion. Serial, O(n), 0.3 us each.
+/// Returns indices of seeds, in the given order, such that none is nearer to an earlier one in the list than its own `room.to_points`. This holds where both
+/// distances have the same power-of-two exponent; the remaining cases are found at insertion. Serial, O(n), 0.3 us each.
 std::vector<std::uint32_t> thinned(std::span<const Seed> seeds, std::span<const std::uint32_t> order);
 
 }  // namespace sterna::tets
