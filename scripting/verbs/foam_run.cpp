@@ -214,12 +214,23 @@ class RunFiles {
   int interval() const { return std::gcd(part(), std::min(s_.options.write_interval, part())); }
 
   std::string final_stage() const {
-    return "// Second order: Allrun copies stage.start or stage.final here.\nconvectionOfU bounded " + s_.convection() + ";\ncorrection " + s_.correction +
-           ";\n";
+    std::string text =
+        "// Second order: Allrun copies stage.start or stage.final here.\nconvectionOfU bounded " + s_.convection() + ";\ncorrection " + s_.correction + ";\n";
+    if (s_.is_transonic())
+      text +=
+          "gradients pointCellsLeastSquares;\ngradientOfU cellLimited pointCellsLeastSquares 0.5;\n// First order for the pressure smears shocks over a tenth "
+          "of the chord.\nconvectionOfPressure Gauss limitedLinear 1;\n";
+    return text;
   }
-  static std::string start_stage() {
-    return "// First order, with a correction of normal gradients that is never above half of the rest: a robust start from uniform flow.\n"
-           "convectionOfU bounded Gauss upwind;\ncorrection limited corrected 0.33;\n";
+  std::string start_stage() const {
+    std::string text =
+        "// First order, with a correction of normal gradients that is never above half of the rest: a robust start from uniform flow.\n"
+        "convectionOfU bounded Gauss upwind;\ncorrection limited corrected 0.33;\n";
+    if (s_.is_transonic())
+      text +=
+          "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n"
+          "gradients cellLimited pointCellsLeastSquares 1;\ngradientOfU cellLimited pointCellsLeastSquares 1;\nconvectionOfPressure Gauss upwind;\n";
+    return text;
   }
 
   std::string head() const {

@@ -19,7 +19,6 @@ constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_rat
 constexpr double k_prandtl = 0.72;          ///< of air
 constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
 constexpr double k_first_step = 1e-3;       ///< of a run in time, over length and speed; afterwards steps follow from the Courant number
-constexpr double k_transonic = 0.6;         ///< from here on there may be shocks, and the pressure equation has its convective part
 
 std::string dictionary(std::string_view object, std::string_view location, const std::string& text) {
   return io::foam_header(object, "dictionary", location) + text;
@@ -64,8 +63,6 @@ class FoamSettings {
   }
 
  private:
-  bool is_transonic() const { return s_.is_compressible && s_.flow.mach >= k_transonic; }
-
   std::string turbulence() const {
     if (!s_.is_turbulent) return "simulationType laminar;\n";
     return "simulationType RAS;\nRAS\n{\n    RASModel " + s_.model + ";\n    turbulence on;\n    printCoeffs on;\n}\n";
@@ -168,9 +165,14 @@ class FoamSettings {
     return text;
   }
 
+  bool has_stages_of_shocks() const { return s_.is_transonic() && is_steady_; }
+
   std::string gradients() const {
-    std::string text, scheme = "pointCellsLeastSquares", of_pressure;
-    if (is_transonic()) {
+    std::string text, scheme = "pointCellsLeastSquares", more;
+    if (has_stages_of_shocks()) {
+      scheme = "$gradients";
+      more = " grad(U) $gradientOfU;";
+    } else if (s_.is_transonic()) {
       text = "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n";
       scheme = "cellLimited pointCellsLeastSquares 1";
     }
@@ -178,9 +180,9 @@ class FoamSettings {
       text +=
           "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge\n"
           "// become unstable, in gases within 30 iterations, else after 100 to 200.\n";
-      of_pressure = " grad(p) Gauss linear;";
+      more += " grad(p) Gauss linear;";
     }
-    return text + "gradSchemes { default " + scheme + ";" + of_pressure + " }\n\n";
+    return text + "gradSchemes { default " + scheme + ";" + more + " }\n\n";
   }
 
   std::string schemes() const {
@@ -201,7 +203,8 @@ class FoamSettings {
         (is_steady_ ? std::string("$convectionOfU") : s_.convection()) + ";\n";
     if (s_.is_compressible) {
       text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
-              "Gauss limitedLinear 1;\n    div(phid,p) Gauss upwind;\n    div((phi|interpolate(rho)),p) " + bounded +
+              "Gauss limitedLinear 1;\n    div(phid,p) " + (has_stages_of_shocks() ? "$convectionOfPressure" : "Gauss upwind") +
+              ";\n    div((phi|interpolate(rho)),p) " + bounded +
               "Gauss upwind;\n    div(phiv,p) Gauss limitedLinear 1;\n    div(((rho*nuEff)*dev2(T(grad(U))))) Gauss linear;\n";
     } else {
       text += "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n    div(div(phi,U)) Gauss linear;\n";
@@ -220,7 +223,7 @@ class FoamSettings {
     const std::string smooth = "{ solver smoothSolver; smoother symGaussSeidel; tolerance " + tolerance + "; relTol 0.1; maxIter 20; }\n";
     const std::string multigrid = "{ solver GAMG; smoother GaussSeidel; tolerance " + tolerance + "; relTol 0.05; }\n";
     const std::string krylov = "{ solver PBiCGStab; preconditioner DILU; tolerance " + tolerance + "; relTol 0.1; }\n";
-    std::string text = "solvers\n{\n    p " + (is_transonic() ? krylov : multigrid) +
+    std::string text = "solvers\n{\n    p " + (s_.is_transonic() ? krylov : multigrid) +
                        "    Phi { solver GAMG; smoother DICGaussSeidel; tolerance 1e-07; relTol 0; }\n" + "    \"(U|e|nuTilda|k|omega)\" " +
                        (s_.is_compressible ? krylov : smooth);
     if (!is_steady_) {
@@ -230,7 +233,7 @@ class FoamSettings {
     text +=
         "}\n\n// Fluxes conserve mass to Phi's tolerance after each of them.\npotentialFlow { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; }\n\n";
     const std::string limits =
-        s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (is_transonic() ? "yes" : "no") + ";\n" : "";
+        s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (s_.is_transonic() ? "yes" : "no") + ";\n" : "";
     const std::string reference = "    pRefCell 0;\n    pRefValue " + (s_.is_compressible ? case_number(s_.flow.pressure) : std::string("0")) + ";\n";
     if (!is_steady_)
       return text + "PIMPLE\n{\n    nOuterCorrectors 2;\n    nCorrectors 2;\n    nNonOrthogonalCorrectors 1;\n    consistent yes;\n" + limits + reference +

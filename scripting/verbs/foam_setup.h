@@ -44,6 +44,11 @@ struct FoamSetup {
   std::string pressure_drop(const std::string& inflow, const std::string& outflow) const {
     return inflows.size() == 1 && outflows.size() == 1 ? "pressureDrop" : "pressureDrop_" + inflow + "_" + outflow;
   }
+  /// Returns true if there may be shocks: the pressure equation has its convective part.
+  bool is_transonic() const {
+    constexpr double k_transonic = 0.6;  // Mach number of the free stream
+    return is_compressible && flow.mach >= k_transonic;
+  }
   /// Unit, along the free stream.
   Vec3 drag_direction() const { return normalized(velocity); }
   /// Unit; perpendicular to the free stream, in the plane of x and z.
