@@ -1,4 +1,4 @@
-// Actuator discs on walls of real surfaces, and what independent programs say of such meshes.
+// Actuator discs on walls of real surfaces, and the results of independent programs for such meshes.
 #include <gtest/gtest.h>
 
 #include "geom/math/measures.h"
@@ -42,7 +42,7 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
     SCOPED_TRACE(c.file);
     const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / c.file, context)}, {}, context).mesh;
     MeshCase options;
-    options.envelope.layers = 6;  // few, and the farfield near: what is looked at is the disc
+    options.envelope.layers = 6;  // few layers and a near farfield, since only the disc matters here
     options.envelope.first_height = c.first_height;
     options.farfield.farfield_radius = 5.0 * body_length(wall);
     options.discs = {c.disc};
