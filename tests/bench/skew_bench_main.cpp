@@ -28,7 +28,7 @@ using namespace sterna::volmesh;
 constexpr double k_degrees = 180.0 / std::numbers::pi;
 constexpr std::size_t k_bins = 45;  ///< bins of 2 degrees; the last one also counts the cells beside compressed and collapsed vertices
 
-/// Shares of the prisms in per cent; ceilings are shares of wall triangles.
+/// Histogram of the skew of the prisms; below() returns a share in per cent.
 struct Skew {
   std::array<std::int64_t, k_bins> bins{};
   std::int64_t n = 0;

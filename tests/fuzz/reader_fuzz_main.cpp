@@ -1,6 +1,6 @@
 // libFuzzer target for every reader of the table of formats and of model files. For any bytes, a reader returns a sound mesh or throws sterna::Error with
 // location and reason. The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). In addition to libFuzzer's options:
-//   reader_fuzz --list                          prints the targets, one a line
+//   reader_fuzz --list                          prints the targets, one per line
 //   reader_fuzz --seeds FOLDER SAMPLES...       fills FOLDER with inputs of the target from our own writers and from the folders SAMPLES
 // Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.
 #include <cstdint>

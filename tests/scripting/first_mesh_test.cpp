@@ -58,8 +58,8 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   EXPECT_NE(check.output.find("VALID"), std::string::npos);
   const ProcessResult json = sterna({"check", "box.su2", "--json"});
   EXPECT_EQ(json.output.front(), '{');
-  // A box of 12 triangles in a wide farfield has tets that fail every gate. The mesh is still VALID, and the failure is an error only if requested. The
-  // violated limits are cited for node-centred solvers, which read .su2, so only these are warned about.
+  // A box of 12 triangles in a wide farfield has tets that the gates reject. The mesh is still VALID, and this is an error only on request. The violated
+  // limits are cited for node-centred solvers, which read .su2, so they only cause warnings there.
   EXPECT_EQ(check.output.substr(0, 25), "VALID; node-centred: warn");
   EXPECT_EQ(check.output.find("OpenFOAM"), std::string::npos);
   EXPECT_EQ(sterna({"check", "box.su2", "--strict"}).status, k_exit_success);

@@ -149,7 +149,7 @@ TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
   // A straight tube with flat ends.
   EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} }, nose='flat', tail='flat' }:model():measures().volume"), 5.0 * k_pi, 5e-4);
   EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} } }:model():measures().volume"), 5.0 * k_pi + 4.0 / 3.0 * k_pi,
-              2e-3);  // half balls
+              2e-3);  // with hemispheres at both ends
   EXPECT_NEAR(
       number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, width=2, height=1}, {x=4, width=2, height=1} } }:model():measures().volume"),
       2.0 * k_pi, 1e-3);

@@ -4,7 +4,7 @@
 //   --wall    a marker with layers: measures its first heights and numbers of layers
 //   --near    measures the distance of this point from the walls
 //   --pair    two markers that should match after a translation: counts nodes and faces without partner
-// Exit status: 0 the mesh is good, 3 it is not, 2 it cannot be read.
+// Exit status: 0 valid mesh, 3 invalid mesh, 2 unreadable file.
 //
 // Checks: numbers in range and finite, no unused node, each face shared by two cells in opposite senses or by one cell and one marker, each marker face a face
 // of a cell, boundary closed edge by edge, volumes and corner volumes positive (in 113 bits), one outermost boundary, and no overlapping cells (for a sample of

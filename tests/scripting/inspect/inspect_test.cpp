@@ -259,7 +259,7 @@ TEST_F(InspectFiles, DrawTheTrouble) {
     EXPECT_THAT(text, HasSubstr(array));
   const SurfaceSoup soup = io::read_surface_file(folder_ / "trouble.vtu", RunContext({.threads = 1}));
   EXPECT_EQ(soup.triangles.size(), test::cube(6).n_triangles());
-  EXPECT_EQ(soup.patch_names.at(0), "wall");  // one part of one file
+  EXPECT_EQ(soup.patch_names.at(0), "wall");  // one file with one part
   EXPECT_THAT(error("inspect{ '" + path + "', output = 'trouble.stl' }"), HasSubstr(".vtu"));
 }
 

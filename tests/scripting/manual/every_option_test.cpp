@@ -37,7 +37,7 @@ std::string with_entry(const std::string& example, const std::string& name, cons
   return example.substr(0, open) + "{ " + argument + ", " + entry + " }";
 }
 
-/// Returns the location of an option in the table of its verb: the entry itself, or an entry of the nested table named by the preceding line of the help.
+/// Returns the entry for an option in the table of its verb: the assignment itself, or a nested table that the title of the option group names.
 std::string entry_of(const OptionGroup& group, const std::string& assignment) {
   std::smatch match;
   if (std::regex_search(group.title, match, std::regex("patches = \\{ \\[\"[^\"]*\"\\] = \\{ \\.\\.\\. \\} \\}")))

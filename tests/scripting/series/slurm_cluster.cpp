@@ -77,7 +77,7 @@ std::string tail(const fs::path& path) {
   return "---- " + path.filename().string() + "\n" + (all.size() > k_letters ? all.substr(all.size() - k_letters) : all);
 }
 
-/// Ends a daemon: first by a request, then by force.
+/// Sends SIGTERM to a daemon and waits for its end, at most 10 s.
 void end(StartedProcess& process) {
   process.signal(SIGTERM);
   for (const auto begin = Clock::now(); !process.has_ended() && Clock::now() - begin < std::chrono::seconds(10);)

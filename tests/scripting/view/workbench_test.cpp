@@ -196,7 +196,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(now["run"]["status"], "done");
   EXPECT_EQ(object(now, "model")["is_old"], false);
 
-  // The whole script.
+  // Mode "mesh": the whole script runs.
   EXPECT_EQ(post("run", {{"mode", "mesh"}}), 200);
   now = wait_for([&](const ViewJson& s) { return s["run"]["mode"] == "mesh" && s["run"]["status"] != "running"; });
   EXPECT_EQ(now["run"]["status"], "done") << now["problems"].dump();

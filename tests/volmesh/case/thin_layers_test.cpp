@@ -20,7 +20,7 @@ MeshCase asked(int layers) {
 }
 
 TEST(ThinLayers, says_how_many_are_enough_and_nothing_where_they_are) {
-  const TriMesh cube = test::cube(4);  // all triangles alike
+  const TriMesh cube = test::cube(4);  // all triangles are equal
   const auto thin = thin_layers(cube, asked(8));
   ASSERT_TRUE(thin.has_value());
   EXPECT_DOUBLE_EQ(thin->share, 1.0);

@@ -186,7 +186,7 @@ TEST(CompleteBoundary, MovesRimsIntoTheirPlane) {
 }
 
 TEST(CompleteBoundary, TakesTwoPlanes) {
-  // A quarter: the planes meet.
+  // A quarter model: its two planes meet.
   const TriMesh quarter = half_of(half_of(test::sphere(8), {}, k_context), {.axis = "z", .keep = "-"}, k_context);
   for (const char* shape : {"sphere", "box", "cylinder"}) {
     SCOPED_TRACE(shape);

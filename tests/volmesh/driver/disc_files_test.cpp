@@ -34,7 +34,8 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
     ActuatorDisc disc;
     double first_height;  ///< m
     double area,
-        tolerance;  ///< m^2: of the circle inside of the duct, whose radius is 0.4 to 0.402 m there; of the disc without the nose, which is 0.2 to 0.45 m thick
+        tolerance;  ///< m^2; expected area: the circle inside the duct, whose radius is 0.4 to 0.402 m there, or the disc without the nose, which is 0.2 to
+                    ///< 0.45 m thick
   };
   const RunContext context({.threads = 2});
   for (const Case& c : {Case{"flowpanel_duct_duct_remeshed_refined.msh", {.name = "fan", .radius = 0.5}, 1e-4, 0.505, 0.003},

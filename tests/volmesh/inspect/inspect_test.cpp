@@ -383,7 +383,7 @@ TEST(Inspect, ComparesFirstAndLastCellsWithTheEdges) {
   InspectRequest one = request_of(8, 1e-5);
   one.volume.envelope.max_thickness = 1.0;  // m, large enough to have no effect
   const InspectReport few = inspect(cube, one);
-  // 0.816 edges of about 0.07 from 1e-5 by 1.4: 27 layers.
+  // From a first height of 1e-5, with growth 1.4, to a last height of 0.816 edges of about 0.07: 27 layers.
   const std::string advice = the(few, Kind::thin_top).advice;
   ASSERT_EQ(advice.find("layers = 2"), 0u) << advice;
   InspectRequest enough = request_of(std::stoi(advice.substr(9)), 1e-5);

@@ -23,7 +23,7 @@ using test::k_context;
 
 /// A wall with a valid envelope, and the input of every run on it.
 struct Case {
-  /// A cube with tilted lines and uneven heights.
+  /// A cube with tilted growth lines and uneven heights.
   static Case cube() {
     Case c(test::cube(6));
     c.options.layers = 35;

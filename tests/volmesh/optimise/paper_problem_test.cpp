@@ -185,7 +185,7 @@ ElementConstraints constraints_of(const LayerBase& base, const Column<VertexId, 
   return result;
 }
 
-/// A rough point of a problem on a surface: tilted lines, uneven heights, many violated elements.
+/// An irregular point of a problem on a surface: tilted growth lines, uneven heights, many violated elements.
 struct RoughCase {
   explicit RoughCase(const std::string& name)
       : mesh(surface_named(name)),

@@ -76,7 +76,8 @@ TEST(CurvedEnd, WholeTunnelKeepsWhatIsAwayFromTheFootprint) {
 }
 
 TEST(CurvedEnd, CoarseTunnelWithLargeFootprintIsCutNearIt) {
-  // The footprint spans 70 degrees, its edges 12. No projection exists if a margin of three footprint lengths is required; with a smaller margin one exists.
+  // The footprint spans 70 degrees, its edges 12. If re-meshing extends by three edge lengths around the footprint there is no projection; with a smaller
+  // extent there is one.
   const TriMesh original = grid(on_tunnel, 0, 4 * k_pi, 48, 0, 6, 22, true);
   EndRegion region{.surface = &k_tunnel, .original = &original, .name = "tunnel"};
   add_border(region, original);
