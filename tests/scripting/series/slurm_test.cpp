@@ -102,7 +102,7 @@ end }
     EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("running"));
     cluster.take_node_down();
     EXPECT_EQ(main.wait(), 1);
-    // Slurm may still ask the job to end; the job then reports this itself.
+    // Slurm may still send the job a signal to end; the job then reports this itself.
     EXPECT_THAT(text_of("s/x=2/status.json"),
                 AllOf(HasSubstr("\"status\": \"killed\""), AnyOf(HasSubstr("is gone from the queue"), HasSubstr("stopped on request"))));
     cluster.bring_node_back();
