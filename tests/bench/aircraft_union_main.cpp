@@ -1,4 +1,4 @@
-// Table of aircraft files: components, how they unite, how long it takes, and what remains of area and volume after a STEP export.
+// Table of aircraft files: components, result of their union, run time, and changes of area and volume by a STEP export.
 // usage: aircraft_union [--threads N] [--verbose] [--step FOLDER] FILE ...   (docs/aircraft_union.md holds its output for tests/data/shared)
 #include <algorithm>
 #include <chrono>
@@ -43,7 +43,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Of all threads: tells work from waiting on a busy machine.
+/// CPU time of all threads; unlike the wall clock it excludes waiting on a busy machine.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double relative_change(double before, double after) { return before == after ? 0.0 : std::abs(after - before) / std::abs(before); }

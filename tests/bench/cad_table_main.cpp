@@ -1,4 +1,4 @@
-// Table of CAD files: what is in them, what was mended, whether they close, and what remains of area and volume after a STEP export.
+// Table of CAD files: contents, repairs, whether the model is closed, and changes of area and volume by a STEP export.
 // usage: cad_table FILE ...   (docs/cad_files.md holds its output for cad.tar.xz of tests/data/shared)
 #include <sys/resource.h>
 
@@ -25,7 +25,7 @@ std::string mended_text(const CadReport& report) {
   return text.empty() ? "-" : text;
 }
 
-/// With flat openings capped, where that closes it.
+/// Returns true if the model is closed once its flat openings are capped.
 bool closes_with_caps(const std::filesystem::path& path) {
   ReadCadOptions options;
   options.cap = true;
@@ -38,7 +38,7 @@ std::string closed_text(const std::filesystem::path& path, const CadReport& repo
          std::to_string(report.free_edges.size()) + " edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
 }
 
-/// Peak of the whole process: of one file only where the program is called for that file alone.
+/// Peak resident memory of the whole process. Call the program with one file to measure that file alone.
 double peak_megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -47,7 +47,7 @@ double peak_megabytes() {
 
 double relative_change(double before, double after) { return before == after ? 0.0 : std::abs(after - before) / std::abs(before); }
 
-/// Largest relative change of area and volume by a STEP export that is read again.
+/// Largest relative change of area and volume between the model and its STEP export read back.
 double step_change(const CadFile& file, const ModelMeasures& before) {
   const std::string bytes = cad::cad_bytes(file.model, cad::CadFormat::step, "again.step", {}, RunContext());
   const ModelMeasures after = model_measures(cad::read_cad_bytes(bytes, cad::CadFormat::step, "again.step", {}, RunContext()).model, RunContext());

@@ -1,5 +1,5 @@
-// How fast `check` is: columns on an icosahedral sphere with tets above them, made here so that nothing else is measured. The whole of `check`, then the steps
-// that can be called alone.
+// Speed of `check`: columns on an icosahedral sphere with tets above them, generated in memory so that nothing else is measured. Times the whole of `check`,
+// then each step with a public function.
 // usage: check_bench [triangles along an icosahedron's edge = 100] [layers = 45] [threads = 2]     245 45 gives 1.2 M triangles, 54 M prisms, 7.2 M tets
 #include <sys/resource.h>
 
@@ -22,7 +22,7 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-/// Of all threads; unlike the wall clock it means something on a machine that others use too.
+/// CPU time of all threads; unlike the wall clock it is meaningful on a machine shared with other processes.
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -1,9 +1,9 @@
-// All optimisers of the envelope from the same start, with the same upper heights, on real surfaces (docs/method/optimisation.md). For each surface a table as
-// Markdown: objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time. usage:
-// compare_optimisers [options] surface...        with the settings of docs/measurements.md: 35 layers, first height 1e-6 body lengths
-//   --evaluations=300   of NLopt (own methods stop by themselves, at 30 sweeps or evaluations)
-//   --solvers=a,b,...   of the names in solvers() below; default all
-//   --slack=      of NLopt's constraint (NloptSettings::slack)
+// Compares all envelope optimisers on real surfaces, from the same start and with the same upper heights (docs/method/optimisation.md). Prints a Markdown table
+// for each surface: objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time.
+// usage: compare_optimisers [options] surface...        with the settings of docs/measurements.md: 35 layers, first height 1e-6 body lengths
+//   --evaluations=300   limit for NLopt (our own methods stop by themselves, at 30 sweeps or evaluations)
+//   --solvers=a,b,...   names from solvers() below; default all
+//   --slack=      slack of NLopt's constraint (NloptSettings::slack)
 //   --threads=2  --layers=35  --history (f by evaluation, one line per solver)
 #include <algorithm>
 #include <chrono>
@@ -34,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Settings {
   int evaluations = 300;
-  double slack = -1.0;  ///< of NLopt's constraint; negative: its default
+  double slack = -1.0;  ///< slack of NLopt's constraint; negative: NLopt's default
   int threads = 2;
   int layers = 35;
   bool has_history = false;
@@ -42,7 +42,7 @@ struct Settings {
   std::vector<std::string> surfaces;
 };
 
-/// What every solver gets.
+/// Input of every solver.
 struct Task {
   const LayerBase& base;
   const Envelope& start;
@@ -104,8 +104,8 @@ struct Solver {
   std::function<Answer(const Task&)> run;
 };
 
-/// The list of solvers: a new one is a line here. The own methods minimise f_1 + f_2 alone (height 1, top 0), as NLopt does; "descent_default" has the weights
-/// that the pipeline uses.
+/// The list of solvers; add a line here for a new one. Our own methods minimise f_1 + f_2 alone (height 1, top 0), as NLopt does; "descent_default" uses the
+/// weights of the pipeline.
 std::vector<Solver> solvers() {
   return {
       {"mma", [](const Task& task) { return run_nlopt(NloptMethod::mma, task); }},
@@ -144,7 +144,7 @@ SkewShares skew_shares(const LayerBase& base, const Envelope& envelope) {
   return {per_cent * shares.below_6, per_cent * shares.below_18, per_cent * shares.above_60};
 }
 
-/// Area-weighted mean height over that of the target, per cent.
+/// Area-weighted mean height over that of the target, in per cent.
 double height_share(const LayerBase& base, const Envelope& envelope) {
   double height = 0.0, target = 0.0;
   for (const VertexId v : envelope.height.ids()) {
@@ -182,7 +182,7 @@ void compare(const std::string& file, const Settings& settings) {
   std::vector<double> gradient(z.size());
   const PaperObjective f = problem.objective(z, {}, context);
 
-  // One evaluation as NLopt asks for it: objective and constraint with gradients.
+  // One evaluation in the form that NLopt calls: objective and constraint with gradients.
   constexpr int k_repeats = 5;
   const Clock::time_point before = Clock::now();
   const std::clock_t processor_before = std::clock();

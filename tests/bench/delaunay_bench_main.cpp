@@ -1,4 +1,4 @@
-// Points a second of the planar kernel, against sorting the same points (the ratio that can be compared between machines).
+// Points per second of the planar kernel, and the ratio to sorting the same points, which is comparable between machines.
 // usage: delaunay_bench [N ...]
 #include <algorithm>
 #include <cstdio>
@@ -13,7 +13,7 @@
 namespace {
 
 using namespace sterna;
-/// Of the processor, not of the wall: other work on the machine does not count.
+/// CPU time, not wall-clock time, so that other work on the machine does not count.
 double seconds_since(std::clock_t start) { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; }
 
 void measure(const char* name, const std::vector<Vec2>& points) {

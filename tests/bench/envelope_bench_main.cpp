@@ -1,9 +1,9 @@
-// How fast the layer is, stage by stage, on real surfaces with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L,
+// Speed of each layer stage on real surfaces with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L,
 // feature angle 35 degrees, growth at most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1.
 // usage: envelope_bench [--threads 1,2] [--layers 35] [--nlopt 0] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
-// --nlopt N: besides, N evaluations of NLopt's CCSAQ and MMA and of our descent from the envelope before stage 6 (compare_optimisers compares results).
-// One table row for each surface, thread number and stage: seconds, of processor time too (the same times the threads on a quiet machine), elements per second
-// and core, peak of the resident memory during the stage.
+// --nlopt N: also times N evaluations of NLopt's CCSAQ and MMA and of our descent from the envelope before stage 6 (compare_optimisers compares results).
+// One table row for each surface, thread number and stage: wall-clock seconds, CPU seconds (equal to wall-clock times threads on a quiet machine), elements per
+// second and core, peak resident memory during the stage.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -37,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double k_bytes_per_mb = 1e6;
 
-/// Linux forgets the peak of the resident memory when 5 is written to clear_refs.
+/// Resets the peak resident memory: Linux does so when 5 is written to clear_refs.
 void reset_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 double status_megabytes(const std::string& key) {
@@ -50,7 +50,7 @@ double status_megabytes(const std::string& key) {
 struct Row {
   std::string surface;
   int threads;
-  double peak = 0.0;  ///< MB, of all stages of this surface so far
+  double peak = 0.0;  ///< MB, over all stages of this surface so far
 
   void timed(const char* stage, double n_elements, const char* element, const std::function<void()>& f) {
     reset_peak();
@@ -69,7 +69,7 @@ struct Row {
 
 TriMesh read(const std::string& path, const RunContext& context) { return surfmesh::stitch_surface({io::read_surface_file(path, context)}, {}, context).mesh; }
 
-/// What every optimiser of stage 6 costs, all from the same start.
+/// Times every optimiser of stage 6, all from the same start.
 void time_optimisers(Row& row, const LayerBase& base, EnvelopeOptions options, int n_evaluations, const RunContext& context) {
   options.optimiser = "none";
   const Envelope start = build_envelope(base, options, context);

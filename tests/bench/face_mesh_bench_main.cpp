@@ -1,5 +1,5 @@
-// Triangles a second and quality of the mesher of one face; processor time, beside a planar triangulation of as many points in the same run.
-// usage: face_mesh_bench [FACTOR ...]    edges are shorter by each factor; [-name NAME] only that face; [-vtk FILE] writes the last mesh
+// Triangles per second (CPU time) and quality of the mesher of one face, compared with a planar triangulation of as many points in the same run.
+// usage: face_mesh_bench [FACTOR ...]    edges are divided by each factor; [-name NAME] only that face; [-vtk FILE] writes the last mesh
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

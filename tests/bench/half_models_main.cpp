@@ -1,5 +1,6 @@
-// Half models against whole ones: cells, validity, the plane, with layers as in docs/measurements.md (25 layers, first height 1e-6 of the body length L,
-// growth 1.3, farfield 20 L). usage: half_models [--threads 2] [--layers 25] [--write FOLDER] [--half-only] SURFACE...     surfaces are symmetric about y = 0
+// Compares half models with whole ones: cells, validity, symmetry plane, with layers as in docs/measurements.md (25 layers, first height 1e-6 of the body
+// length L, growth 1.3, farfield 20 L).
+// usage: half_models [--threads 2] [--layers 25] [--write FOLDER] [--half-only] SURFACE...     surfaces are symmetric about y = 0
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,8 @@
-// How fast an inspection is, and how well it predicts the layer: for each surface reading, joining, inspecting; with --compare the envelope of volume_mesh on
-// the same wall. usage: inspect_bench [--threads 1,2] [--layers 35] [--compare] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
-// First height 1e-6 of the body length, the other options as they are by default. Seconds of the wall clock and of the processor (the same times the threads on
-// a quiet machine).
+// Speed of an inspection, and accuracy of its layer prediction. Times reading, joining and inspecting each surface; with --compare also the envelope of
+// volume_mesh on the same wall.
+// usage: inspect_bench [--threads 1,2] [--layers 35] [--compare] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
+// The first height is 1e-6 of the body length; the other options have their defaults. Times are wall-clock and CPU seconds (CPU equals wall-clock times threads
+// on a quiet machine).
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -32,7 +33,7 @@ Seconds timed(const std::function<void()>& f) {
   return {std::chrono::duration<double>(Clock::now() - start).count(), static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
 }
 
-/// Shares of the area of the finished envelope, as the report of a mesh counts them.
+/// Area shares of the finished envelope, counted as in the report of a mesh.
 void print_envelope(const TriMesh& wall, const MeshCase& options, const InspectReport& report, const std::string& name, const RunContext& context) {
   MeshingSite site(wall, options, context);
   EnvelopeStage stage;

@@ -1,5 +1,6 @@
-// How fast the pre-flight of the tetrahedra is (wanted: 150 000 triangles/s/core): checks of the boundary, then the pre-flight of walls as boundaries, with and
-// without the search for crossings. usage: preflight_bench [--threads 1,2] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
+// Speed of the tetrahedra pre-flight (target: 150 000 triangles/s/core): checks of the boundary, then the pre-flight of walls as boundaries, with and without
+// the search for crossings.
+// usage: preflight_bench [--threads 1,2] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
-// remesh_surface beside CGAL's isotropic remeshing and Gmsh's reparametrisation, in one run: both get the edge that gives as many triangles as ours, and
-// edges that bend by more than 40 degrees kept.
-// usage: remesh_peers surface...        Markdown table on standard output. Each peer in a process of its own, at most 120 s.
+// Compares remesh_surface with CGAL's isotropic remeshing and Gmsh's reparametrisation in one run. Both peers get the edge length that yields as many triangles
+// as ours, and keep edges that bend by more than 40 degrees.
+// usage: remesh_peers surface...        Markdown table on standard output. Each peer runs in a separate process, at most 120 s.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>

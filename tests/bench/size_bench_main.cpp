@@ -1,7 +1,7 @@
-// How fast a size field is built and read.
+// Speed of building and evaluating a size field.
 // usage: size_bench SURFACE...
-// Places: around the vertices of the wall, in their order (as engines ask, neighbour after neighbour) and shuffled, at distances of 0.1 to 1000 times the local
-// edge.
+// Locations: around the vertices of the wall, at distances of 0.1 to 1000 times the local edge, in vertex order (as engines query, neighbour after neighbour)
+// and shuffled.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -56,7 +56,7 @@ void measure(const char* path) {
     for (int k = 0; k < k_places_per_vertex; ++k)
       places.push_back(p + std::pow(10.0, exponent(random)) * edge * normalized(Vec3{normal(random), normal(random), normal(random)}));
   }
-  // Engines go through space along a curve; here the distance is sorted within each vertex at least.
+  // Engines traverse space along a curve; here only the distances within each vertex are sorted.
   for (std::size_t first = 0; first < places.size(); first += k_places_per_vertex)
     std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.begin() + static_cast<std::ptrdiff_t>(first + k_places_per_vertex),
               [&](const Vec3& a, const Vec3& b) { return field(a) < field(b); });

@@ -1,6 +1,6 @@
-// Skew (13), coverage, heights and the certificate's minima of the extruded layer, with and without the optimiser, with the settings of
-// docs/measurements.md. usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME
-// none|descent counts..." (tests/tools/draw_skew.py draws them). Several parts of one body: PART+PART+...
+// Skew (13), coverage, heights and minima of the certificate of the extruded layer, with and without the optimiser, with the settings of docs/measurements.md.
+// usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME none|descent counts..."
+// (tests/tools/draw_skew.py draws them). Join several parts of one body with +: PART+PART+...
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -26,9 +26,9 @@ using namespace sterna;
 using namespace sterna::volmesh;
 
 constexpr double k_degrees = 180.0 / std::numbers::pi;
-constexpr std::size_t k_bins = 45;  ///< of 2 degrees; the last one also has the cells beside compressed and collapsed vertices
+constexpr std::size_t k_bins = 45;  ///< bins of 2 degrees; the last one also counts the cells beside compressed and collapsed vertices
 
-/// Shares of the prisms in percent, and of wall triangles for the ceilings.
+/// Histogram of the skew of the prisms; below() returns a share in per cent.
 struct Skew {
   std::array<std::int64_t, k_bins> bins{};
   std::int64_t n = 0;

@@ -1,9 +1,9 @@
-// Our evaluators of spline surfaces against OpenCASCADE's, in one run: agreement of points and derivatives, ratio of speeds; projections per second.
+// Compares our spline surface evaluators with OpenCASCADE's in one run: agreement of points and derivatives, ratio of speeds; projections per second.
 // usage: spline_bench
-// Each derivative is a sum of poles times derivatives of basis functions that cancel: over intervals of length h second derivatives of the functions grow as 1
-// / h^2, while the sum does not. Its rounding errors are relative to the sum of the absolute terms, whoever evaluates. So the differences are measured against
-// that sum; an evaluator in 113 bits (__float128) tells how far each of both is from the truth. Exit status 1 when any value differs by more than 1e-12 of its
-// terms, from OpenCASCADE's or from the truth, or when we are slower.
+// Each derivative is a sum of poles times derivatives of basis functions that cancel: over intervals of length h the second derivatives of the functions grow
+// as 1 / h^2, while the sum does not. The rounding errors of any evaluator are therefore relative to the sum of the absolute terms, and differences are
+// measured against that sum. An evaluator with 113 bits (__float128) gives the error of each of the two. Exit status 1 if any value differs by more than 1e-12
+// of its terms from OpenCASCADE's or from the 113-bit value, or if our evaluator is slower.
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Standard_Version.hxx>
@@ -31,7 +31,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int k_places = 200000;
 constexpr int k_rounds = 5;
 constexpr double k_agreement = 1e-12;
-constexpr std::size_t k_truth_step = 20;  ///< every so many places are compared with the truth
+constexpr std::size_t k_truth_step = 20;  ///< every k_truth_step-th location is compared with the 113-bit value
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -83,7 +83,7 @@ PointGrid wing_grid() {
   return grid;
 }
 
-/// Best of some rounds, evaluations per second; `sum` keeps the work alive.
+/// Returns the best of some rounds, in evaluations per second; `sum` prevents the compiler from removing the work.
 template <class F>
 double rate(const std::vector<Uv>& at, double& sum, const F& f) {
   double best = 1e300;
@@ -95,7 +95,7 @@ double rate(const std::vector<Uv>& at, double& sum, const F& f) {
   return static_cast<double>(at.size()) / best;
 }
 
-// ---------------------------------------------------------------- the truth
+// ---------------------------------------------------------------- the 113-bit reference
 
 using Quad = __float128;
 
@@ -111,7 +111,7 @@ QuadBasis quad_basis(int degree, const std::vector<double>& knots, double t) {
   while (!(knots[span] < knots[span + 1])) --span;
   QuadBasis basis;
   basis.first = span - p;
-  // functions[q] holds those of degree q, shifted by span - p; derivatives from those of degrees p - 1 and p - 2.
+  // functions[q] holds the functions of degree q, shifted by span - p; derivatives come from degrees p - 1 and p - 2.
   std::vector<std::vector<Quad>> functions(p + 1, std::vector<Quad>(p + 2, Quad(0)));
   const auto knot = [&](std::size_t i) { return Quad(knots[basis.first + i]); };
   const auto share = [](Quad a, Quad b) { return b > 0 ? a / b : Quad(0); };
@@ -131,7 +131,7 @@ QuadBasis quad_basis(int degree, const std::vector<double>& knots, double t) {
   return basis;
 }
 
-/// One of S, S_u, S_v, S_uu, S_uv, S_vv with the sum of the absolute terms that it cancels from.
+/// One of S, S_u, S_v, S_uu, S_uv, S_vv, and the sum of the absolute values of its terms.
 struct Truth {
   Vec3 value[6];
   double terms[6] = {};
@@ -170,11 +170,11 @@ Truth truth_at(const NurbsSurfaceForm& form, Uv at) {
   return truth;
 }
 
-/// Largest differences over all places and the six values.
+/// Largest differences over all locations and the six values.
 struct Agreement {
-  double between = 0.0, ours = 0.0, theirs = 0.0;  ///< shares of the terms
-  double our_share = 0.0, their_share = 0.0;       ///< of the largest value on the surface, from the truth
-  const char* worst = "";                          ///< what is farthest from the truth by that measure
+  double between = 0.0, ours = 0.0, theirs = 0.0;  ///< shares of the sum of absolute terms
+  double our_share = 0.0, their_share = 0.0;       ///< error as a share of the largest value on the surface
+  const char* worst = "";                          ///< name of the value with the largest error by that measure
 };
 
 Agreement agreement(const NurbsSurface& ours, const Geom_BSplineSurface& theirs, const std::vector<Uv>& places) {

@@ -1,9 +1,10 @@
-// The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One row each; processor time of the meshing alone.
+// The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One table row each; CPU time of the meshing alone.
 // usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-gaps CELLS] [-thickness FACTOR] [-intersection FACTOR] [-wing
 // FACTOR] [-nostrips] [-threads N] [-parts] [-nocheck] [-strict] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
-//   -parts: aircraft are not united; -nocheck: crossings are not looked for; -strict: they are errors, else counted; -out: writes FOLDER/<stem>.vtu and .su2;
-//   -v: the worst faces too -raw: writes FOLDER/<stem>.tri, the numbers of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as
-//   3 int32 -distance: of such meshes (given before FILE) how far triangles are from FILE's faces; FILE is then not meshed
+//   -parts: aircraft are not united; -nocheck: no search for crossings; -strict: crossings are errors (default: counted);
+//   -out: writes FOLDER/<stem>.vtu and .su2; -v: also lists the worst faces
+//   -raw: writes FOLDER/<stem>.tri, the input of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as 3 int32
+//   -distance: distance of the triangles of such meshes (given before FILE) from FILE's faces; FILE is then not meshed
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -90,7 +91,7 @@ RawMesh read_raw(const std::filesystem::path& path) {
   return mesh;
 }
 
-/// A face as a place to project to: its surface over the box of its borders in (u, v), untrimmed.
+/// A face as a projection target: its untrimmed surface over the (u, v) box of its borders.
 struct FaceTarget {
   SurfaceProjector projector;
   Box box;
@@ -98,7 +99,7 @@ struct FaceTarget {
 
 FaceTarget make_target(const Model& model, const ModelFace& face) {
   constexpr int k_border_samples = 64, k_box_samples = 24;
-  constexpr double k_box_margin = 0.05;  // of the samples' longest side: what the surface does between them
+  constexpr double k_box_margin = 0.05;  // of the samples' longest side, for the surface between samples
   Interval u{1e300, -1e300}, v{1e300, -1e300};
   for (const Border& border : face.borders)
     for (const EdgeUse& use : border)
@@ -142,7 +143,7 @@ double distance_to_faces(const Point& p, const std::vector<FaceTarget>& targets)
   return best;
 }
 
-/// Largest and mean distance of middles of edges and of triangles, at most k_most triangles at even steps.
+/// Prints the largest and mean distance of the midpoints of edges and triangles, for at most k_most triangles at even steps.
 void print_distances(const Model& model, const std::vector<std::string>& meshes, const RunContext& context) {
   constexpr std::size_t k_most = 10'000;
   std::vector<FaceTarget> targets;

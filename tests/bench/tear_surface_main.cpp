@@ -1,4 +1,4 @@
-// tear_surface IN OUT.stl [SEED]: tears a surface (tests/support/tear.h) and writes what is left.
+// tear_surface IN OUT.stl [SEED]: tears a surface (tests/support/tear.h) and writes the remaining triangles.
 #include <cstdlib>
 #include <iostream>
 

@@ -1,8 +1,8 @@
-// What the engines make of real surfaces, with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L, growth at
-// most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L. usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...
-// parts of one body are joined with +: wing.stl+flap.stl One table row for each surface and engine. "ours" is everything of the stage but the engine's own run:
-// boundary, size field, transfer, process, verification. That the boundary comes back to the bit is proven in each run (verify.h); a row that could not be made
-// says why.
+// Results of the tet engines on real surfaces, with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L, growth at most
+// 1.4, thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L.
+// usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...        join parts of one body with +: wing.stl+flap.stl
+// Prints one table row for each surface and engine. "ours" is the time of the stage without the engine's own run: boundary, size field, transfer, process,
+// verification. Each run verifies that the boundary is returned to the bit (verify.h); a row that failed states the reason.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,7 +54,7 @@ double circumradius(const std::array<Vec3, 4>& p) {
   return norm(norm2(u) * cross(v, w) + norm2(v) * cross(w, u) + norm2(w) * cross(u, v)) / (2.0 * std::abs(dot(u, cross(v, w))));
 }
 
-/// Over all tets of a mesh.
+/// Quality of all tets of a mesh.
 struct TetFigures {
   std::vector<double> angle;        ///< smallest dihedral, degrees, ascending
   std::vector<double> radius_edge;  ///< ascending

@@ -1,8 +1,8 @@
-// Our tetrahedral kernel beside the other engines: tetrahedra per second and how the time grows with the size, all on the same input in one run.
+// Compares our tetrahedral kernel with the other engines: tetrahedra per second and growth of the time with the size, all on the same input in one run.
 // usage: tets_bench [--threads 2] [--millions 1,2,5] [--engines sterna,hxt,tetgen] [--insertion yes|no]
-// 1. Delaunay insertion of random points into a cube, along the curve in rounds of eight times as many: the kernel alone.
-// 2. A sphere in a farfield that a source fills with small tetrahedra: each engine's own seconds, and all that the processor spent (with transfer and proof);
-// of "sterna" recovery and refinement apart. An exponent is the slope of the logarithm of the seconds over that of the tetrahedra, least squares.
+// 1. Delaunay insertion of random points into a cube, along the curve in rounds that grow by a factor of eight: the kernel alone.
+// 2. A sphere in a farfield that a source fills with small tetrahedra: each engine's own seconds, and the total CPU time (with transfer and proof); for
+// "sterna", recovery and refinement separately. An exponent is the least-squares slope of the logarithm of the seconds over the logarithm of the tetrahedra.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ Timing insert_points(std::size_t n_points, const RunContext& context) {
   return {static_cast<double>(mesh.nodes.size()), seconds};
 }
 
-/// Of the processor, with helpers that have ended: what a busy machine does not change much.
+/// CPU time including helper processes that have ended; hardly affected by other load on the machine.
 double processor_seconds() {
   double sum = 0.0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -97,7 +97,7 @@ double processor_seconds() {
   return sum;
 }
 
-/// Geometric mean over the tetrahedra without corner on the boundary.
+/// Geometric mean edge length of the tetrahedra without corner on the boundary.
 double mean_edge(const TetraBoundary& boundary, const TetraResult& result) {
   double sum = 0.0, n = 0.0;
   for (const auto& tet : result.tetrahedra) {
@@ -118,7 +118,7 @@ double seconds_of(const RunContext& context, const std::string& stage) {
 
 Timing fill_domain(const std::string& engine, double n_tets, const Settings& settings) {
   constexpr double k_radius = 4.0;
-  constexpr double k_tets_per_cube = 8.5;  ///< of the size's edge, about
+  constexpr double k_tets_per_cube = 8.5;  ///< cube with edges of the target size, approximate
   const double size = std::cbrt(4.19 * k_radius * k_radius * k_radius * k_tets_per_cube / n_tets);
   const RunContext context({.threads = settings.threads});
   const TriMesh wall = test::sphere(std::max(4, static_cast<int>(1.0 / size)));

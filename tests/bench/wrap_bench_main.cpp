@@ -1,4 +1,5 @@
-// wrap_bench OUT.stl FILE...: wraps files with the defaults, prints time and figures, writes the wrap. EDGE=, GAP= from the environment.
+// wrap_bench OUT.stl FILE...: wraps files with the defaults, prints times and statistics, writes the wrap. The environment variables EDGE and GAP set the edge
+// length and the gap.
 #include <chrono>
 #include <cstdlib>
 #include <iostream>

@@ -1,7 +1,8 @@
-// Writes a mesh of columns and tetrahedra in each format named, and reads it back: speed against a plain write of as many bytes in the same run (SU2: against
-// fprintf of the same content), and memory beside the mesh.
-//   write_volumes N FOLDER EXTENSION...      N^2 squares of the plate, 30 layers, 4 shells of tetrahedra: N = 870 has 26.5 M nodes, 45.4 M prisms, 18.2 M
-//   tetrahedra write_volumes --write N FOLDER EXTENSION...      without reading
+// Writes a mesh of columns and tetrahedra in each format named, and reads it back. Compares the speed with a plain write of as many bytes in the same run (SU2:
+// with fprintf of the same content), and the memory with that of the mesh.
+//   write_volumes N FOLDER EXTENSION...      N^2 squares of the plate, 30 layers, 4 shells of tetrahedra:
+//                                            N = 870 has 26.5 M nodes, 45.4 M prisms, 18.2 M tetrahedra
+//   write_volumes --write N FOLDER EXTENSION...      without reading
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -33,7 +34,7 @@ std::uint64_t size_of(const std::filesystem::path& path) {
   return n;
 }
 
-/// "VmHWM", "VmRSS" of this process, bytes.
+/// Returns "VmHWM" or "VmRSS" of this process, in bytes.
 double memory(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -41,7 +42,7 @@ double memory(const std::string& key) {
   return 0.0;
 }
 
-/// The peak begins anew.
+/// Resets the peak resident memory.
 void reset_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 double write_plain(const std::filesystem::path& path, std::uint64_t n) {
@@ -53,7 +54,7 @@ double write_plain(const std::filesystem::path& path, std::uint64_t n) {
   return now() - begin;
 }
 
-/// Bends the plate, so that no two coordinates are alike, as on a real body: packing must not look better than it is.
+/// Bends the plate so that no two coordinates are equal, as on a real body; otherwise compression would appear too good.
 void bend(sterna::HybridMesh& mesh) {
   for (sterna::Point& p : mesh.points) {
     const double x = p.x, y = p.y;
@@ -63,13 +64,13 @@ void bend(sterna::HybridMesh& mesh) {
   }
 }
 
-/// What a .sterna file holds unpacked: coordinates, columns, tetrahedra, boundary.
+/// Size of the uncompressed content of a .sterna file: coordinates, columns, tetrahedra, boundary.
 std::uint64_t unpacked_bytes(const sterna::HybridMesh& mesh) {
   return 24 * mesh.points.size() + 12 * mesh.layers.n_columns() + 5 * mesh.layers.n_lines() + 16 * mesh.tetrahedra.size() +
          16 * mesh.boundary_triangles.size() + 20 * mesh.boundary_quads.size();
 }
 
-/// SU2 as one writes it first: fprintf, a line a call, 17 digits.
+/// The straightforward SU2 writer: fprintf, one call per line, 17 digits.
 double write_with_fprintf(const sterna::HybridMesh& mesh, const std::filesystem::path& path) {
   const double begin = now();
   std::FILE* const file = std::fopen(path.c_str(), "w");

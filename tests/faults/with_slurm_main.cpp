@@ -1,5 +1,5 @@
-// A Slurm of two tasks on this machine for tools/faults: writes SLURM_CONF to stdout, then does what the lines of stdin say until there is none more:
-// "down", "back", "kill", "restart" (node and controller); each is answered by "done". Exit status 2: there can be no Slurm here.
+// Starts a Slurm of two tasks on this machine for tools/faults. Writes SLURM_CONF to stdout, then executes the commands read from stdin until its end: "down",
+// "back", "kill", "restart" (node and controller). Answers "done" to each command. Exit status 2: Slurm is not available on this machine.
 #include <cstdlib>
 #include <exception>
 #include <iostream>

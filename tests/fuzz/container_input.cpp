@@ -1,4 +1,4 @@
-// io/container/container_file.cpp is compiled with another name for its read_container(), so that this one is linked.
+// The fuzzers link the read_container() of this file: io/container/container_file.cpp is compiled with another name for its own.
 #include "tests/fuzz/container_input.h"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace sterna::fuzz {
 namespace {
 
 constexpr std::size_t k_head_bytes = 32;
-constexpr double k_longest_seconds = 60.0;  // of samples of a few kB, on a machine under load
+constexpr double k_longest_seconds = 60.0;  // for samples of a few kB, on a machine under load
 
 }  // namespace
 

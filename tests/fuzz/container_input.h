@@ -1,5 +1,5 @@
-// Container files (CGNS, TAU, VTKHDF) are read by libraries in a process of its own, which fuzzers need not try: what runs in ours begins with the image of the
-// file that comes from there. So the inputs of these targets are images: here read_container() takes the file for one.
+// Container files (CGNS, TAU, VTKHDF) are read by libraries in a separate process, which need not be fuzzed. Our own code begins with the image of the file
+// that this process returns. Inputs of these targets are therefore images: here read_container() takes the file itself for an image.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace sterna::fuzz {
 
 bool is_container(const Target& target);
 
-/// The image that sterna-read-container makes of a file; empty where it crashes.
+/// Returns the image that sterna-read-container makes of a file; empty if that program crashes.
 std::string image_of(const Target& target, const std::filesystem::path& path);
 
 }  // namespace sterna::fuzz

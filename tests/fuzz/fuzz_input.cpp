@@ -16,9 +16,9 @@ namespace {
 struct Companions {
   std::string_view format, endings;  ///< blank-separated
 };
-/// What readers look for beside a file x.EXTENSION: x + ending.
+/// Companion files that readers open beside a file x.EXTENSION: x + ending.
 constexpr Companions k_companions[] = {{"UGRID", ".mapbc"}, {"TAU", ".bmap"}, {"Edge", ".aboc"}, {"Medit", ".names"}, {"TetGen smesh", ".node"}};
-/// Formats whose variants go by the extension; all others look into the file.
+/// Formats whose variants are chosen by the extension; all others are recognised by the file content.
 constexpr Companions k_variants[] = {{"UGRID", ".lb8.ugrid .b8l.ugrid .lb4.ugrid .ugrid"}, {"TetGen smesh", ".smesh .poly"}, {"OpenFOAM", "polymesh"}};
 constexpr const char* k_folder_files[] = {"points", "faces", "owner", "neighbour", "boundary"};
 
@@ -90,7 +90,7 @@ InputFiles::InputFiles(const Target& target) {
 }
 
 InputFiles::~InputFiles() {
-  std::error_code ignored;  // what may remain is a few kB in memory
+  std::error_code ignored;  // at worst a few kB remain in memory
   std::filesystem::remove_all(folder_, ignored);
 }
 

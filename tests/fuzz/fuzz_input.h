@@ -1,4 +1,4 @@
-// The bytes that a fuzz target is given, as the files that a reader opens: one file, or several joined where the reader looks for companions or reads a folder.
+// Converts the bytes of a fuzz input to the files that a reader opens: one file, or several joined ones if the reader opens companion files or reads a folder.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace sterna::fuzz {
 
-/// A reader of the table of formats, or one of a model's files.
+/// A reader from the table of formats, or a reader of model files.
 struct Target {
-  const io::Format* format = nullptr;  ///< the first line with that reader; null of a model's file
+  const io::Format* format = nullptr;  ///< the first entry with that reader; null for a model file
   bool is_volume = false;
-  std::string extensions;  ///< of files that it reads alike; blank-separated
+  std::string extensions;  ///< extensions that the reader treats alike; blank-separated
   const ModelReader* model = nullptr;
 
   std::string_view extension() const { return std::string_view(extensions).substr(0, extensions.find(' ')); }
@@ -26,13 +26,13 @@ struct Target {
   std::string name() const;
 };
 
-/// The blank-separated words.
+/// Returns the blank-separated words.
 std::vector<std::string_view> words(std::string_view text);
 
-/// Every reader once; one that goes by the extension once for each.
+/// Returns every reader once; a reader that depends on the extension once for each extension.
 std::vector<Target> all_targets();
 
-/// The files of one input, in memory where the system has such a folder; removed at the end. Parts are separated by k_part_end, in the order main file,
+/// The files of one input, in an in-memory folder if the system has one; removed at the end. Parts are separated by k_part_end, in the order main file,
 /// companions.
 class InputFiles {
  public:
@@ -43,7 +43,7 @@ class InputFiles {
 
   /// Writes the parts; companions beyond the parts are removed.
   void fill(std::string_view bytes) const;
-  /// What the reader is given.
+  /// Path to pass to the reader.
   const std::filesystem::path& path() const { return path_; }
 
  private:
@@ -53,7 +53,7 @@ class InputFiles {
 
 inline constexpr std::string_view k_part_end = "\n%%%%%%%%\n";
 
-/// The input that would make `path` and the companions beside it (a folder: its files). \returns an empty one where nothing can be read
+/// Returns the input that would create `path` and the companions beside it (a folder: its files); empty if nothing can be read.
 std::string joined(const Target& target, const std::filesystem::path& path);
 
 }  // namespace sterna::fuzz

@@ -1,7 +1,6 @@
-// libFuzzer target for what has no file format: predicates, triangulations of planes and spaces, envelopes, tables of scripts, requests of the workbench.
-// Whatever the bytes: results are right by a second way to find them, or the input is refused by an Error. STERNA_FUZZ names the target, as for reader_fuzz;
-// --list and
-// --seeds likewise. Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.
+// libFuzzer target for code without a file format: predicates, planar and spatial triangulations, envelopes, script tables, workbench requests. For any bytes,
+// either the results agree with a second method or the input is refused by an Error. STERNA_FUZZ names the target, as for reader_fuzz; --list and --seeds also
+// work as there. Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.
 #include <fuzzer/FuzzedDataProvider.h>
 #include <gmpxx.h>
 #include <netinet/in.h>
@@ -50,8 +49,8 @@ const RunContext& quiet_context() {
   return context;
 }
 
-/// Coordinates of few values, so that points coincide and lie on lines and spheres, moved by few units of the last place; 1e-30 beside zero, because the
-/// predicates are exact from 1e-42 on.
+/// Returns a coordinate from a small set of values, moved by a few units in the last place, so that points coincide and lie on lines and spheres. Uses 1e-30
+/// near zero because the predicates are exact from 1e-42 on.
 double coordinate(FuzzedDataProvider& bytes) {
   double x = bytes.ConsumeIntegralInRange<int>(-8, 8);
   if (bytes.ConsumeIntegralInRange<int>(0, 3) == 0) x /= 3.0;
@@ -114,7 +113,7 @@ void fuzz_intersections(FuzzedDataProvider& bytes) {
       if (meet(a, b) != is || meet(b, a) != is) report("triangles_intersect depends on the order of corners");
     } while (std::ranges::next_permutation(b).found);
   } while (std::ranges::next_permutation(a).found);
-  // Two triangles with a common corner meet; so do such of which one has a corner on the other.
+  // Two triangles with a common corner meet; so do two triangles of which one has a corner on the other.
   if (!triangles_intersect({p[0], p[1], p[2]}, {p[0], p[4], p[5]})) report("triangles with a common corner do not meet");
 }
 
@@ -166,7 +165,7 @@ void fuzz_envelope(FuzzedDataProvider& bytes) {
   }
   for (const TriangleId t : wall.triangles.ids()) {
     const auto [a, b, c] = corners(wall, t);
-    if (!(norm(area_vector(a, b, c)) > 1e-9)) return;  // refused before the envelope
+    if (!(norm(area_vector(a, b, c)) > 1e-9)) return;  // refused before the envelope is made
   }
   volmesh::EnvelopeOptions options;
   options.layers = bytes.ConsumeIntegralInRange<int>(1, 20);
@@ -229,14 +228,14 @@ void fuzz_table(FuzzedDataProvider& bytes) {
     reader.read_options(options);
     reader.finish();
     for (const Option& option : options)
-      if (reader.is_given(option.stage, option.name)) set_option(option, option.get());  // refuses what is out of range
+      if (reader.is_given(option.stage, option.name)) set_option(option, option.get());  // refuses values out of range
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_argument && error.code() != ErrorCode::unknown_option) report(error.what());
     if (std::string_view(error.what()).empty()) report("a refusal without words");
   }
 }
 
-/// One connection with these bytes, of which "SECRET" becomes the secret; all of the answer.
+/// Sends these bytes over one connection, with "SECRET" replaced by the secret; returns the whole answer.
 std::string asked(int port, const std::string& secret, std::string text) {
   for (std::size_t at = 0; (at = text.find("SECRET", at)) != std::string::npos; at += secret.size()) text.replace(at, 6, secret);
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
@@ -279,7 +278,7 @@ void fuzz_requests(FuzzedDataProvider& bytes) {
 struct Target {
   std::string_view name;
   void (*run)(FuzzedDataProvider&);
-  std::string_view seed;  ///< an input to begin with, beside random ones
+  std::string_view seed;  ///< an initial input, in addition to random ones
 };
 constexpr std::array k_targets = {
     Target{"predicates", fuzz_predicates, ""},

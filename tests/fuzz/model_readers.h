@@ -1,4 +1,4 @@
-// Readers of models' files, which the table of formats does not have: sumo's, CPACS, airfoils, displacements.
+// Readers of model files, which are not in the table of formats: sumo's, CPACS, airfoils, displacements.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace sterna::fuzz {
 
 struct ModelReader {
   std::string_view name, extension;
-  /// Reads the file; what is wrong with the result, empty = nothing.
+  /// Reads the file and returns the defect of the result; empty if there is none.
   std::string (*read)(const std::filesystem::path&, const RunContext&);
   std::string_view seed;  ///< a small file
 };

@@ -1,6 +1,6 @@
-// libFuzzer target for every reader of the table of formats and of models' files. Whatever the bytes: a reader gives a sound mesh, or throws sterna::Error that
-// says where and why. The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). Beside libFuzzer's options:
-//   reader_fuzz --list                          prints the targets, one a line
+// libFuzzer target for every reader of the table of formats and of model files. For any bytes, a reader returns a sound mesh or throws sterna::Error with
+// location and reason. The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). In addition to libFuzzer's options:
+//   reader_fuzz --list                          prints the targets, one per line
 //   reader_fuzz --seeds FOLDER SAMPLES...       fills FOLDER with inputs of the target from our own writers and from the folders SAMPLES
 // Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace sterna;
 
-constexpr std::size_t k_largest_seed = 65536;  // bytes: small inputs are run a thousand times as often
+constexpr std::size_t k_largest_seed = 65536;  // bytes: small inputs run a thousand times as often
 
 [[noreturn]] void report(const std::string& what) {
   std::fprintf(stderr, "FINDING: %s\n", what.c_str());
@@ -31,10 +31,10 @@ fuzz::Target chosen_target() {
   for (const fuzz::Target& target : fuzz::all_targets())
     if (name && target.name() == name) return target;
   std::fprintf(stderr, "STERNA_FUZZ names no target; --list prints them\n");
-  std::_Exit(2);  // std::exit would be a finding to libFuzzer
+  std::_Exit(2);  // libFuzzer would report std::exit as a finding
 }
 
-/// A refusal has a reason that the user can act on.
+/// Checks that a refusal states a reason that the user can act on.
 void check(const Error& error, const fuzz::Target& target) {
   const std::string text = error.what();
   switch (error.code()) {

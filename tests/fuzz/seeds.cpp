@@ -17,7 +17,7 @@ std::array<NodeId, N> nodes(const std::uint32_t (&numbers)[N]) {
   return result;
 }
 
-/// A hexahedron, a pyramid on its top, a prism at its side, a tetrahedron between these (mix4 of docs/method/formats.md, "Sample meshes").
+/// A hexahedron, a pyramid on its top, a prism at its side, and a tetrahedron between pyramid and prism (mix4 of docs/method/formats.md, "Sample meshes").
 HybridMesh four_cells() {
   HybridMesh mesh;
   mesh.points.raw() = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},     {0, 1, 0},   {0, 0, 1},   {1, 0, 1},
@@ -35,7 +35,7 @@ HybridMesh four_cells() {
   return mesh;
 }
 
-/// A tetrahedron of two patches.
+/// A tetrahedron surface with two patches.
 TriMesh four_triangles() {
   TriMesh mesh;
   mesh.points.raw() = {{0, 0, 0}, {1, 0, 0}, {0.1, 1, 0}, {0.2, 0.3, 1}};
@@ -46,7 +46,7 @@ TriMesh four_triangles() {
   return mesh;
 }
 
-/// Every part that a .sterna file can hold.
+/// Writes a .sterna file with every part that the format can hold.
 void write_everything(const std::filesystem::path& path, const RunContext& context) {
   const TriMesh surface = four_triangles();
   HybridMesh mesh = four_cells();

@@ -1,4 +1,4 @@
-// Small meshes with every kind of cell and part, written by our own writers: where a fuzzer starts beside the samples.
+// Small meshes with every kind of cell and part, written by our own writers: initial fuzzer inputs in addition to the samples.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,9 @@
 
 namespace sterna::fuzz {
 
-/// Fills `folder` with inputs for the target: what the writers of its format write, and the samples of its extensions in the other folders.
-/// \returns how many. Inputs above `largest` bytes are left out.
+/// Fills `folder` with inputs for the target: files from the writers of its format, and samples with its extensions from the other folders. Leaves out inputs
+/// above `largest` bytes.
+/// \returns number of inputs
 int write_seeds(const Target& target, const std::filesystem::path& folder, std::span<const std::filesystem::path> sample_folders, std::size_t largest);
 
 }  // namespace sterna::fuzz

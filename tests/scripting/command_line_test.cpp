@@ -1,4 +1,4 @@
-// The program as a user runs it: exit status, what goes to stdout and to stderr, which files are left.
+// The program as a user runs it: exit status, output on stdout and stderr, files left behind.
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -73,7 +73,7 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
   for (const char* name : {"wall.cgns", "wall.adf.cgns", "wall.su2", "wall.vtu", "wall.taumesh", "wall.msh", "wall.meshb", "wall.lb8.ugrid", "wall.vtkhdf"}) {
     SCOPED_TRACE(name);
     const ProcessResult written = sterna({"convert", "box.stl", name});
-    if (written.status != k_exit_success) {  // not every format of volumes takes surfaces
+    if (written.status != k_exit_success) {  // some volume formats do not accept surfaces
       EXPECT_NE(written.errors.find("surface"), std::string::npos) << written.errors;
       continue;
     }
@@ -187,7 +187,7 @@ TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
   write("tet.su2",
         "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 "
         "3\n");
-  std::filesystem::create_directories(folder / "old.foam");  // a case that is a folder, as samples are
+  std::filesystem::create_directories(folder / "old.foam");  // a case that is a folder, like the samples
   ASSERT_EQ(sterna({"convert", "tet.su2", "new.foam"}).status, k_exit_success);
   ASSERT_EQ(sterna({"convert", "tet.su2", "old.foam"}).status, k_exit_success);
   EXPECT_TRUE(std::filesystem::is_regular_file(folder / "new.foam"));
@@ -207,7 +207,7 @@ TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
   std::stringstream manifest;
   manifest << std::ifstream(folder / "again.su2.json").rdbuf();
   EXPECT_NE(manifest.str().find("\"file\": \"new.foam\""), std::string::npos) << manifest.str();
-  // A second mesh would replace the first; this is told before any work.
+  // A second mesh would replace the first; the program refuses this before any work.
   const ProcessResult refused = sterna({"mesh", "box.stl", "-o", "second.foam"});
   EXPECT_EQ(refused.status, k_exit_failed);
   EXPECT_NE(refused.errors.find("is that of new.foam"), std::string::npos) << refused.errors;

@@ -1,5 +1,5 @@
-// A run that is stopped behind a step and continued, from a script or from the command line, gives the bytes of the whole run: with everything that a domain
-// can have beside bodies in a sphere.
+// A run that is stopped after a step and continued, from a script or from the command line, writes the same bytes as the whole run. The domains have every
+// feature possible beside bodies in a sphere.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 struct Domain {
   const char* name;
   const char* wall;     ///< Lua: makes `wall`
-  const char* options;  ///< of make_envelope and volume_mesh
+  const char* options;  ///< options of make_envelope and volume_mesh
 };
 
 void PrintTo(const Domain& domain, std::ostream* out) { *out << domain.name; }
@@ -46,7 +46,7 @@ TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
   const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
   run("whole", wall + "volume_mesh{ wall, " + layer + ", stages = 'all.sterna' }:write 'whole.su2'");
   run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
-  std::filesystem::remove(folder_ / "room.stl");  // the file of the steps has what it needs
+  std::filesystem::remove(folder_ / "room.stl");  // the stage file contains all that is needed
   run("tetrahedra", "tetrahedra{ read_stages('env.sterna').envelope }:write 'tets.sterna'");
   run("prisms", "local s = read_stages 'tets.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'script.su2'");
   run("finished", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e } }:write 'finished.su2'");

@@ -1,4 +1,4 @@
-// Pictures from the command line and from scripts: files, options, what is refused.
+// Pictures from the command line and from scripts: files, options, refused input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What becomes of a Lua script when the tetrahedra engine dies, runs out of memory, or the boundary crosses itself: an error for pcall, soon, and the script
-// goes on.
+// Lua scripts after a failure of the tetrahedra engine: it dies, runs out of memory, or the boundary crosses itself. Each failure must promptly become an error
+// that pcall catches, and the script must continue.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -19,16 +19,16 @@ namespace {
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-/// An event must become an error and the script go on: promised within 5 s, measured as 0.4 to 2.4 s on a quiet machine; this limit only tells it from a hang
-/// on a busy one.
+/// Time until an engine failure becomes an error and the script continues. The requirement is 5 s, and 0.4 to 2.4 s were measured on a quiet machine; this
+/// limit only distinguishes that from a hang on a busy machine.
 constexpr double k_prompt_seconds = 60.0;
 
-/// Makes the box's tetrahedra so many (some millions) that no engine is ready within seconds.
+/// Produces so many tetrahedra in the box (some millions) that no engine finishes within seconds.
 constexpr const char* k_slow_sources = "sources = { sphere{ {0.5, 0.5, 0.5}, radius = 2, size = 0.03 } }";
 
 class EngineFailures : public testing::TestWithParam<std::string> {
  protected:
-  /// Runs the text as a script beside box.stl.
+  /// Runs the string as a script beside box.stl.
   void run(const std::string& text) {
     std::filesystem::copy_file(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl");
     std::ofstream(folder_ / "case.lua") << text;
@@ -74,13 +74,13 @@ TEST_P(EngineFailures, AKilledHelperIsAnErrorAndTheScriptGoesOn) {
 }
 
 TEST_P(EngineFailures, NoMemoryForTheHelperIsAnErrorAndTheScriptGoesOn) {
-  // The event lies between the helper's start and its end: all of it counts.
+  // The event occurs between the start and the end of the helper, so the whole interval counts.
   Clock::time_point started_at;
   std::jthread watcher([&] {
     while (test::first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     started_at = Clock::now();
   });
-  const std::string limit = GetParam() == "hxt" ? "1.7e8" : "1e8";  // libgmsh alone takes 120 MB of addresses
+  const std::string limit = GetParam() == "hxt" ? "1.7e8" : "1e8";  // libgmsh alone takes 120 MB of address space
   run(two_meshes("read_surface 'box.stl'", std::string(k_slow_sources) + ", tetrahedra = { engine = '" + GetParam() + "', memory_limit = " + limit + " }"));
   watcher.join();
   EXPECT_THAT(printed_, HasSubstr("false\ttetra_engine_failed"));
@@ -91,7 +91,7 @@ TEST_P(EngineFailures, NoMemoryForTheHelperIsAnErrorAndTheScriptGoesOn) {
 }
 
 TEST_F(EngineFailures, ABoundaryThatCrossesItselfIsAnErrorAndTheScriptGoesOn) {
-  // The box twice, the second one moved by half its length: the reader is told not to look, so the volume mesher finds it.
+  // Two boxes, the second moved by half its length. The reader's check for crossings is off, so the volume mesher finds the crossing.
   std::ofstream file(folder_ / "crossing.stl");
   for (const double shift : {0.0, 0.5}) {
     std::ifstream box(test::corpus() / "scripts" / "box.stl");
@@ -105,7 +105,7 @@ TEST_F(EngineFailures, ABoundaryThatCrossesItselfIsAnErrorAndTheScriptGoesOn) {
   const auto start = Clock::now();
   run(two_meshes("read_surface{ 'crossing.stl', check_intersections = false }", "envelope = {}"));
   EXPECT_THAT(printed_, HasSubstr("false\tself_intersection"));
-  EXPECT_THAT(printed_, HasSubstr("  at ("));  // places
+  EXPECT_THAT(printed_, HasSubstr("  at ("));  // locations
   EXPECT_THAT(printed_, HasSubstr("went on\t36"));
   EXPECT_LT(seconds_since(start), k_prompt_seconds);
 }

@@ -51,7 +51,7 @@ TEST_F(Farfield, IsABoxOrACylinderOrASurface) {
       "show(mesh(wall, cylinder{ {-4, 0, 0}, {6, 0, 0}, radius = 5, edge = 2 }))\n"
       "show(mesh(wall, 'box -4 -4 -4 6 4 4 edge=2 z_min=slip'))\n"
       "show(mesh(wall, sphere{ radius = 8, center = {1, 0, 0} }))\n"
-      "show(mesh(wall, box{ {-4, -4, -4}, {6, 4, 4} }))\n");  // a solid: its surface
+      "show(mesh(wall, box{ {-4, -4, -4}, {6, 4, 4} }))\n");  // a solid: its surface is the farfield
   EXPECT_THAT(printed, HasSubstr("inflow"));
   EXPECT_THAT(printed, HasSubstr("exit"));
   EXPECT_THAT(printed, HasSubstr("slip"));
@@ -101,7 +101,7 @@ TEST_F(Farfield, TextsAreOptions) {
   refused("box -1 -1 -1 1 1 1 x_min=inlet", "\"inlet\" is no kind of a patch");
 }
 
-/// Hills of 6 x 5 m as an STL file; its normals up or down.
+/// Writes hills of 6 x 5 m as an STL file, with normals up or down.
 void write_terrain(const std::filesystem::path& path, bool is_down) {
   std::ofstream file(path);
   file << "solid terrain\n";

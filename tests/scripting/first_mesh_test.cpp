@@ -1,4 +1,4 @@
-// From a surface file to checked mesh files, as a user does it: command line and script.
+// From a surface file to checked mesh files, from the command line and from a script.
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -40,7 +40,7 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   for (const char* part :
        {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in the own engine, ", "memory", "wrote box.su2"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
-  // It has a FAIL, and layers far thinner than the tetrahedra, so there is much to tell, in few lines: the worst place and what to do.
+  // The mesh has a FAIL, and layers far thinner than the tetrahedra. The report must stay short: the worst location and a remedy.
   EXPECT_LE(std::count(result.errors.begin(), result.errors.end(), '\n'), 13) << result.errors;
   for (const char* part : {" FAIL ", "hard limit ", "; remesh the wall there"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
@@ -58,8 +58,8 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   EXPECT_NE(check.output.find("VALID"), std::string::npos);
   const ProcessResult json = sterna({"check", "box.su2", "--json"});
   EXPECT_EQ(json.output.front(), '{');
-  // A box of 12 triangles in a wide farfield has tets that no gate lets pass: VALID still, and an error only where it is asked for.
-  // The limits that it misses are cited for node-centred solvers, which read .su2, so they warn there.
+  // A box of 12 triangles in a wide farfield has tets that the gates reject. The mesh is still VALID, and this is an error only on request. The violated
+  // limits are cited for node-centred solvers, which read .su2, so they only cause warnings there.
   EXPECT_EQ(check.output.substr(0, 25), "VALID; node-centred: warn");
   EXPECT_EQ(check.output.find("OpenFOAM"), std::string::npos);
   EXPECT_EQ(sterna({"check", "box.su2", "--strict"}).status, k_exit_success);
@@ -114,7 +114,8 @@ TEST_F(FirstMesh, RulesForPatchesComeFromCommandLineAndScriptAndStayInTheManifes
   }
 }
 
-/// Stopped behind each step, written, read, continued: the same files as of the run that was not stopped. A wing: layers meet, heights are lowered.
+/// Stops after each step, writes, reads and continues: the files equal those of the uninterrupted run. The case is a wing whose layers meet, so heights are
+/// lowered.
 TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string wing =
@@ -215,7 +216,7 @@ TEST_F(FirstMesh, ScriptAndCommandLineMakeTheSameMesh) {
 
 TEST_F(FirstMesh, AFlippedCellIsInvalidWithItsOwnStatus) {
   ASSERT_EQ(mesh_box("box.su2").status, k_exit_success);
-  // The marker of the wall loses its last face; the cell behind it then has a face that nobody matches.
+  // The wall marker loses its last face; the cell behind that face then has an unmatched face.
   std::string text = contents(folder / "box.su2");
   const std::size_t count = text.find("MARKER_ELEMS=");
   ASSERT_NE(count, std::string::npos);

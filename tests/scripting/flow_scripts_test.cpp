@@ -62,7 +62,7 @@ TEST_F(FlowScripts, a_mistyped_needed_option_is_one_mistake) {
 
 TEST_F(FlowScripts, a_family_of_one_is_the_mesh_that_its_options_describe) {
   EXPECT_THAT(run("local f = family{ levels = 1 } print(#f, f[1].name, f[1].refinement)"), HasSubstr("1\tmedium\t1.0"));
-  EXPECT_THAT(run("local f = family{ levels = 1, medium = 2 } print(f[1].name)"), HasSubstr("coarse"));  // asked for
+  EXPECT_THAT(run("local f = family{ levels = 1, medium = 2 } print(f[1].name)"), HasSubstr("coarse"));  // requested
   EXPECT_THAT(run("local f = family{} print(f[1].name, f[2].name, f[3].name)"), HasSubstr("coarse\tmedium\tfine"));
 }
 
@@ -94,12 +94,13 @@ TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
   for (std::uint32_t line = 0; line < mesh.layers.n_lines(); ++line) {
     const Point foot = mesh.points[mesh.layers.node(line, 0)], first = mesh.points[mesh.layers.node(line, 1)];
     const double asked = 0.01 * std::pow(1.5, foot.x);
-    // Above the facets, which stand at up to 8 degrees to the vertex normal of this ball: 1 % more along that normal.
+    // Height above the facets, which form up to 8 degrees with the vertex normal of this ball: 1 % more along that normal.
     EXPECT_GE(mesh.request.first_height_of(line), asked * (1.0 - 1e-12));
     EXPECT_LE(mesh.request.first_height_of(line), asked * 1.01);
-    EXPECT_NEAR(distance(foot, first), asked, 0.03 * asked) << format_point(foot);  // G11: 2 % along the vertex normal, and the line leans a little
+    EXPECT_NEAR(distance(foot, first), asked, 0.03 * asked) << format_point(foot);  // G11: 2 % along the vertex normal, and the growth line leans a little
   }
-  // The steps by hand, also continued from a file, give the same; a constant function is the number; a rule's number wins, and so does the command line's.
+  // The steps called one by one, also continued from a file, give the same heights. A constant function acts as its number. The number of a rule and that of
+  // the command line have priority.
   run(height + "local w, ff = read_surface 'ball.off', sphere{ radius = 8 } make_envelope{ w, " + more + "h }:write(" + out("e.sterna") +
       ") local e = read_stages(" + out("e.sterna") + ").envelope local t = tetrahedra{ e } t:write(" + out("t.sterna") + ") local s = read_stages(" +
       out("t.sterna") + ") prisms{ s.envelope, s.tetrahedra }:write(" + out("steps.su2") + ")");
@@ -130,7 +131,7 @@ TEST_F(FlowScripts, members_of_a_family_have_a_wake) {
   EXPECT_THAT(log_of("", {{"family.refinement", "1"}}), has_wake);
   for (const char* more : {"", "refinement = 0.7, family_wake = 'off'"}) EXPECT_THAT(log_of(more), AllOf(Not(has_wake), has_hint)) << more;
   EXPECT_THAT(log_of("refinement = 0.7, sources = { sphere{ {0, 0, 0}, radius = 2, size = 0.5 } }"), AllOf(Not(has_wake), Not(has_hint)));
-  // The same mesh in one go and through a file of steps, which does not keep sources, but what family_wake was.
+  // The same mesh in one run and through a stage file, which stores the value of family_wake but no sources.
   run(mesh + "refinement = 1 }:write(" + out("whole.su2") + ")");
   run("make_envelope{ read_surface 'ball.off', layers = 4, first_height = 0.01, farfield = sphere{ radius = 8 }, refinement = 1 }:write(" + out("e.sterna") +
       ")");
@@ -184,7 +185,7 @@ std::map<std::string, std::string> keys_of(const std::string& text) {
   return keys;
 }
 
-/// Keys of config_template.cfg of SU2 8.
+/// Keys in config_template.cfg of SU2 8.
 const std::set<std::string> k_su2_keys = {"SOLVER",
                                           "KIND_TURB_MODEL",
                                           "MATH_PROBLEM",

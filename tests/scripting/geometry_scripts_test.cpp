@@ -1,4 +1,4 @@
-// Geometry from scripts: every verb that makes a model or a component, the methods of models, and what they refuse. Volumes and areas against formulas.
+// Geometry from scripts: every verb that makes a model or a component, the methods of models, and refused input. Volumes and areas are compared with formulas.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class GeometryScripts : public ScriptFixture {};
 
 using test::k_pi;
-/// Volumes and areas of exact shapes: what the quadrature promises, with room for rounding.
+/// Relative tolerance for volumes and areas of exact shapes: accuracy of the quadrature, with room for rounding.
 constexpr double k_exact = 1e-8;
 
 TEST_F(GeometryScripts, SolidsHaveTheirVolume) {
@@ -44,7 +44,7 @@ TEST_F(GeometryScripts, ModelsAreMovedTurnedScaledAndMirrored) {
 }
 
 TEST_F(GeometryScripts, BodiesAreNowhereThickerThanTheirFrames) {
-  // Two short steps beside a long one: parabolas through three points would swell to twice the width.
+  // Two short steps beside a long one: parabolas through three points would overshoot to twice the width.
   EXPECT_NEAR(number("(function() local m = fuselage{ frames = { {x=0,diameter=0}, {x=2,diameter=4}, {x=20,diameter=4}, {x=30,diameter=0.5} } }:model() return "
                      "m.max[2] - m.min[2] end)()"),
               4.0, 1e-3);
@@ -86,7 +86,7 @@ TEST_F(GeometryScripts, NamesAreChangedAndSelected) {
 }
 
 TEST_F(GeometryScripts, FunctionsDeformModels) {
-  // A shear keeps volumes; a stretch of z by 1 + y / 10 has the volume of its formula.
+  // A shear preserves volumes; stretching z by 1 + y / 10 gives the volume of the formula.
   EXPECT_NEAR(number("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0.3*z, 0, 0 end }:measures().volume"), 1.0, 1e-6);
   EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0, 0, 0.1*y*z end, tolerance = 1e-9 }:measures().volume"), 2.2, 1e-7);
   EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ { {0,0,0,0,0,0.5}, {1,0,0,0,0,0.5}, {0,1,0,0,0,0.5}, {0,0,1,0,0,0.5}, {1,1,1,0,0,0.5} } }.min[3]"), 0.5,
@@ -146,10 +146,10 @@ TEST_F(GeometryScripts, Airfoils) {
 }
 
 TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
-  // A tube with flat ends, straight.
+  // A straight tube with flat ends.
   EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} }, nose='flat', tail='flat' }:model():measures().volume"), 5.0 * k_pi, 5e-4);
   EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} } }:model():measures().volume"), 5.0 * k_pi + 4.0 / 3.0 * k_pi,
-              2e-3);  // half balls
+              2e-3);  // with hemispheres at both ends
   EXPECT_NEAR(
       number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, width=2, height=1}, {x=4, width=2, height=1} } }:model():measures().volume"),
       2.0 * k_pi, 1e-3);
@@ -165,15 +165,15 @@ TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
 
 TEST_F(GeometryScripts, WingsFromFewNumbers) {
   const std::string plain = "wing{ name='w', symmetric=true, sections={ {y=0, chord=2, airfoil='naca0012'}, {y=4, chord=1, sweep=30*deg, dihedral=5*deg} } }";
-  EXPECT_NEAR(number(plain + ".area"), 12.0, 1e-3);  // of the planform seen from above
+  EXPECT_NEAR(number(plain + ".area"), 12.0, 1e-3);  // area of the planform seen from above
   EXPECT_NEAR(number(plain + ".unrolled_area"), 12.0 / std::cos(5.0 * k_pi / 180.0), 1e-3);
   EXPECT_NEAR(number(plain + ".projected_area"), 12.0, 1e-3);
-  // The quarter chord line is swept by 30 degrees over the panel's own length.
+  // The quarter chord line is swept by 30 degrees over the unrolled length of the panel.
   EXPECT_NEAR(number(plain + ":at(1, 0.25)[1]"), 0.5 + 4.0 / std::cos(5.0 * k_pi / 180.0) * std::tan(k_pi / 6.0), 1e-6);
   EXPECT_NEAR(number(plain + ":at(0.5, 0.25)[2]"), 2.0, 1e-6);
   EXPECT_NEAR(number("wing{ sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[3]"), 3.0, 0.11);       // an upright fin with a round tip
-  EXPECT_LT(number("wing{ tip='flat', sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[2]"), 0.11);  // whose thickness is across
-  // Twist lifts the nose: the leading edge stays, the trailing edge goes down.
+  EXPECT_LT(number("wing{ tip='flat', sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[2]"), 0.11);  // its thickness is across
+  // Positive twist lifts the nose: the leading edge stays, the trailing edge goes down.
   EXPECT_LT(number("wing{ sections={ {y=0, chord=1, airfoil='naca0012', twist=5*deg}, {y=2, twist=5*deg} } }:at(0.5, 1)[3]"), -0.08);
   EXPECT_EQ(run("print(table.concat(wing{ symmetric=true, position={0,1,0}, sections={ {chord=1, airfoil='naca0012'}, {y=2} } }:model().components, ' '))"),
             "wing wingLeft\n");
@@ -190,7 +190,7 @@ TEST_F(GeometryScripts, AWingletMayBeAPatchOfItsOwn) {
     EXPECT_EQ(run("local m = wing{ " + sections + winglet), "true\ttip wing\n");
     EXPECT_EQ(run("local m = wing{ symmetric=true, " + sections + winglet), "true\ttip wing tipLeft\n");
   }
-  // Round tips and blunt trailing edges of it are part of it; its area is what the wing's lacks.
+  // Round tips and blunt trailing edges of the part belong to the part; its area is the area missing from the wing.
   EXPECT_EQ(run("local function area(t) local m = surface_mesh{ wing{ trailing_edge=0.005, tip='round', sections={ {chord=1, airfoil='naca0012'}, {y=4, "
                 "chord=0.6} }, "
                 "winglet=t }:model(), max_edge=0.1 } local n = 0 for i, p in ipairs(m.patches) do n = i end return n end "
@@ -204,15 +204,15 @@ TEST_F(GeometryScripts, AWingletBendsNoTighterThanTheWingIsThickInsideOfIt) {
     return "wing{ symmetric=true, position={10, 0, 1}, sections={ {y=0, chord=1, airfoil='naca3417'}, {y=2, airfoil='naca0014'} }, winglet={ " + winglet +
            " } }";
   };
-  // 7 % of the chord inside of the bend, a right angle: a radius of 0.07 m, 0.11 m of arc.
+  // 7 % of the chord lies inside the bend, a right angle: a radius of 0.07 m, 0.11 m of arc.
   EXPECT_THAT(error(wing("height=0.25, cant=90*deg, bend=0.25")),
               AllOf(HasSubstr("winglet: bend: turning by 90 deg over 0.25 of 0.25 m, at (10, 2, 1)"), HasSubstr("would fold: bend = 0.47 at least")));
   EXPECT_THAT(error(wing("height=0.1, cant=90*deg")), HasSubstr("would fold: height = 0.18"));
   EXPECT_EQ(run("local w = surface_mesh{ " + wing("height=0.25, cant=90*deg") + ":model(), max_edge=0.08, min_edge=0.01 } print(w.is_closed, w.crossings)"),
             "true\t0\n");
-  // Downwards it is the lower side that is inside.
+  // With a downward bend the lower side is on the inside.
   EXPECT_EQ(run("print(" + wing("height=0.25, cant=-90*deg, bend=0.47") + ".name)"), "wing\n");
-  // Where 0.25 is enough it stays.
+  // If 0.25 is sufficient, the value is kept.
   EXPECT_EQ(number(wing("height=1, cant=90*deg") + ":at(1, 0)[3]"), number(wing("height=1, cant=90*deg, bend=0.25") + ":at(1, 0)[3]"));
 }
 
@@ -292,7 +292,7 @@ TEST_F(GeometryScripts, UnionsOfModelsAndOfSurfaces) {
   std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl");
   EXPECT_THAT(error("union{ box{ {0,0,0}, {1,1,1} }, 'box.stl' }"), HasSubstr("union takes models (exact geometry) or triangulated surfaces, not both"));
   EXPECT_THAT(error("union{ box{ {0,0,0}, {1,1,1} }, strip_width = 4 }"), HasSubstr("unknown key \"strip_width\""));
-  // The unit box and its image half a length on: a box of 1.5 x 1 x 1 with the seams of both.
+  // The unit box and a copy moved by half its length: a box of 1.5 x 1 x 1 with the seams of both.
   std::ifstream box(folder_ / "box.stl");
   std::ofstream moved(folder_ / "moved.stl");
   for (std::string line; std::getline(box, line);) {
@@ -308,7 +308,7 @@ TEST_F(GeometryScripts, UnionsOfModelsAndOfSurfaces) {
 TEST_F(GeometryScripts, ControlSurfacesOfFilesAreDeflected) {
   STERNA_NEEDS_SHARED_DATA();
   const std::filesystem::path bjet = test::shared_data() / "smx/bjet.smx", d150 = test::shared_data() / "cpacs/CPACS_30_D150.xml";
-  // The elevator's trailing edge goes down, so the stabilizer reaches lower; the file's model is as it was, and a deflection can be taken back.
+  // The elevator's trailing edge goes down, so the stabilizer reaches lower. The model of the file is unchanged, and a deflection can be reversed.
   EXPECT_EQ(run("local a = read_smx '" + bjet.string() + "' local b = read_smx{ '" + bjet.string() + "', deflections = { Elevator = 20*deg } } " +
                 "local function low(m) return m['Stabilizer'].min[3] end local c, d = a:deflect{ Elevator = 20*deg }, b:deflect{ Elevator = 0 } "
                 "print(low(b) < low(a) - 0.01, low(c) == low(b), math.abs(low(d) - low(a)) < 1e-3)"),
@@ -342,7 +342,7 @@ TEST_F(GeometryScripts, AllProblemsOfATableAreToldTogether) {
               AllOf(HasSubstr("twist: 5 rad (286.479 deg) is not allowed"), HasSubstr("write degrees as 40*deg")));
 }
 
-/// Before a script: components and solids that it makes are noted, and it ends where they are united or meshed.
+/// Runs before a script: records the components and solids that the script makes, and stops the script when they are united or meshed.
 constexpr const char* k_noting = R"(
 local made = {}
 local function noting(verb) return function(...) local thing = verb(...) made[#made + 1] = thing return thing end end
@@ -354,7 +354,7 @@ aircraft = function(t) return t.unite == false and whole(t) or stop() end
 surface_mesh, volume_mesh, series = stop, stop, stop
 local ok, problem = pcall(function()
 )";
-/// After it: each is written, read again and measured.
+/// Runs after the script: writes each solid, reads it back and measures it.
 constexpr const char* k_compare = R"(
 end)
 if not ok and problem ~= "all components are made" then error(problem, 0) end
@@ -382,7 +382,7 @@ TEST_F(GeometryScripts, StepHoldsTheComponentsOfAllScripts) {
     SCOPED_TRACE(entry.path().filename());
     std::ifstream file(entry.path());
     std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (entry.path().filename() == "02_every_option.lua") {  // geometry comes behind meshes there
+    if (entry.path().filename() == "02_every_option.lua") {  // geometry follows meshes in this script
       const std::size_t from = text.find("local section = airfoil"), to = text.find("local sheet = surface");
       ASSERT_TRUE(from < to && to != std::string::npos);
       text = text.substr(from, to - from);
@@ -396,7 +396,7 @@ TEST_F(GeometryScripts, StepHoldsTheComponentsOfAllScripts) {
   EXPECT_GE(n_components, 40);
 }
 
-/// The parameter around a pole is any there: halves of a bulge lost their outer border by the place where they stand.
+/// The parameter around a pole is arbitrary at the pole: halves of a bulge lost their outer border depending on their position.
 TEST_F(GeometryScripts, StepHoldsBulgesAnywhere) {
   for (const char* const place : {"0, 0, 0", "2.6, 0, 0.45", "-3, 0.2, 1"})
     for (const char* const exponent : {"2", "2.5", "4"}) {
@@ -409,7 +409,7 @@ TEST_F(GeometryScripts, StepHoldsBulgesAnywhere) {
     }
 }
 
-/// A body of revolution with a wing through it and a strut on it (step_centre_body of the trial) lost its body.
+/// The STEP file of a body of revolution with a wing through it and a strut on it (step_centre_body of the trial) lost the body.
 TEST_F(GeometryScripts, StepHoldsACentreBodyWithStruts) {
   EXPECT_EQ(run("local body = body_of_revolution{ name = 'bor', profile = { {0,0}, {0.3,0.25}, {0.9,0.33}, {1.8,0.33}, {2.6,0.22}, {3.3,0} } } "
                 "local strut = wing{ name = 'strut', position = {1,0,0.2}, sections = { {chord=0.5, airfoil='naca0015'}, {z=0.7} } } "

@@ -1,4 +1,4 @@
-// Parts of models and surfaces: made in their own frames and moved, whatever moves them and whatever is around them.
+// Parts of models and surfaces, made in their own frames and moved: independent of the kind of move and of the surroundings.
 #include <gmock/gmock.h>
 
 #include "geom/model/shapes.h"
@@ -53,7 +53,7 @@ TEST(Parts, AMovedModelHasTheTrianglesOfItsOwnFrame) {
   EXPECT_EQ(turned.parts.front().own->points.raw(), still.mesh.points.raw());
   const Transform both = translation({0, 0, 0.25}) * k_turn;
   for (const VertexId v : still.mesh.points.ids()) ASSERT_EQ(turned.mesh.points[v], both.point(still.mesh.points[v]));
-  // The model behind it is where the mesh is.
+  // The underlying model is at the position of the mesh.
   const auto p = corners(turned.mesh, TriangleId(0));
   EXPECT_LT(distance(turned.model_wall->nearest(p[0], TriangleId(0), {1.0, 0.0, 0.0}), p[0]), 1e-12);
 }
@@ -84,7 +84,7 @@ TEST(Parts, SeveralModelsKeepTheirPlacesInAnAssembly) {
   ASSERT_EQ(apart.parts.size(), 2u);
   EXPECT_EQ(apart.parts[0].placement, k_turn);
   EXPECT_EQ(own_model(apart, apart.parts, 1).components.raw().front().name, "rod2");
-  // With a third one that touches the second, the first stays what it is, and the two are one that was made where it is.
+  // With a third part that touches the second, the first remains unchanged; the other two become one part made at its final position.
   const ModelHandle c = std::make_shared<const ModelValue>(moved(rod(), translation({0.5, 0, 0.7})));
   const ModelValue united = assemble_united({a, b, c}, k_context);
   ASSERT_EQ(united.parts.size(), 2u);
@@ -132,7 +132,7 @@ TEST_F(PartScripts, GapsBetweenPartsAskForSizesWhereTheyAre) {
 }
 
 TEST_F(PartScripts, SourcesCountWhereThePartIs) {
-  // The same source beside the same end of the box: once where it was made, once 10 m away.
+  // The same source at the same end of the box: once at the original position, once 10 m away.
   const std::string fine = "print(surface_mesh{ box{ {0,0,0}, {1,1,1} }%s, max_edge = 0.3, sources = { point{ {%s,0,0}, size = 0.05 } } }.triangles)";
   const auto with = [&](const std::string& move, const std::string& x) {
     std::string text = fine;

@@ -1,4 +1,4 @@
-// Scripts in a folder of their own, with what they print, log and refuse.
+// Runs scripts in a separate folder and collects their output, log and errors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace sterna::scripting {
 
 class ScriptFixture : public testing::Test {
  protected:
-  /// Runs the text as a script; returns what it printed. The log is in log_.
+  /// Runs the string as a script; returns its printed output. The log is in log_.
   std::string run(const std::string& text, const OptionOverrides& overrides = {}, int threads = 1) {
     std::ofstream(folder_ / "case.lua") << text;
     std::string printed;
@@ -38,7 +38,7 @@ class ScriptFixture : public testing::Test {
     }
     return "no error";
   }
-  /// The name of a file in the folder, as a string of Lua.
+  /// Returns the name of a file in the folder, as a Lua string.
   std::string out(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
   std::string text_of(const std::string& name) const {
     std::ifstream file(folder_ / name);

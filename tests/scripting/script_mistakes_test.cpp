@@ -1,4 +1,4 @@
-// Every script of tests/data/scripts is wrong; its comments "-- expect ..." say the error's code and parts of its message.
+// Every script in tests/data/scripts is wrong; its comments "-- expect ..." give the error code and parts of the message.
 #include <fstream>
 
 #include "geom/base/error.h"

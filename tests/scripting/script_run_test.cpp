@@ -16,7 +16,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Runs the text as a script in a folder of its own; returns what it printed.
+/// Runs the string as a script in a separate folder; returns its printed output.
 std::string run_text(const std::string& text, RunSettings settings = {}, OptionOverrides overrides = {}) {
   const std::filesystem::path folder = test::scratch();
   std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl");
@@ -80,7 +80,7 @@ TEST(ScriptRun, ModulesLieBesideTheScript) {
 
 TEST(ScriptRun, MemoryIsCapped) {
   const std::filesystem::path script = test::scratch() / "case.lua";
-  // Lua's own allocations, and those of a verb that is under way when the memory ends.
+  // Lua's own allocations, and those of a verb that runs when the memory limit is reached.
   for (const char* text :
        {"local t = {} for i = 1, 1e9 do t[i] = string.rep('x', 1000) .. i end", "local t = {} while true do t[#t + 1] = sphere{ radius = 1 } end",
         "local t = {} while true do t[#t + 1] = { pairs = help } end", "string.rep('x', 1e9)"}) {
@@ -114,7 +114,7 @@ TEST(ScriptRun, ErrorsOfVerbsAreValuesForPcall) {
 
 TEST(ScriptRun, ObjectsCannotBeTornApart) {
   EXPECT_EQ(run_text("local s = read_surface 'box.stl'; print(getmetatable(s), pcall(setmetatable, s, {}))").substr(0, 13), "locked\tfalse\t");
-  // A method of one kind on an object of another, and on no object at all.
+  // A method of one type called on an object of another type, and without any object.
   EXPECT_EQ(run_text("local s = read_surface 'box.stl'; print(pcall(s.write, {}), pcall(s.write), (pcall(s.write, 3)))").substr(0, 5), "false");
 }
 
@@ -147,7 +147,7 @@ TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
   EXPECT_THAT(message("wake_sheet{ wings = 'main' }"), testing::HasSubstr("did you mean"));
   EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("has no length"));
   EXPECT_THAT(message("wake_sheet{ direction = {1, 0, 0}, alpha = 2*deg }"), testing::HasSubstr("one of them is enough"));
-  // The half of a fin in the plane of symmetry has no sheet, and it is all there is.
+  // The half of a fin in the plane of symmetry has no sheet, and the model consists of nothing else.
   EXPECT_THAT(
       message("volume_mesh{ half(surface_mesh{ wing{ trailing_edge = 0.01, tip = 'flat', sections = { {chord = 1, airfoil = 'naca0012'}, {z = 2} } }:model(), "
               "max_edge = 0.2, min_edge = 0.03, curvature_angle = 40*deg }), layers = 3, first_height = 1e-3, wakes = 'auto' }"),
@@ -204,7 +204,7 @@ TEST(ScriptRun, ScriptOfEveryOptionNamesEveryOption) {
     const std::string without_stage = name.starts_with("farfield_") ? name.substr(9) : name;
     EXPECT_NE(text.find(" " + without_stage + " = "), std::string::npos) << name;
   }
-  // Whatever the help of a verb lists.
+  // All options listed by the help of a verb.
   std::size_t n_options = 0;
   for (const std::span<const ScriptVerb> verbs : {script_verbs(), mesh_methods(), model_methods(), component_methods()})
     for (const ScriptVerb& verb : verbs) {

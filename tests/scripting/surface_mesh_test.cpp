@@ -1,4 +1,4 @@
-// From models to triangles as a user asks for it: surface_mesh{}, `sterna surface`, `sterna mesh` of a model.
+// From models to triangles as a user requests it: surface_mesh{}, `sterna surface`, `sterna mesh` of a model.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ TEST_F(SurfaceMeshVerb, PatchesHaveSizesOfTheirOwnAndTheLongerPatternWins) {
   EXPECT_EQ(run(model + "local all, tip, both = n{}, n{ patches={ wing_tip={ max_edge=0.25 } } }, n{ patches={ ['wing*']={ max_edge=0.25 } } } "
                         "print(tip > 1.5*all, both > 1.2*tip, n{ patches={ ['wing*']={ max_edge=0.25 }, wing_tip={ max_edge=0.5 } } } < both)"),
             "true\ttrue\ttrue\n");
-  // Models as entries stand side by side, components too; --set wins.
+  // Models given as several entries are placed side by side, also components; --set has priority.
   EXPECT_EQ(
       run("print(table.concat(surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, boom{ from={0,0,3}, to={2,0,3}, diameter=0.5 } }.patches, ' '))"),
       "box box2 boom\n");
@@ -91,7 +91,7 @@ TEST_F(SurfaceMeshVerb, SourcesAndFunctionsMakeShorterEdges) {
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return -z end }"), HasSubstr("the function of sizes gives"));
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return nil + 1 end }"), HasSubstr("case.lua:1"));
   EXPECT_THAT(run("help(surface_mesh)"), AllOf(HasSubstr("gap_cells"), HasSubstr("sources = {")));
-  // Manifests keep them, files of steps too.
+  // Manifests store the sources, and so do stage files.
   run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, sources={ point{ {0,0,0}, size=0.2 } } } "
       "volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } }:write(" +
       out("s.su2") + ")");
@@ -106,7 +106,7 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
     const test::ProcessResult result = sterna(arguments);
     EXPECT_EQ(result.status, k_exit_success) << result.errors;
     const std::string text = text_of("w.su2");
-    int n = 0;  // a surface has its triangles in markers
+    int n = 0;  // a surface stores its triangles as markers
     constexpr std::string_view key = "MARKER_ELEMS=";
     for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) n += std::stoi(text.substr(at + key.size()));
     return n;
@@ -196,7 +196,7 @@ TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
 TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile) {
   const std::string wall = "local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } ";
   const std::string make = "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=20 } } print(e.feature_angle / deg) ";
-  // Arcs of at most 30 degrees: a degree more than they turn.
+  // Arcs of at most 30 degrees: the feature angle is one degree above the angle between neighbouring triangles.
   const double angle = std::stod(run(wall + "w:write(" + out("wall.su2") + ") " + make));
   EXPECT_GT(angle, 20.0);
   EXPECT_LT(angle, 40.0);
@@ -206,7 +206,7 @@ TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile
   const std::string read = "local w = read_surface(" + out("wall.su2") + ") ";
   EXPECT_NEAR(std::stod(run(read + make)), angle, 1e-9);
   EXPECT_EQ(run(read + "print(w.smooth_angle > 10*deg)"), "true\n");
-  // The user's own value wins; a manifest of another state of the file does not count.
+  // The user's own value has priority; a manifest for another state of the file is ignored.
   EXPECT_EQ(std::lround(std::stod(run(
                 read +
                 "local e = make_envelope{ w, layers=3, first_height=1e-3, feature_angle=50*deg, farfield=sphere{ radius=20 } } print(e.feature_angle / deg)"))),
@@ -216,7 +216,7 @@ TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile
   EXPECT_THAT(log_, HasSubstr("do not count"));
 }
 
-/// The tail of this fuselage ends in a ring of 3 mm, whose edges are absorbed. United, the face begins with the seam and ends with that ring.
+/// The tail of this fuselage ends in a ring of 3 mm, whose edges are absorbed. After the union, the face begins with the seam and ends with that ring.
 TEST_F(SurfaceMeshVerb, RingsThatAreAbsorbedCloseTheirFaces) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string file = (test::shared_data() / "cpacs/boxWing.xml").string();

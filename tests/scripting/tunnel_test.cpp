@@ -1,4 +1,4 @@
-// Wind tunnels and half models from scripts: kinds, sizes and layers of patches from the verbs to the surface; fluid of tunnel and model; what is refused.
+// Wind tunnels and half models in scripts: kinds, sizes and layers of patches from the verbs to the surface; fluid of tunnel and model; refused input.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ class TunnelScripts : public ScriptFixture {};
 
 using test::k_pi;
 
-/// A body on a sting that leaves a section of 4 x 2 x 2 m through its outflow plane.
+/// A body on a sting that leaves a test section of 4 x 2 x 2 m through its outflow plane.
 const std::string k_parts =
     "local body, rod = cylinder{ {-1, 0, 0}, {0.3, 0, 0}, radius = 0.2, name = 'body' }, cylinder{ {0.2, 0, 0}, {4, 0, 0}, radius = 0.1, name = 'sting' } "
     "local tunnel = test_section{ length = 4, width = 2, height = 2, inflow = 'inlet', outflow = 'outlet', max_edge = 0.5, through = { 'sting', 'slab' }, "
@@ -34,7 +34,7 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
   EXPECT_EQ(run("print(test_section{ length = 4, width = 2, height = 1, position = {10, 0, 3} }.min[1])"), "8.0\n");
   EXPECT_EQ(run("local b = box{ {0,0,0}, {4,2,2}, name = 'shell' } local t = test_section{ b, walls = 'slip' } print(surface_mesh{ t }.patches[1])"),
             "shell\n");
-  EXPECT_NEAR(number("test_section{ box{ {0,0,0}, {4,2,2} } }:measures().volume"), -16.0, 1e-9);  // turned, since the fluid is inside
+  EXPECT_NEAR(number("test_section{ box{ {0,0,0}, {4,2,2} } }:measures().volume"), -16.0, 1e-9);  // reversed, since the fluid is inside
   EXPECT_THAT(error("test_section{ length = 4, width = 2 }"), HasSubstr("needs width and height, or the diameter"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, diameter = 1 }"), HasSubstr("has neither width nor height"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"),
@@ -60,7 +60,7 @@ TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
   EXPECT_EQ(kind_of_floor("walls = { layers = 4 }, floor = 'slip'"), "slip");
   EXPECT_THAT(text_of("t.su2.json"),
               AllOf(HasSubstr("\"names\": \"tunnel_left\",\n      \"layers\""), testing::Not(HasSubstr("\"names\": \"tunnel_floor\",\n      \"layers\""))));
-  EXPECT_THAT((kind_of_floor("walls = { total_height = 0.1 }"), text_of("t.su2.json")), HasSubstr("\"total_height\": 0.1"));  // it was dropped
+  EXPECT_THAT((kind_of_floor("walls = { total_height = 0.1 }"), text_of("t.su2.json")), HasSubstr("\"total_height\": 0.1"));  // this option was once dropped
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = { kind = 'slip', layers = 4 } }"),
               HasSubstr("floor: only walls carry layers, and its kind is slip"));
   EXPECT_THAT(
@@ -76,7 +76,7 @@ TEST_F(TunnelScripts, AWakeBehindTheModelEndsAtTheOutlet) {
       "w[2][2], w.length, w.height)) end ";
   EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {-1, -0.2, -0.1}, {0, 0.2, 0.1} }, t, max_edge = 0.2 }, length = 2 })"), "-0.500 0.200 2.500 0.200\n");
   EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {1, -0.2, -0.1}, {2, 0.2, 0.1} }, t, max_edge = 0.2 }, length = 4 })"), "1.500 0.200 1.500 0.200\n");
-  // One that stands on the floor.
+  // A body that stands on the floor.
   EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {-1, -0.2, -1}, {0, 0.2, -0.5}, name = 'house' }, t, max_edge = 0.2 }, length = 1 })"),
             "-0.500 0.200 1.500 0.500\n");
   EXPECT_THAT(error(parts + "wake{ surface_mesh{ t }, length = 2 }"), HasSubstr("encloses its fluid, and no wall stands within it"));
@@ -94,7 +94,7 @@ TEST_F(TunnelScripts, AModelOnAStingIsTakenOutOfTheTunnelAtAnyAttitude) {
   for (const auto& [name, kind] :
        {std::pair{"tunnel_ceiling", "slip"}, {"tunnel_floor", "wall"}, {"inlet", "inflow"}, {"outlet", "outflow"}, {"sting", "wall"}})
     EXPECT_THAT(manifest, HasSubstr("\"name\": \"" + std::string(name) + "\",\n      \"kind\": \"" + kind + "\"")) << manifest;
-  // They come back with the file, and are written anew, as are the layers that the walls ask for.
+  // The kinds are read back from the file and written again, and so are the layers requested for the walls.
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"layers\""), HasSubstr("\"names\": \"tunnel_left\""), HasSubstr("\"first_height\": 0.0001")));
 }
 
@@ -103,7 +103,7 @@ TEST_F(TunnelScripts, TunnelsAreMeshedAlsoWhenTheyComeFromFiles) {
       "local tunnel = test_section{ length = 4, width = 2, height = 2, walls = { layers = 6, first_height = 1e-4, max_edge = 0.4 } } "
       "local wall = surface_mesh{ rod, tunnel, max_edge = 0.15, growth = 1.3 } wall:write(" +
       out("room.su2") + ", " + out("room.stl") + ")");
-  // With the manifest beside it, kinds, layers and the fluid's side are known.
+  // The manifest beside the file supplies kinds, layers and the side of the fluid.
   EXPECT_EQ(run("local m = volume_mesh{ read_surface(" + out("room.su2") + "), layers = 8, first_height = 1e-5 } m:check()").substr(0, 5), "VALID");
   EXPECT_EQ(run("local m = volume_mesh{ read_surface{ " + out("room.stl") +
                 ", fluid = 'inside' }, layers = 8, first_height = 1e-5, "
@@ -113,7 +113,7 @@ TEST_F(TunnelScripts, TunnelsAreMeshedAlsoWhenTheyComeFromFiles) {
 }
 
 TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
-  // A body between the sides, its steps kept, continued and read again.
+  // A body between the sides; the stages are stored, continued and read back.
   const std::string surface =
       "local body = cylinder{ {-0.4, 0, 0}, {0.4, 0, 0}, radius = 0.3, name = 'body' } "
       "local row = test_section{ length = 4, width = 2, height = 2, walls = 'slip', max_edge = 0.4 } local wall = surface_mesh{ body, row, max_edge = 0.2, "
@@ -131,7 +131,7 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   run("read_mesh(" + out("row.sterna") + "):su2_config{ " + out("row.cfg") +
       ", mesh = 'row.su2', flow{ mach = 0.3, altitude = 0, length = 0.8 }, reference_area = 1 }");
   EXPECT_THAT(text_of("row.cfg"), HasSubstr("MARKER_PERIODIC= ( tunnel_left, tunnel_right, 0, 0, 0, 0, 0, 0, 0, 2, 0 )"));
-  // A single pair needs no list; what is no pair, and what does not match, is refused.
+  // A single pair needs no list; entries that are not pairs and sides that do not match are refused.
   const std::string mesh = surface + "volume_mesh{ wall, layers = 6, first_height = 1e-3, periodic = ";
   EXPECT_THAT(error(mesh + "{ 'tunnel_left', 'tunnel_rigth' } }"), HasSubstr("did you mean \"tunnel_right\"?"));
   EXPECT_THAT(error(mesh + "{ 'tunnel_left' } }"), HasSubstr("periodic, entry 1: expected the names of two patches"));
@@ -144,7 +144,7 @@ TEST_F(TunnelScripts, AWingThroughPeriodicSides) {
       "local blade = wing{ name = 'blade', symmetric = true, trailing_edge = 0.012, sections = { { y = 0, chord = 0.8, airfoil = 'naca0012' }, { y = 1 } } } "
       "local row = test_section{ length = 4, width = 1, height = 2, upstream = 1, walls = 'slip', max_edge = 0.4, through = 'blade' } "
       "local wall = surface_mesh{ blade, row, max_edge = 0.15, min_edge = 0.015, curvature_angle = 24*deg, growth = 1.5, periodic = ";
-  // Said once: volume_mesh knows it of the wall, and so does a run that is continued.
+  // The pair is given once: volume_mesh takes it from the wall, and so does a continued run.
   EXPECT_EQ(run(surface + "{ { 'tunnel_left', 'tunnel_right' } } } local m = volume_mesh{ wall, layers = 6, first_height = 1e-3, stages = " +
                 out("blade.sterna") + " } m:check() m:write(" + out("blade.su2") + ")")
                 .substr(0, 5),
@@ -173,24 +173,24 @@ TEST_F(TunnelScripts, BodiesThatDoNotBelongThereAreErrors) {
 }
 
 TEST_F(TunnelScripts, WhatReachesOutOfTheTunnelIsDeclared) {
-  // A body with a fin that is higher than the ceiling at z = 1, on a sting: the fin is no sting.
+  // A body on a sting, with a fin that extends above the ceiling at z = 1: the fin is not a sting.
   const std::string parts =
       "local body = cylinder{ {-1, 0, 0}, {0.3, 0, 0}, radius = 0.2, name = 'body' } local fin = box{ {-0.8, -0.05, 0}, {-0.4, 0.05, 0.9}, name = 'fin' } "
       "local rod = sting{ name = 'rod', from = { 0.2, 0, 0 }, to = { 4, 0, 0 }, diameter = 0.1, cone_start = 0.5, end_diameter = 0.15 }:model() "
       "local m = assembly{ body, fin, rod } local function wall(dz, o) o = o or {} o.length, o.width, o.height, o.max_edge = 4, 2, 2, 0.5 "
       "return surface_mesh{ m:move{ 0, 0, dz }, test_section(o), max_edge = 0.2, growth = 1.4 } end ";
-  EXPECT_EQ(run(parts + "print(wall(0).is_closed)"), "true\n");  // stings pass without a word
+  EXPECT_EQ(run(parts + "print(wall(0).is_closed)"), "true\n");  // stings pass through the wall without a warning
   const std::string problem = error(parts + "wall(0.5)");
   EXPECT_THAT(problem, AllOf(HasSubstr("\"fin\" reaches 0.4 m out of the wall \"tunnel_ceiling\""), HasSubstr("would be cut off"), HasSubstr("1.4)"),
                              HasSubstr("through = { \"fin\" }")));
   EXPECT_THAT(problem, testing::Not(HasSubstr("rod")));
   EXPECT_EQ(run(parts + "print(wall(0.5, { through = 'f?n' }).is_closed, wall(0.5, { through = { 'fin', 'strut' } }).is_closed)"), "true\ttrue\n");
-  // A body that stands on a wall is not cut off; rounding does not matter.
+  // A body that stands on a wall is not cut off; rounding has no influence.
   EXPECT_EQ(
       run("local b = box{ {-0.3, -0.3, -1 - 1e-6}, {0.3, 0.3, 0}, name = 'house' } local t = test_section{ length = 4, width = 2, height = 2, max_edge = 0.5 } "
           "print(surface_mesh{ b, t, max_edge = 0.2 }.is_closed)"),
       "true\n");
-  // Beyond a curved wall it is the surface that counts, not its triangles.
+  // At a curved wall the exact surface decides, not its triangles.
   const std::string round =
       "local t = test_section{ length = 4, diameter = 2 } local function pin(top) return surface_mesh{ cylinder{ {0, 0, -0.2}, {0, 0, top}, radius = 0.02, "
       "name "

@@ -1,4 +1,4 @@
-// A volume mesh where a surface is expected: refused in every format that holds both, unless its boundary is asked for.
+// A volume mesh given instead of a surface is refused in every format that holds both, unless its boundary is requested.
 #include <gmock/gmock.h>
 
 #include "io/file/format_table.h"

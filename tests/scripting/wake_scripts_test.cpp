@@ -1,4 +1,4 @@
-// Wake sheets behind every wing of a model that is made of numbers, as users write it.
+// Wake sheets behind every wing of a model that is defined by numbers, as users write it.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -16,13 +16,13 @@ using testing::Not;
 
 class WakeScripts : public ScriptFixture {
  protected:
-  /// The wall of scripts/07.
+  /// Returns the wall of scripts/07.
   static std::string aircraft() {
     std::ifstream file(test::source_folder() / "scripts" / "07_aircraft_to_mesh.lua");
     const std::string text(std::istreambuf_iterator<char>(file), {});
     return text.substr(0, text.find("local mesh ="));
   }
-  /// What a check says between "FAIL: " and the next semicolon.
+  /// Returns the part of the output of a check from "node-centred: " to the next semicolon.
   static std::string failed(const std::string& told) {
     const std::size_t begin = told.find("node-centred: ");
     return begin == std::string::npos ? "" : told.substr(begin, told.find(';', begin) - begin);
@@ -37,10 +37,10 @@ TEST_F(WakeScripts, FiveSheetsOfAnAircraftDoNotLeaveFlatTetrahedra) {  // with t
           "} mesh:check{ cell_centred = false }",
       {}, 2);
   EXPECT_THAT(log_, HasSubstr("wake sheets behind 5 trailing edges"));
-  EXPECT_THAT(log_, Not(HasSubstr("refinement got stuck")));  // it did, before cavities that would fall apart grew
+  EXPECT_THAT(log_, Not(HasSubstr("refinement got stuck")));  // refinement got stuck before cavities that would fall apart were enlarged
   EXPECT_THAT(told, HasSubstr("VALID; cell-centred: FAIL"));
   EXPECT_THAT(told, Not(HasSubstr("INVALID")));
-  EXPECT_THAT(failed(told) + " ", Not(HasSubstr("G5 ")));  // of the nodes on the tetrahedra over the sheets: 0.6 degrees, where they are flat
+  EXPECT_THAT(failed(told) + " ", Not(HasSubstr("G5 ")));  // G5 of the nodes on the tetrahedra over the sheets: 0.6 degrees where these are flat
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the command line asks for and the input cannot have is an error that names it and says why; nothing is passed over.
+// A command-line option that the input cannot use is an error with the name of the option and the reason; nothing is ignored silently.
 #include <gmock/gmock.h>
 
 #include "scripting/terminal/exit_status.h"
@@ -101,7 +101,7 @@ TEST_F(WithoutEffect, TheTimeLimitHoldsForReadingModels) {
   std::size_t n = 0;
   for (std::size_t at = shown.find("time_limit"); at != std::string::npos; at = shown.find("time_limit", at + 1))
     n += shown.substr(at, shown.find('\n', at) - at).find("61") != std::string::npos ? 1 : 0;
-  EXPECT_EQ(n, 2u) << shown;  // engines and reading
+  EXPECT_EQ(n, 2u) << shown;  // options of the engines and of reading
   const std::string help = sterna({"mesh", "--help"}).output;
   EXPECT_THAT(help, HasSubstr("read_cad.time_limit"));
   EXPECT_THAT(help, HasSubstr("of models: 1e-09 .. 1e+06 m"));
@@ -150,7 +150,7 @@ TEST_F(WithoutEffect, InspectTakesAHalf) {
   EXPECT_THAT(of_triangles.output, HasSubstr("not closed")) << of_triangles.errors;
 }
 
-/// One source means wall and volume.
+/// A source acts on both wall and volume.
 TEST_F(WithoutEffect, SourcesRefineTheWallOfModelsAndSayWhatTheyDoElsewhere) {
   const auto facets = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"mesh", "box.step",          "-o", "m.sterna", "--first-height",           "5e-3", "--layers",

@@ -1,14 +1,14 @@
-// Judges a volume mesh in SU2's format by itself: shares no code with `sterna check`, nor with any of our readers. Says as JSON what it found.
+// Checks a volume mesh in SU2 format independently: shares no code with `sterna check`, nor with any of our readers. Prints the results as JSON.
 //
 // usage: soak_mesh_audit MESH.su2 [--wall NAME]... [--near X,Y,Z]... [--pair NAME NAME]...
-//   --wall    a marker that carries layers: its first heights and numbers of layers are measured
-//   --near    the distance of this point from the walls is measured
-//   --pair    two markers that should be each other's image, moved: how many nodes and faces have no partner
-// Exit status: 0 the mesh is good, 3 it is not, 2 it cannot be read.
+//   --wall    a marker with layers: measures its first heights and numbers of layers
+//   --near    measures the distance of this point from the walls
+//   --pair    two markers that should match after a translation: counts nodes and faces without partner
+// Exit status: 0 valid mesh, 3 invalid mesh, 2 unreadable file.
 //
-// Asked of a mesh: numbers in range and finite, no node unused, each face shared by two cells in opposite senses or by one cell and one marker, each marker
-// face the face of a cell, boundary closed edge by edge, volumes and corner volumes positive (in 113 bits), one outermost boundary, and that no cell lies
-// within another (a sample).
+// Checks: numbers in range and finite, no unused node, each face shared by two cells in opposite senses or by one cell and one marker, each marker face a face
+// of a cell, boundary closed edge by edge, volumes and corner volumes positive (in 113 bits), one outermost boundary, and no overlapping cells (for a sample of
+// cells).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,12 +28,12 @@
 
 namespace {
 
-__extension__ using Real = __float128;  // differences of doubles of like size are exact in it, triple products nearly so
+__extension__ using Real = __float128;  // exact for differences of doubles of similar size, nearly exact for triple products
 using Point = std::array<double, 3>;
 using Wide = std::array<Real, 3>;
 
 struct Cell {
-  int kind = 0;  // VTK's: 10 tetrahedron, 12 hexahedron, 13 prism, 14 pyramid
+  int kind = 0;  // VTK cell type: 10 tetrahedron, 12 hexahedron, 13 prism, 14 pyramid
   std::vector<std::int64_t> nodes;
 };
 
@@ -155,7 +155,7 @@ class Findings {
 
 Wide minus(const Point& a, const Point& b) { return {Real(a[0]) - b[0], Real(a[1]) - b[1], Real(a[2]) - b[2]}; }
 
-/// Six times the volume of the tetrahedron; positive where d is above the triangle a, b, c seen counter-clockwise from there.
+/// Six times the volume of the tetrahedron; positive if d lies on the side from which the triangle a, b, c is counter-clockwise.
 Real six_volumes(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Wide u = minus(b, a), v = minus(c, a), w = minus(d, a);
   return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
@@ -175,17 +175,17 @@ std::string place(const Point& p) {
   return text;
 }
 
-/// Faces with normals out of the cell.
+/// Returns the faces, with normals out of the cell.
 std::vector<std::vector<int>> faces_of(int kind) {
   switch (kind) {
     case 10: return {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    case 13: return {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};  // as VTK numbers them, normals are of the first triangle outwards
+    case 13: return {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};  // VTK numbering; the normal of the first triangle points outwards
     case 14: return {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
     default: return {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   }
 }
 
-/// SU2's files number prisms either way round (VTK's picture and VTK's text differ); the first prism's own sense decides for all of the mesh.
+/// SU2 files number prisms in either sense (VTK's figure and VTK's text differ). The sense of the first prism is applied to the whole mesh.
 void turn_prisms(Mesh& mesh) {
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != 13) continue;
@@ -193,7 +193,7 @@ void turn_prisms(Mesh& mesh) {
     const auto& p = mesh.points;
     const Real volume =
         six_volumes(p[n[0]], p[n[1]], p[n[2]], p[n[3]]) + six_volumes(p[n[1]], p[n[2]], p[n[0]], p[n[4]]) + six_volumes(p[n[2]], p[n[0]], p[n[1]], p[n[5]]);
-    if (volume < 0) return;  // 0, 1, 2 outwards already
+    if (volume < 0) return;  // 0, 1, 2 has its normal outwards already
     break;
   }
   for (Cell& cell : mesh.cells)
@@ -203,7 +203,7 @@ void turn_prisms(Mesh& mesh) {
     }
 }
 
-/// Flux of (x, y, z) about `origin` through a face, over 3: bilinear quadrilaterals by the mean of both triangulations, which is exact.
+/// Flux of (x, y, z) about `origin` through a face, divided by 3. Bilinear quadrilaterals use the mean of both triangulations, which is exact.
 Real flux(const Mesh& mesh, const std::vector<std::int64_t>& n, const Point& origin) {
   const auto& p = mesh.points;
   if (n.size() == 3) return six_volumes(origin, p[n[0]], p[n[1]], p[n[2]]) / 6;
@@ -222,7 +222,7 @@ double area_of(const Mesh& mesh, const std::vector<std::int64_t>& n) {
   return n.size() == 3 ? cross(n[0], n[1], n[2]) : (cross(n[0], n[1], n[2]) + cross(n[0], n[2], n[3]) + cross(n[0], n[1], n[3]) + cross(n[1], n[2], n[3])) / 2;
 }
 
-// ---- What is asked of a mesh ---------------------------------------------------------------------------------------------------------------
+// ---- Checks of a mesh ----------------------------------------------------------------------------------------------------------------------
 
 bool indices_are_good(const Mesh& mesh, Findings& findings) {
   const auto n_points = static_cast<std::int64_t>(mesh.points.size());
@@ -258,10 +258,10 @@ bool indices_are_good(const Mesh& mesh, Findings& findings) {
 }
 
 struct Face {
-  std::array<std::int64_t, 4> key;  // sorted, -1 for the fourth of a triangle
-  bool is_even;                     // sense: of the cycle from its smallest node on, whether the second is below the last
+  std::array<std::int64_t, 4> key;  // sorted node numbers, -1 as fourth node of a triangle
+  bool is_even;                     // sense: in the cycle from the smallest node, true if the second node is below the last
   std::int32_t owner;               // cell, or -1 - marker
-  std::int32_t index;               // of the face in it
+  std::int32_t index;               // of the face in the cell or marker
 };
 
 Face face_of(const std::vector<std::int64_t>& nodes, std::int32_t owner, std::int32_t index) {
@@ -281,7 +281,7 @@ std::vector<std::int64_t> cell_face(const Cell& cell, const std::vector<int>& co
   return nodes;
 }
 
-/// The cell's faces that lie in a marker, outwards.
+/// The faces of a cell that lie in a marker, oriented outwards.
 struct BoundaryFace {
   std::int32_t marker;
   std::int32_t cell;
@@ -329,7 +329,7 @@ Real volume_of(const Mesh& mesh, const Cell& cell) {
   return sum;
 }
 
-/// Volumes and, at each corner where three edges meet, the volume that these span.
+/// Checks cell volumes and, at each corner with three edges, the volume spanned by these edges.
 void look_at_volumes(const Mesh& mesh, Real& total, Findings& findings) {
   static const std::map<int, std::vector<std::array<int, 4>>> k_corners = {
       {10, {}},
@@ -351,7 +351,8 @@ void look_at_volumes(const Mesh& mesh, Real& total, Findings& findings) {
   }
 }
 
-/// Closed: each edge as often one way as the other. Pieces that hang together by edges: the outermost one holds positive volume, the others negative (bodies).
+/// Checks that the boundary is closed: each edge occurs equally often in both directions. Of the pieces connected by edges, the outermost encloses a positive
+/// volume, all others (bodies) a negative one.
 void look_at_boundary(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, Real total, Findings& findings) {
   std::map<std::pair<std::int64_t, std::int64_t>, int> sense;
   std::vector<std::int64_t> root(mesh.points.size());
@@ -380,12 +381,12 @@ void look_at_boundary(const Mesh& mesh, const std::vector<BoundaryFace>& boundar
   const Real difference = all > total ? all - total : total - all;
   if (!(difference <= total * Real(1e-9)))
     findings.add("volume_is_not_the_boundarys", std::to_string(static_cast<double>(total)) + " against " + std::to_string(static_cast<double>(all)));
-  const auto n_outer =
-      std::count_if(pieces.begin(), pieces.end(), [&](const auto& piece) { return piece.second > total * Real(1e-15); });  // both sides of a disc hold nothing
+  const auto n_outer = std::count_if(pieces.begin(), pieces.end(),
+                                     [&](const auto& piece) { return piece.second > total * Real(1e-15); });  // both sides of a disc enclose no volume
   if (n_outer != 1) findings.add("outer_boundaries", std::to_string(n_outer) + " pieces of boundary that hold fluid");
 }
 
-/// Whether the point is surely inside: on the inner side of every triangle of either triangulation of each face.
+/// Returns true if the point is certainly inside: on the inner side of every triangle in both triangulations of each face.
 bool holds(const Mesh& mesh, const Cell& cell, const Point& at) {
   for (const auto& corners : faces_of(cell.kind)) {
     const auto n = cell_face(cell, corners);
@@ -395,7 +396,7 @@ bool holds(const Mesh& mesh, const Cell& cell, const Point& at) {
   return true;
 }
 
-/// Middles of cells, taken evenly over the mesh, are in no other cell.
+/// Checks that cell centres, sampled evenly over the mesh, lie in no other cell.
 void look_for_overlaps(const Mesh& mesh, Findings& findings) {
   constexpr std::size_t k_samples = 200;
   const std::size_t step = std::max<std::size_t>(1, mesh.cells.size() / k_samples);
@@ -410,7 +411,7 @@ void look_for_overlaps(const Mesh& mesh, Findings& findings) {
   }
   for (std::size_t s = 0; s < mesh.cells.size(); s += step) {
     const Point at = mean_of(mesh, mesh.cells[s].nodes);
-    if (!holds(mesh, mesh.cells[s], at)) continue;  // the mean of a thin twisted cell may lie beside it
+    if (!holds(mesh, mesh.cells[s], at)) continue;  // the centre of a thin twisted cell may lie outside the cell
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       bool may = c != s;
       for (int k = 0; k < 3 && may; ++k) may = boxes[c][0][k] < at[k] && at[k] < boxes[c][1][k];
@@ -419,15 +420,15 @@ void look_for_overlaps(const Mesh& mesh, Findings& findings) {
   }
 }
 
-// ---- What was made -------------------------------------------------------------------------------------------------------------------------
+// ---- Measured layers -----------------------------------------------------------------------------------------------------------------------
 
 struct Layers {
-  std::vector<double> first;   // lengths of first cells along their lines
-  std::vector<double> height;  // of the same nodes above the wall's triangle
-  std::vector<int> numbers;    // of cells in each column of prisms
+  std::vector<double> first;   // lengths of the first cells along their growth lines
+  std::vector<double> height;  // heights of the same nodes above the wall triangle
+  std::vector<int> numbers;    // numbers of cells in each column of prisms
 };
 
-/// `in_column` becomes 1 for the prisms of the columns that stand on boundary triangles.
+/// Sets `in_column` to 1 for the prisms of columns that stand on boundary triangles.
 std::vector<Layers> measure_layers(const Mesh& mesh, const std::vector<BoundaryFace>& boundary, const std::vector<std::array<std::int32_t, 6>>& across,
                                    std::vector<char>& in_column) {
   std::vector<Layers> made(mesh.markers.size());
@@ -472,7 +473,7 @@ std::string spread(std::vector<T> values) {
   return text;
 }
 
-/// Prisms that stand on no boundary triangle: those of wake sheets and opened ridges.
+/// Prints the prisms that stand on no boundary triangle: those of wake sheets and opened ridges.
 void print_free_prisms(const Mesh& mesh, const std::vector<char>& in_column) {
   std::int64_t n = 0;
   Point low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
@@ -490,7 +491,7 @@ void print_free_prisms(const Mesh& mesh, const std::vector<char>& in_column) {
   std::printf("}");
 }
 
-/// Two markers as each other's image, moved by the way between the lower corners of their boxes.
+/// Compares two markers after a translation by the vector between the lower corners of their bounding boxes.
 void print_pair(const Mesh& mesh, const std::string& first, const std::string& second) {
   const auto named = [&](const std::string& name) {
     const auto found = std::find_if(mesh.markers.begin(), mesh.markers.end(), [&](const Marker& marker) { return marker.name == name; });
@@ -571,7 +572,7 @@ std::string quoted(const std::string& text) {
   return made + "\"";
 }
 
-/// Of a triangle a, b, c (the first half of a quadrilateral): its area times n n^T.
+/// Adds area times n n^T of the triangle a, b, c (the first half of a quadrilateral).
 void add_normal(const Mesh& mesh, const std::vector<std::int64_t>& nodes, std::array<double, 6>& sum) {
   const Wide u = minus(mesh.points[nodes[1]], mesh.points[nodes[0]]), v = minus(mesh.points[nodes[2]], mesh.points[nodes[0]]);
   const Point n = {static_cast<double>(u[1] * v[2] - u[2] * v[1]), static_cast<double>(u[2] * v[0] - u[0] * v[2]),

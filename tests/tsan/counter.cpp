@@ -7,8 +7,8 @@
 
 namespace {
 
-/// Two chunks on two threads meet and then both count. Without the meeting one thread may do all the work, and the loop's own hand-out of chunks
-/// would order the increments: a race that depends on luck. The meeting is relaxed, so that it orders nothing itself.
+/// Two chunks on two threads wait for each other, then both count. Without this barrier one thread might do all the work, and the loop's own distribution of
+/// chunks would order the increments, so that the race would depend on timing. The barrier is relaxed, so that it orders nothing itself.
 std::size_t count_with_a_race(const sterna::RunContext& context) {
   std::size_t n = 0;
   std::atomic<int> n_arrived{0};
@@ -24,7 +24,7 @@ std::size_t count_with_a_race(const sterna::RunContext& context) {
   return n;
 }
 
-/// The race-free twin: the same meeting, but each chunk counts for itself.
+/// The race-free counterpart: the same barrier, but each chunk has its own counter.
 std::size_t count_cleanly(const sterna::RunContext& context) {
   std::atomic<int> n_arrived{0};
   return sterna::parallel_reduce(
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const bool is_race = std::string_view(argv[1]) == "race";
   const sterna::RunContext context({.threads = 2});
-  // ThreadSanitizer's own records are written without locks: of two accesses at the very same moment it may see one only (about 1 round in 100).
+  // ThreadSanitizer writes its own records without locks: it may miss one of two simultaneous accesses (about 1 round in 100).
   for (int round = 0; round < 50; ++round) {
     const std::size_t n = is_race ? count_with_a_race(context) : count_cleanly(context);
     if (!is_race && n != 2) return 3;

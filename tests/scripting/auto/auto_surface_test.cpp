@@ -1,4 +1,4 @@
-// --auto, repair and the union of CAD parts that stand in each other, as users call them.
+// --auto, repair and the union of intersecting CAD parts, as users call them.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ class AutoSurfaceTest : public ScriptFixture {
  protected:
   AutoSurfaceTest() { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl"); }
   test::ProcessResult sterna(const std::vector<std::string>& arguments) { return test::run_process(test::sterna_program(), arguments, folder_); }
-  /// box.stl without its first facet.
+  /// Writes box.stl without its first facet.
   void write_open_box() {
     run("read_surface('" + (folder_ / "box.stl").string() + "'):write(" + out("whole.off") + ")");
     std::ifstream whole(folder_ / "whole.off");
@@ -87,15 +87,15 @@ TEST_F(AutoSurfaceTest, WrapWritesWhatItClosed) {
   const nlohmann::json report = nlohmann::json::parse(text_of("wrap.json"));
   ASSERT_EQ(report.at("closures").size(), 1u);
   EXPECT_EQ(report.at("closures").at(0).at("kind"), "opening");
-  EXPECT_NEAR(report.at("closures").at(0).at("area").get<double>(), 0.5, 0.25);  // half a side of the box, and its rim
+  EXPECT_NEAR(report.at("closures").at(0).at("area").get<double>(), 0.5, 0.25);  // half a side of the box, and its open boundary
   EXPECT_TRUE(report.at("leaks").empty());
-  // Told before the work.
+  // Reported before any work is done.
   EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--report", "nowhere/wrap.json"}).errors, HasSubstr("create the folder first"));
   EXPECT_THAT(sterna({"wrap", "open.off", "-o", "closed.stl", "--edge", "0.1", "--gap", "0.01"}).errors, HasSubstr("is below the edge"));
 }
 
 TEST_F(AutoSurfaceTest, NeedlesGetNewTriangles) {
-  // A box whose faces are fans about corners, with many vertices along two edges.
+  // A box whose faces are triangle fans about corners, with many vertices along two edges.
   std::ofstream file(folder_ / "fans.off");
   constexpr int k_fan = 60;
   file << "OFF\n" << 2 * (k_fan + 1) + 4 << " " << 4 * k_fan + 8 << " 0\n";
@@ -149,7 +149,7 @@ TEST_F(AutoSurfaceTest, StagesTakeTheirOptions) {
 }
 
 TEST_F(AutoSurfaceTest, ASmoothBodyIsNotDentedForItsBudget) {
-  // Fine triangles, of which many are needles: every third ring is next to the one before it.
+  // Fine triangles, many of them needles: every third ring lies close to the preceding one.
   constexpr int k_rings = 60, k_sides = 80;
   std::ofstream file(folder_ / "car.off");
   file << "OFF\n" << (k_rings - 1) * k_sides + 2 << " " << 2 * (k_rings - 1) * k_sides << " 0\n";
@@ -177,12 +177,12 @@ TEST_F(AutoSurfaceTest, ASmoothBodyIsNotDentedForItsBudget) {
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_THAT(result.output + result.errors, AllOf(HasSubstr("the triangles stay as they are"), Not(HasSubstr("changed: remeshed"))));
   const test::ProcessResult free = sterna({"surface", "car.off", "--auto", "-o", "new.off"});
-  // With triangles enough the distance decides: over new edges it is 0.255 where 0.2 is the limit.
+  // With enough triangles the distance is the criterion: over new edges it is 0.255, above the limit of 0.2.
   EXPECT_THAT(free.output + free.errors, AllOf(HasSubstr("of their edges from the given ones, the limit is 0.2"), HasSubstr("the triangles stay as they are")))
       << free.errors;
 }
 
-/// Half an ellipsoid open along an axis, its rim off the plane by up to `off`.
+/// Half an ellipsoid, open along an axis, with its open boundary off the plane by up to `off`.
 class AutoHalfTest : public AutoSurfaceTest, public testing::WithParamInterface<std::tuple<std::size_t, double>> {};
 
 TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
@@ -216,7 +216,7 @@ TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
   file.close();
   const test::ProcessResult result = sterna(mesh("half.off", "half.su2", {"--auto"}));
   ASSERT_EQ(result.status, 0) << result.errors;
-  // Rims that reading finds flat are an open domain from the beginning; others are found to be a half model's.
+  // Open boundaries that the reader finds flat form an open domain from the beginning; others are recognised as those of a half model.
   EXPECT_THAT(result.output + result.errors,
               AnyOf(HasSubstr("half model"), HasSubstr(std::string("all of its rims lie in the plane ") + "xyz"[axis] + " = 0 m")));
   EXPECT_THAT(result.output + result.errors, HasSubstr("VALID"));
@@ -226,7 +226,7 @@ TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
 INSTANTIATE_TEST_SUITE_P(Axes, AutoHalfTest, testing::Combine(testing::Values(0u, 1u, 2u), testing::Values(0.0, 1e-6, 1e-4, 1e-3)));
 
 TEST_F(AutoSurfaceTest, SinglePrecisionThatMergesVerticesIsTold) {
-  // A box far away, one of its corners cut off by less than single precision tells apart.
+  // A box far from the origin with one corner cut off by less than the resolution of single precision.
   std::ofstream(folder_ / "far.off") << "OFF\n6 8 0\n1000 0 0\n1001 0 0\n1000.5 1 0\n1000.5 0.5 1\n1000.5 0.50000001 1\n1000.5 0.5 -1\n"
                                         "3 0 1 3\n3 1 4 3\n3 1 2 4\n3 2 0 4\n3 0 3 4\n3 1 0 5\n3 2 1 5\n3 0 2 5\n";
   const test::ProcessResult stl = sterna({"repair", "far.off", "-o", "far.stl"}), obj = sterna({"repair", "far.off", "-o", "far.obj"});
@@ -260,8 +260,8 @@ TEST_F(AutoSurfaceTest, PartsOfCadThatStandInEachOtherAreUnited) {
   EXPECT_THAT(result.output + result.errors, HasSubstr("2 closed parts stand in each other and were united: 1 closed now"));
 }
 
-/// TetGen left points on the boundary here ("2 boundary triangles that are no face of a tetrahedron") until repair joined parts that touch; an input for such
-/// splits of the wall is to be found again.
+/// TetGen split boundary triangles here ("2 boundary triangles that are no face of a tetrahedron") until repair joined touching parts. A new input for such
+/// splits of the wall is still to be found.
 TEST_F(AutoSurfaceTest, TetGenFillsTheRocketAtTheFirstAttempt) {
   STERNA_NEEDS_SHARED_DATA();
   const test::ProcessResult split = sterna({"mesh", (test::shared_data() / "surfaces/nasty/martlet_rocket_Martlet2.stl").string(), "-o", "rocket.su2", "--auto",

@@ -1,4 +1,5 @@
-// What repair, wrap and --auto must keep of a geometry, or warn of: unions of ducts, cavities, open domains, parts that touch, nested bodies, sheets.
+// Properties of a geometry that repair, wrap and --auto must preserve or warn about: unions of ducts, cavities, open domains, touching parts, nested bodies,
+// baffles.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -34,7 +35,8 @@ Triangles turned_over(Triangles triangles) {
   return triangles;
 }
 
-/// Along an axis from `from` to `to`, about `center`; the first corner at `phase`. Side, end at `from`, end at `to`; normals outwards.
+/// Makes a pipe along an axis from `from` to `to`, about `center`, with the first corner at `phase`. Returns its side, its end at `from` and its end at `to`;
+/// normals point outwards.
 std::array<Triangles, 3> pipe(double radius, double from, double to, int n, std::size_t axis, const Vec3& center, double phase = 0.0) {
   const auto at = [&](double x, int k, double r) {
     const double angle = phase + 2.0 * std::numbers::pi * (k % n) / n;
@@ -94,7 +96,7 @@ std::vector<std::string> patches_of(const TriMesh& mesh) {
 
 class GeometryKept : public ScriptFixture {
  protected:
-  /// A text STL with a solid for each part.
+  /// Writes an ASCII STL file with one solid for each part.
   InputPath write(const std::vector<NamedPart>& parts, const std::string& name = "in.stl") {
     std::ofstream file(folder_ / name);
     file.precision(12);
@@ -122,7 +124,7 @@ class GeometryKept : public ScriptFixture {
   test::ProcessResult sterna(const std::vector<std::string>& arguments) { return test::run_process(test::sterna_program(), arguments, folder_); }
 };
 
-/// The volume of the union by another way: exact corefinement.
+/// Volume of the union by an independent method: exact corefinement.
 double volume_of_union(const std::vector<Triangles>& solids) {
   std::vector<UnionPart> parts;
   for (const Triangles& solid : solids) {
@@ -136,7 +138,7 @@ double volume_of_union(const std::vector<Triangles>& solids) {
     }
     parts.push_back({"part" + std::to_string(parts.size()), surfmesh::stitch_surface({soup}, {}, RunContext()).mesh});
   }
-  return volume_of(unite_meshes(parts, {.remesh = false}, RunContext()).mesh);  // strips with new triangles are not exact
+  return volume_of(unite_meshes(parts, {.remesh = false}, RunContext()).mesh);  // strips with new triangles would not be exact
 }
 
 TEST_F(GeometryKept, TeeOfPipesIsTheUnionOfTheirInsides) {
@@ -159,7 +161,7 @@ TEST_F(GeometryKept, PipesThroughAPlenumKeepAllEndsAndTheBodyInIt) {
 }
 
 TEST_F(GeometryKept, InnerShellOfOppositeSenseIsKeptWhereItTouchesTheOuter) {
-  const auto wheel = pipe(0.5, -0.2, 0.2, 12, 1, {0, 0, 0.5}, std::numbers::pi);  // touches the floor in one edge
+  const auto wheel = pipe(0.5, -0.2, 0.2, 12, 1, {0, 0, 0.5}, std::numbers::pi);  // touches the floor along one edge
   const Triangles box = block({-4, -2, 0}, {4, 2, 3});
   for (const char* fluid : {"outside", "inside"}) {
     const SurfaceValue wall = automatic({{"box", box}, {"wheel", turned_over(all_of(wheel))}}, fluid);
@@ -189,7 +191,7 @@ TEST_F(GeometryKept, PartsThatTouchAlongALineAreJoined) {
   EXPECT_THAT(log_, HasSubstr("are one part of the result"));
 }
 
-/// A body of revolution about x, from x = 0 to 1, normals outwards; the part with angles from `first` on, `share` of a turn.
+/// A body of revolution about x, from x = 0 to 1, with normals outwards. The result covers the angles from `first` on, over the fraction `share` of a turn.
 Triangles spindle(double first, double share, int n, int m, double offset = 0.0) {
   const auto at = [&](int i, int k) {
     const double x = 0.5 * (1.0 - std::cos(std::numbers::pi * i / n)), r = i == 0 || i == n ? 0.0 : 0.2 * std::sqrt(x * (1.0 - x));
@@ -267,7 +269,7 @@ TEST_F(GeometryKept, OpenSheetIsWarnedOf) {
 }
 
 TEST_F(GeometryKept, PatchLostInReadingIsWarnedOf) {
-  // Closed, and without thickness: its two sides have different diagonals.
+  // Closed, but without thickness: its two sides have different diagonals.
   Triangles sheet{{Vec3{2, 0, 0}, Vec3{3, 0, 0}, Vec3{3, 1, 0}},
                   {Vec3{2, 0, 0}, Vec3{3, 1, 0}, Vec3{2, 1, 0}},
                   {Vec3{2, 0, 0}, Vec3{2, 1, 0}, Vec3{3, 0, 0}},

@@ -1,4 +1,4 @@
-// Whole runs: with a cache, cold or warm, with threads or without, every output has the bytes that it has without one.
+// Whole runs: with a cold or a warm cache, with one or several threads, every output is identical to the byte to that of a run without cache.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using Files = std::map<std::string, std::string>;
 
 class CachedRun : public testing::Test {
  protected:
-  /// Runs a script whose outputs are named "OUT/..." and returns them with what was printed (as "printed").
+  /// Runs a script whose outputs are named "OUT/..." and returns the outputs together with the printed text (as "printed").
   Files run(std::string text, bool is_cached, int threads = 1, const OptionOverrides& overrides = {}) {
     std::filesystem::remove_all(folder_ / "out");
     std::filesystem::create_directories(folder_ / "out");
@@ -74,7 +74,7 @@ class CachedRun : public testing::Test {
   std::string log_;
 };
 
-/// A capsule as STEP, read back, meshed, written in every way.
+/// A capsule: written as STEP, read back, meshed, and written in every format.
 const std::string k_model = "local m = box{ {0,0,0}, {2,1,1}, name='block' }:rotate{ pitch=5*deg } ";
 const std::string k_case = k_model +
                            "local wall = surface_mesh{ m, max_edge=0.7 } print(wall) print(wall.length, wall.min_angle, wall.smooth_angle, wall.crossings) "
@@ -97,7 +97,7 @@ TEST_F(CachedRun, OfACadFileEveryOutputHasTheSameBytesWithoutColdAndWarm) {
   EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("surface_mesh of block: from the cache"), HasSubstr("volume_mesh of ")));
   expect_same(run(text, true, 2), without, "warm, two threads");
   EXPECT_EQ(n_reused(), 3);
-  // The same file under another path is the same, but manifests say what the user wrote.
+  // The same file under another path yields the same meshes, but manifests contain the path as the user wrote it.
   std::filesystem::create_directories(folder_ / "sub");
   std::filesystem::copy_file(folder_ / "block.step", folder_ / "sub" / "block.step");
   const Files moved = run(std::regex_replace(text, std::regex("IN/block"), "IN/sub/block"), true);
@@ -154,7 +154,7 @@ TEST_F(CachedRun, NewVerticesOfAWallFromTheCacheLieOnTheModel) {
 
 // ---- Models --------------------------------------------------------------------------------------------------------------------------------
 
-/// Reading, uniting, moving, halving, meshing and writing, so that kept models are used in every way. FOUR is an engineer's change from case to case.
+/// Reads, unites, moves, halves, meshes and writes models, so that cached models are used in every way. FOUR is the value that a user changes between cases.
 const std::string k_models =
     "local body = fuselage{ name='body', frames={ {x=0, height=0}, {x=1, height=1}, {x=4, height=1}, {x=6, height=0.1} } } "
     "local w = wing{ name='wing', symmetric=true, position={2, 0, -0.1}, sections={ { y=0, chord=1.4, airfoil='naca0012' }, { y=3, chord=0.7, "
@@ -279,7 +279,7 @@ TEST_F(CachedRun, ErrorsOfAFunctionAreTheUsersAlsoWhenItIsAskedForTheCache) {
 TEST_F(CachedRun, ModelsAreWhatTheyWereMadeOf) {
   const auto reused = [&](const std::string& model) {
     run("local m = " + model + " surface_mesh{ m, max_edge=0.9 }", true);
-    std::istringstream lines(log_);  // of the whole surface; a part that was moved only is known before
+    std::istringstream lines(log_);  // only lines for the whole surface count; a part that was only moved comes from the cache anyway
     for (std::string line; std::getline(lines, line);)
       if (line.find("surface_mesh of ") != std::string::npos && line.ends_with(": from the cache") && line.find("in its own frame") == std::string::npos)
         return true;
@@ -336,7 +336,7 @@ TEST_F(CachedRun, TwoProcessesAtOnceAndOneThatIsKilled) {
     return test::run_process(test::sterna_program(), arguments, folder_ / name, interrupt_after);
   };
   ASSERT_EQ(started("plain", {}).status, 0);
-  // Killed at several moments, one after the other; how far each comes depends on the machine, and the last may come to its end.
+  // The process is killed at several moments, one after the other. Its progress depends on the machine, and the last run may finish.
   for (const char* seconds : {"0.02", "0.05", "0.1", "0.2", "0.4"})
     test::run_process("/usr/bin/timeout", {"-s", "KILL", seconds, test::sterna_program().string(), "run", "../case.lua", "--cache", "../cache"},
                       folder_ / "plain");

@@ -1,4 +1,4 @@
-// Every option is in the key of the stage that it belongs to, and of none before it.
+// Every option is in the key of its own stage, and in the key of no earlier stage.
 #include "scripting/values/value_keys.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Another value than the option has, whether it is allowed or not.
+/// Changes the option to another value, valid or not.
 void change(const Option& option) {
   const OptionValue value = option.get();
   if (const auto* flag = std::get_if<bool>(&value)) option.store(!*flag);
@@ -69,7 +69,7 @@ TEST(ContentKeys, WhatIsNoNumberOfAVolumeMeshCountsToo) {
   expect(options, true, "disc");
   options.discs.front().radius = 2.0;
   expect(options, true, "radius of a disc");
-  options.size.size_growth += 0.01;  // decides a disc's triangles
+  options.size.size_growth += 0.01;  // determines the triangles of a disc
   expect(options, true, "growth beside a disc");
   options.wakes = {{.wing = "main"}};
   expect(options, true, "wake sheet");

@@ -1,4 +1,4 @@
-// The cache as a store: what is put in comes out to the bit or not at all.
+// The cache as a store: an entry is returned to the bit or not at all.
 #include "scripting/cache/stage_cache.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ class StageCacheTest : public testing::Test {
     cache.store(
         "stage", key(number), [&](ByteSink& sink) { write_value(sink, text); }, context_);
   }
-  /// "-": there is none.
+  /// Returns the entry, or "-" if there is none.
   std::string find(const StageCache& cache, int number) {
     std::string text = "-";
     const bool is_found = cache.find(
@@ -56,7 +56,7 @@ TEST_F(StageCacheTest, WhatWasStoredComesBackAndNothingElse) {
   const StageCache one = cache();
   EXPECT_EQ(find(one, 1), "-");
   store(one, 1, "a text");
-  store(one, 2, std::string(3'000'000, 'x') + "end");  // longer than a piece
+  store(one, 2, std::string(3'000'000, 'x') + "end");  // longer than one block
   EXPECT_EQ(find(one, 1), "a text");
   EXPECT_EQ(find(one, 2), std::string(3'000'000, 'x') + "end");
   EXPECT_EQ(find(one, 3), "-");
@@ -138,7 +138,7 @@ TEST_F(StageCacheTest, AboveTheLimitGoesWhatWasNotUsedForLongest) {
   EXPECT_EQ(find(one, 2), "-");
   EXPECT_NE(find(one, 3), "-");
   EXPECT_NE(find(one, 4), "-");
-  store(one, 5, std::string(10000, 'x'));  // more than all of it: what was just made stays
+  store(one, 5, std::string(10000, 'x'));  // larger than the whole limit: the entry just made stays
   EXPECT_NE(find(one, 5), "-");
   EXPECT_EQ(StageCache::entries(folder_).size(), 1u);
 }

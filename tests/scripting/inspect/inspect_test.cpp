@@ -1,4 +1,4 @@
-// inspect{} in scripts and `sterna inspect`: files with defects, real surfaces, what scripts and shells get.
+// inspect{} in scripts and `sterna inspect`: files with defects, real surfaces, return values and exit status.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -91,7 +91,7 @@ TEST_F(InspectFiles, MillimetresReadAsMetresAreDoubted) {
   EXPECT_NEAR(right.length, 4.0, 0.1);
 }
 
-// ---- What has to be done first --------------------------------------------------------------------------------------------------------------
+// ---- Required first step --------------------------------------------------------------------------------------------------------------
 
 class Preparing : public InspectFiles {
  protected:
@@ -106,7 +106,7 @@ class Preparing : public InspectFiles {
     }
     return rest;
   }
-  /// What --auto did: "nothing", or the first word of its change.
+  /// Returns what --auto did: "nothing", or the first word of its change.
   static std::string done_by_auto(const std::string& path) {
     const std::vector<InputPath> files = {{path, path}};
     const SurfaceValue wall = auto_surface(files, {}, {}, RunContext({.threads = 2}));
@@ -150,7 +150,7 @@ TEST_F(Preparing, HolesAndCrossingsAreRepaired) {
 }
 
 TEST_F(Preparing, WhatIsMostlyMissingIsWrapped) {
-  // A sphere of which the smaller part is left: no hole, but a bowl.
+  // The smaller part of a sphere: a bowl, not a hole.
   const TriMesh whole = test::sphere(8);
   std::set<std::uint32_t> above;
   for (const TriangleId t : whole.triangles.ids()) {
@@ -206,14 +206,14 @@ TEST_F(Preparing, TheSameForAnyThreads) {
 TEST_F(Preparing, ForeseesWhatAutoDoes) {
   STERNA_NEEDS_SHARED_DATA();
   const std::filesystem::path nasty = test::shared_data() / "surfaces" / "nasty";
-  // One of each kind: holes, seams, crossings, half models, sheets, bodies that stand in each other; and sound ones.
+  // One file of each kind: holes, seams, crossings, half models, baffles, intersecting bodies; and sound ones.
   for (const char* name :
        {"cgal_data_elephant-with-holes.off", "asb_talon_talon.stl", "uuv_propeller_1.stl", "pyhyp_dpw.fmt", "pyhyp_m6_small.fmt", "nasty_admesh_nearby-bad.stl",
         "nasty_arrangements_two_spheres.stl", "pdas_wgs_ex4.wgs", "netgen_parts_part1.stl", "nasty_trimesh_busted.STL"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(foreseen(inspect((nasty / name).string()).preparation), done_by_auto((nasty / name).string()));
   }
-  // Shells whose openings are as large as they are; that repair refuses them is a test of its own.
+  // Shells whose openings are as large as the shells; another test checks that repair refuses them.
   for (const char* name : {"nasty_meshlab_non_manif_hole.ply", "cgal_data_b9_mesh.off", "cgal_data_degtri_sliding.off"})
     EXPECT_EQ(inspect((nasty / name).string()).preparation.needed, Strength::wrap) << name;
 }
@@ -259,7 +259,7 @@ TEST_F(InspectFiles, DrawTheTrouble) {
     EXPECT_THAT(text, HasSubstr(array));
   const SurfaceSoup soup = io::read_surface_file(folder_ / "trouble.vtu", RunContext({.threads = 1}));
   EXPECT_EQ(soup.triangles.size(), test::cube(6).n_triangles());
-  EXPECT_EQ(soup.patch_names.at(0), "wall");  // one part of one file
+  EXPECT_EQ(soup.patch_names.at(0), "wall");  // one file with one part
   EXPECT_THAT(error("inspect{ '" + path + "', output = 'trouble.stl' }"), HasSubstr(".vtu"));
 }
 

@@ -1,4 +1,4 @@
-// Checking a script without meshing, arguments of the command line, steps of the envelope by hand, help of objects, tracebacks.
+// Checks of a script without meshing, command-line arguments, envelope steps called one by one, help of objects, tracebacks.
 #include <gmock/gmock.h>
 
 #include "scripting/interpreter/script_help.h"
@@ -76,7 +76,7 @@ TEST_F(CheckScript, ACorrectScriptIsCorrectAndWritesNothing) {
   EXPECT_EQ(files, std::vector<std::string>{"case.lua"});
 }
 
-/// What a solver needs is asked for before the mesh is made, not after.
+/// Values that a solver requires are checked before the mesh is made, not after.
 TEST_F(CheckScript, SolversSayWhatTheyNeedBeforeMeshing) {
   const std::string mesh = "local m = volume_mesh{ surface_mesh{ box{ {0,0,0}, {1,1,1} } }, first_height = 1e-3 }\n";
   EXPECT_THAT(problems(mesh + "m:su2_config{ 'a.cfg', reynolds = 1e6, length = 1 }"),
@@ -127,7 +127,7 @@ TEST_F(CheckScript, AfterAnErrorOfLuaItSaysWhatWasNotLookedAt) {
   const auto found = problems("local settings = {}\nprint(settings.wing.span)\nvolume_mesh{}\n");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0], testing::AllOf(HasSubstr("case.lua:2:"), HasSubstr("what the script does after this line was not looked at")));
-  EXPECT_THAT(problems("assert(1 == 2, 'as the user says')\n"), testing::ElementsAre(HasSubstr("as the user says")));  // nothing stands for anything here
+  EXPECT_THAT(problems("assert(1 == 2, 'as the user says')\n"), testing::ElementsAre(HasSubstr("as the user says")));  // no placeholder values occur here
 }
 
 TEST_F(CheckScript, AnUnknownNameDoesNotEndTheSearch) {
@@ -140,10 +140,10 @@ TEST_F(CheckScript, AnUnknownNameDoesNotEndTheSearch) {
   ASSERT_EQ(found.size(), 5u);
   EXPECT_THAT(found[0], testing::AllOf(HasSubstr("case.lua:1: unknown name (global 'read_smxx')"), HasSubstr("did you mean read_smx?")));
   EXPECT_THAT(found[1], testing::AllOf(HasSubstr("case.lua:2: surface_mesh"), HasSubstr("did you mean \"max_edge\"?")));
-  EXPECT_THAT(found[2], HasSubstr("case.lua:3: unknown name (global 'parsec')"));  // once
+  EXPECT_THAT(found[2], HasSubstr("case.lua:3: unknown name (global 'parsec')"));  // reported once
   EXPECT_THAT(found[3], testing::AllOf(HasSubstr("case.lua:4: unknown name (global 'io')"), HasSubstr("require for modules beside them")));
   EXPECT_THAT(found[4], testing::AllOf(HasSubstr("case.lua:5: volume_mesh"), HasSubstr("did you mean \"layers\"?")));
-  EXPECT_THAT(problems("local ok = pcall(function() return parsec end) assert(not ok)"), testing::IsEmpty());  // the script wants to know
+  EXPECT_THAT(problems("local ok = pcall(function() return parsec end) assert(not ok)"), testing::IsEmpty());  // the script itself tests for the name
 }
 
 TEST_F(CheckScript, DeflectionsAreLookedForInTheFile) {
@@ -251,9 +251,9 @@ TEST_F(CheckScript, ScriptAndModulesMayDeclareArguments) {
 
 TEST_F(CheckScript, UnknownArgumentsAreRefusedBeforeWorkBegins) {
   std::ofstream(folder_ / "parts.lua") << "return args{ span = 10 }";
-  // A function that is never called might still declare it: the error comes when the script is over.
+  // A function that is never called might still declare the argument: the error comes at the end of the script.
   EXPECT_THAT(error_with("args{ level = 1 } local function later() args{ deep = 1 } end", {{"deeep", "2"}}), HasSubstr("no argument deeep"));
-  // Nothing else can declare it: the error comes before the first verb that takes time.
+  // No other statement can declare the argument: the error comes before the first verb that takes time.
   EXPECT_THAT(error_with("args{ level = 1 } require 'parts' volume_mesh{}", {{"spam", "2"}}), HasSubstr("no argument spam"));
 }
 
@@ -268,7 +268,7 @@ TEST_F(CheckScript, WorkersOfASeriesGetTheArguments) {
   EXPECT_EQ(test::run_process(test::sterna_program(), {"run", "case.lua", "alhpa=4"}, folder_).status, 2);
 }
 
-// ---- Envelope by hand ------------------------------------------------------------------------------------------------------------------------
+// ---- Envelope step by step ------------------------------------------------------------------------------------------------------------------------
 
 TEST_F(CheckScript, StepsByHandRefuseWhatTheyDoNotDo) {
   const std::string two = "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {4,0,0}, {5,1,1} }:rotate{ pitch = 10*deg }, max_edge = 0.5 }\n";
@@ -337,10 +337,10 @@ TEST_F(CheckScript, FieldsAreThoseThatAreDocumented) {
       "error = error }\n";
   for (const ObjectKind& kind : object_kinds()) {
     const std::string name(kind.name);
-    // The message about a field that is not there lists those that are.
+    // The message about a missing field lists the existing fields.
     const std::string message =
         run(setup + "if all." + name + " then print(select(2, pcall(function() return all." + name + ".no_such_field end)).message) end");
-    if (message.empty()) continue;  // a kind that this test cannot make
+    if (message.empty()) continue;  // a kind of object that this test cannot make
     const std::string list = ", " + message.substr(message.find("try: ") + 5, message.find('\n', message.find("try: ")) - message.find("try: ") - 5) + ", ";
     int n_there = 0;
     for (const FieldDoc& field : kind.fields) n_there += list.find(", " + std::string(field.name) + ", ") != std::string::npos ? 1 : 0;

@@ -1,5 +1,5 @@
-// Every option of every verb is set once through Lua, read off the verbs' own help, so that a new verb is here by itself; every option of every command once
-// through the command line.
+// Sets every option of every verb once through Lua. The options come from the help of the verbs, so that new verbs are included automatically. Sets every
+// option of every command once through the command line.
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -23,7 +23,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// The example with one more entry in its table, or another value of one that it has.
+/// Returns the example with one more entry in its table, or with another value of an existing entry.
 std::string with_entry(const std::string& example, const std::string& name, const std::string& entry) {
   const std::regex given("([{,] *)" + name + " = [^,{}]*[^,{} ]");
   if (std::regex_search(example, given))
@@ -37,7 +37,7 @@ std::string with_entry(const std::string& example, const std::string& name, cons
   return example.substr(0, open) + "{ " + argument + ", " + entry + " }";
 }
 
-/// Where an option stands in the table of its verb: itself, or in a table in it that the line above it in the help names.
+/// Returns the entry for an option in the table of its verb: the assignment itself, or a nested table that the title of the option group names.
 std::string entry_of(const OptionGroup& group, const std::string& assignment) {
   std::smatch match;
   if (std::regex_search(group.title, match, std::regex("patches = \\{ \\[\"[^\"]*\"\\] = \\{ \\.\\.\\. \\} \\}")))
@@ -46,9 +46,9 @@ std::string entry_of(const OptionGroup& group, const std::string& assignment) {
   return assignment;
 }
 
-/// Options whose value hangs together with other entries: the whole statement.
+/// Options whose value depends on other entries: the whole statement.
 const std::map<std::string, std::string> k_statements = {
-    {"draw.view", "draw{ mesh, 'a.png', view = 'top' }"},  // texts with a meaning of their own
+    {"draw.view", "draw{ mesh, 'a.png', view = 'top' }"},  // strings with a special meaning
     {"draw.color", "draw{ mesh, 'a.png', color = 'skew' }"},
     {"draw.cut", "draw{ mesh, 'a.png', cut = { x = 1.2 } }"},
     {"draw.focus", "draw{ mesh, 'a.png', focus = { {1, 2, 0}, radius = 0.5 } }"},
@@ -60,7 +60,7 @@ const std::map<std::string, std::string> k_statements = {
     {"nacelle.highlight_ratio", "nacelle{ name = 'engine', length = 3.6, diameter = 2.1, highlight_ratio = 0.9 }"},
     {"make_envelope.total_height", "make_envelope{ wall, layers = 10, first_height = 1e-3, total_height = 0.1 }"},  // with layers or growth, not both
     {"envelope.initial.total_height", "envelope.initial{ wall, class, layers = 5, first_height = 0.01, total_height = 0.3 }"},
-    {"jobs.tasks", "jobs{ tasks = 3 }"},  // or as the one number without a name
+    {"jobs.tasks", "jobs{ tasks = 3 }"},  // or as the single number without a name
     {"y_plus.y_plus", "y_plus{ y_plus = 2, reynolds = 5e6, length = 7 }"},
     {"mesh:su2_config.mesh", "mesh:su2_config{ 'case.cfg', mesh = 'other.su2', mach = 0.5, reynolds = 5e6, length = 7, reference_area = 1 }"},
     {"mesh:su2_config.wing", "mesh:su2_config{ 'case.cfg', wing = 'wing', mach = 0.5, reynolds = 5e6, length = 7, reference = main_wing }"},
@@ -80,7 +80,7 @@ const std::map<std::string, std::string> k_statements = {
      "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1 } } }:control{ 'flap', hinge = { {0.1, 0.7}, {0.5, 0.7} } }"},
 };
 
-/// Flow conditions that go together.
+/// Consistent sets of flow conditions.
 const std::vector<std::string> k_flows = {
     "mach = 0.5, altitude = 1000, temperature_offset = 10, length = 2", "speed = 60, temperature = 293, pressure = 101325, length = 0.3",
     "speed = 60, temperature = 293, density = 1.2, viscosity = 1.8e-5, length = 0.3", "reynolds = 5e6, temperature = 293, mach = 0.2, length = 7"};
@@ -90,7 +90,7 @@ const std::map<std::string_view, std::string> k_flow_verbs = {{"flow", "flow{ "}
                                                               {"mesh:su2_config", "mesh:su2_config{ 'case.cfg', reference_area = 1, "},
                                                               {"mesh:foam_case", "mesh:foam_case{ 'case', reference_area = 1, "}};
 
-/// The statements in which an option may be set: the examples with it in their table.
+/// Returns the statements in which an option may be set: the examples with the option in their table.
 std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGroup& group, const OptionDoc& option) {
   if (const auto known = k_statements.find(std::string(verb.name) + "." + option.name); known != k_statements.end()) return {known->second};
   std::vector<std::string> statements;
@@ -119,7 +119,7 @@ std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGrou
       continue;
     }
     if (option.value.starts_with("{") && example.find(" " + option.name + " = {") != std::string::npos)
-      statements.push_back(example);  // a point or list that is there already
+      statements.push_back(example);  // a point or list that exists already
     else
       statements.push_back(
           with_entry(example, option.name, entry_of(group, option.name + " = " + (option.value == "{x, y, z}" ? "{1, 0, 0.5}" : other_value(option)))));
@@ -139,7 +139,7 @@ class EveryOption : public testing::Test {
     state_->run(std::string(manual_setup()), "=setup");
   }
 
-  /// What is wrong with a statement; empty: nothing.
+  /// Returns the problems of a statement; empty if there are none.
   std::string problems_of(const std::string& statement) {
     check_.problems.clear();
     check_.options.clear();
@@ -177,7 +177,7 @@ TEST_F(EveryOption, ThroughLua) {
           is_accepted = is_accepted || problem.empty();
           if (!problem.empty()) continue;
           n_read_back += is_set(option.name) ? 1 : 0;
-          // The same one letter wrong is an error that names it.
+          // The option name with one more letter is an error that names the option.
           const std::string wrong = option.name + "q",
                             misspelt = std::regex_replace(statement, std::regex("([{,] *)" + option.name + " ="), "$1" + wrong + " =");
           EXPECT_FALSE(problems_of(misspelt).empty()) << verb->name << ": " << misspelt;

@@ -1,4 +1,4 @@
-// Ctrl-C as a user sends it: within a second, whatever is under way, and nothing half-written is left.
+// Ctrl-C as a user sends it: the program stops within a second in any stage and leaves no incomplete file.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -13,7 +13,7 @@ namespace {
 
 struct Work {
   const char* name;
-  const char* setup;  ///< a script that is run before, to the end; may be empty
+  const char* setup;  ///< a script that runs to its end before; may be empty
   const char* script;
   double after = 0.7;  ///< seconds until Ctrl-C
 };
@@ -21,9 +21,9 @@ void PrintTo(const Work& work, std::ostream* out) { *out << work.name; }
 
 class Interrupt : public testing::TestWithParam<Work> {};
 
-/// A second, and what a loaded machine takes to start and end a process.
+/// One second, plus the time that a loaded machine takes to start and end a process.
 constexpr double k_limit = test::k_is_sanitized ? 20.0 : 1.3;
-/// Other tests run beside this one and may take the processors for longer than that; what is slow by itself is slow each time.
+/// Other tests run at the same time and may occupy the processors for longer than the limit; code that is slow by itself is slow in each attempt.
 constexpr int k_attempts = 4;
 
 TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
@@ -38,7 +38,7 @@ TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
     std::vector<std::string> found;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
       if (!entry.path().filename().string().starts_with("written.vtu"))
-        found.push_back(entry.path().lexically_relative(folder).string());  // whole, from the loop before
+        found.push_back(entry.path().lexically_relative(folder).string());  // complete, from the loop before
     std::sort(found.begin(), found.end());
     return found;
   };
@@ -46,7 +46,7 @@ TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
   double quickest = 1e300;
   for (int attempt = 0; attempt < k_attempts && quickest >= k_limit; ++attempt) {
     test::ProcessResult result = test::run_process(test::sterna_program(), {"run", "case.lua"}, folder, work.after);
-    for (double after = 0.5 * work.after; result.status == 0; after *= 0.5) {  // a fast machine was done before: sooner
+    for (double after = 0.5 * work.after; result.status == 0; after *= 0.5) {  // a fast machine had finished before: try earlier
       ASSERT_GT(after, 0.01) << "done before Ctrl-C could come";
       for (const std::string& name : names())
         if (!std::binary_search(before.begin(), before.end(), name)) std::filesystem::remove_all(folder / name);

@@ -1,4 +1,4 @@
-// docs/lua.md is what the program prints, and its examples run.
+// docs/lua.md equals the output of the program, and its examples run.
 #include <fstream>
 #include <iterator>
 
@@ -12,7 +12,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// A point with a wanted size, for size_samples.
+/// A point with a target size, for size_samples.
 constexpr const char* k_sizes_vtu =
     R"(<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="1">
 <PointData><DataArray type="Float64" Name="size" format="ascii">0.5</DataArray></PointData>
@@ -29,7 +29,7 @@ TEST(Manual, IsWhatTheProgramPrints) {
   EXPECT_TRUE(printed.output == kept) << "docs/lua.md is stale: build/release/sterna manual > docs/lua.md";
 }
 
-/// Examples are run in a folder of their own; names of files without a folder are looked for, and written, there.
+/// Runs examples in a separate folder; file names without a folder are read and written there.
 class InFolder {
  public:
   explicit InFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder); }
@@ -51,11 +51,11 @@ TEST(Manual, EveryExampleRuns) {
   int n_examples = 0;
   for (const ScriptVerb* verb : all_verbs())
     for (const std::string& example : examples_of(*verb)) {
-      if (verb->name == "read_cpacs" && !has_cpacs) continue;  // the one input that no verb writes
+      if (verb->name == "read_cpacs" && !has_cpacs) continue;  // the only input that no verb writes
       if (verb->name == "series") continue;                    // runs processes: checked below
       ++n_examples;
       SCOPED_TRACE(std::string(verb->name) + ": " + example);
-      // Anew for each, because components change in place and files are replaced.
+      // The setup runs again for each example, because components change in place and files are replaced.
       if (n_examples == 1 || verb->name.find(':') != std::string_view::npos) {
         ASSERT_NO_THROW(state.run(std::string(manual_setup()), "=setup"));
       }

@@ -7,7 +7,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Another number than `value` in [min, max], whole where that may be meant.
+/// Returns a number in [min, max] other than `value`, an integer if the option may be one.
 double other_number(double value, double min, double max, bool is_whole) {
   if (is_whole) return value + 1.0 <= max ? value + 1.0 : value - 1.0;
   if (!std::isinf(max) && !std::isinf(min)) return value == 0.5 * (min + max) ? 0.25 * min + 0.75 * max : 0.5 * (min + max);

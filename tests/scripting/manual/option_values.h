@@ -1,4 +1,4 @@
-// Another value than the default for any option, from what the schema says of it.
+// Values other than the default for any option, derived from the schema of the option.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace sterna::scripting {
 
-/// A value of the option within its range that is not its default.
+/// Returns a value within the option's range that is not its default.
 OptionValue other_value(const Option& option);
-/// As the command line takes it: SI, 17 digits.
+/// Returns the value in the syntax of the command line: SI units, 17 digits.
 std::string text_of(const OptionValue& value);
 
-/// The same from the help of a verb, as text of Lua.
+/// Returns such a value from the help of a verb, in Lua syntax.
 std::string other_value(const OptionDoc& option);
 
 }  // namespace sterna::scripting

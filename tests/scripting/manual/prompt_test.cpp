@@ -1,4 +1,4 @@
-// The prompt through a pipe, as a user's program would drive it; completion through its function.
+// The prompt through a pipe, as a program would drive it; completion by direct calls of its function.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 class Prompt : public testing::Test {
  protected:
-  /// What `sterna prompt` says to these lines.
+  /// Returns the output of `sterna prompt` for these lines.
   test::ProcessResult say(const std::string& lines) {
     std::ofstream(folder_ / "input") << lines;
     return test::run_process("/bin/sh", {"-c", "exec '" + test::sterna_program().string() + "' prompt < input"}, folder_);

@@ -20,9 +20,9 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double k_patience = 60.0;  // s: a loaded machine
+constexpr double k_patience = 60.0;  // s: time limit for a loaded machine
 
-/// `sterna` at a terminal of its own, with a home of its own.
+/// `sterna` in a separate pseudo terminal, with a separate home folder.
 class Terminal {
  public:
   explicit Terminal(const std::filesystem::path& home) {
@@ -47,7 +47,7 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   void type(const std::string& keys) { ASSERT_EQ(::write(screen_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size())); }
-  /// What the terminal shows from here on, until the text has appeared.
+  /// Returns the terminal output from now on until `text` has appeared.
   std::string wait_for(const std::string& text) {
     std::string shown;
     const auto begin = std::chrono::steady_clock::now();
@@ -59,7 +59,7 @@ class Terminal {
     }
     return shown;
   }
-  /// Exit status, once it has ended.
+  /// Waits for the end of the program and returns its exit status.
   int wait() {
     std::string rest;
     while (read_some(rest)) {
@@ -71,7 +71,7 @@ class Terminal {
   }
 
  private:
-  /// False at the end of the program, or when nothing comes for long.
+  /// Returns false at the end of the program, or if no output comes for a long time.
   bool read_some(std::string& shown) const {
     pollfd screen{.fd = screen_, .events = POLLIN, .revents = 0};
     if (::poll(&screen, 1, static_cast<int>(1000 * k_patience)) <= 0) return false;

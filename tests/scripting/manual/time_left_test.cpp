@@ -1,4 +1,4 @@
-// The time left, on made-up and on recorded runs (tests/data/progress, by tools/record_progress).
+// The estimate of the time left, on made-up and on recorded runs (tests/data/progress, by tools/record_progress).
 #include "scripting/terminal/time_left.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(TimeLeft, AShareThatFallsWithinTheWorkIsNoNewWork) {
   TimeLeft left;
   left.note({"mesh/envelope", 0.0}, 0.0);
   left.note({"mesh/tetrahedra", 0.5}, 50.0);
-  left.note({"mesh/prisms", 0.2}, 60.0);  // a part that is done again
+  left.note({"mesh/prisms", 0.2}, 60.0);  // a part that is repeated
   EXPECT_NEAR(left.estimate().value(), 40.0, 1e-9);
   EXPECT_EQ(left.share(), 0.5);
 }
@@ -41,10 +41,10 @@ TEST(TimeLeft, ANewPieceOfWorkBeginsAnew) {
   EXPECT_FALSE(left.estimate().has_value());
   left.note({"mesh", 0.25}, 110.0);
   EXPECT_NEAR(left.estimate().value(), 30.0, 1e-9);
-  left.note({"write", 0.5}, 120.0);  // the stages of one command go on
+  left.note({"write", 0.5}, 120.0);  // the stages of one command continue
   EXPECT_NEAR(left.estimate().value(), 20.0, 1e-9);
   left.note({"mesh", 0.1}, 121.0);
-  EXPECT_FALSE(left.estimate().has_value());  // nothing is known of it yet
+  EXPECT_FALSE(left.estimate().has_value());  // nothing is known about this stage yet
 }
 
 TEST(TimeLeft, SaysNothingBeforeItKnows) {
@@ -54,7 +54,7 @@ TEST(TimeLeft, SaysNothingBeforeItKnows) {
   EXPECT_FALSE(left.estimate().has_value());
 }
 
-/// Within a third after a fifth of any work above 20 s, and 2 s that shares in whole per cent and a busy machine take.
+/// After a fifth of any work longer than 20 s, the estimate is right within a third, plus 2 s for progress rounded to whole per cent and for a busy machine.
 TEST(TimeLeft, IsRightWithinAThirdOnRecordedRuns) {
   std::size_t n_runs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::corpus() / "progress")) {

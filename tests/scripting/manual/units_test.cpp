@@ -1,5 +1,5 @@
-// A number without a unit on the command line is in metres, degrees, kelvin, seconds or bytes, wherever it stands; the same number with that unit arrives as
-// the same value. Options are read off the program's own help and off its option tables, so that a new one is here by itself.
+// A number without a unit on the command line is in metres, degrees, kelvin, seconds or bytes in every option; the same number with that unit gives the same
+// value. The options come from the program's own help and its option tables, so that new options are included automatically.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -32,7 +32,7 @@ using testing::HasSubstr;
 
 constexpr double k_degree = std::numbers::pi / 180.0;
 
-/// An option of a command's help: "--alpha NUMBER[deg]   ...; 0 deg; -91.7 deg .. 91.7 deg".
+/// An option in the help of a command: "--alpha NUMBER[deg]   ...; 0 deg; -91.7 deg .. 91.7 deg".
 struct HelpedOption {
   std::string name, unit;
   double value = 0.0;  ///< within its range
@@ -58,7 +58,7 @@ std::vector<HelpedOption> options_with_units(const std::string& help) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::smatch match;
     if (!std::regex_search(all[i], match, option)) continue;
-    const bool goes_on = i + 1 < all.size() && all[i + 1].starts_with(std::string(20, ' '));  // long names have their text on the next line
+    const bool goes_on = i + 1 < all.size() && all[i + 1].starts_with(std::string(20, ' '));  // the help of long names is on the next line
     options.push_back({match[1], match[2], value_in_range(all[i] + (goes_on ? " " + all[i + 1] : ""))});
   }
   return options;
@@ -81,7 +81,7 @@ class Units : public testing::Test {
   const std::filesystem::path folder_ = test::scratch();
 };
 
-/// Commands with a table of options, each with an input that takes as many of them as can be.
+/// Commands with a table of options, each with an input that accepts as many of them as possible.
 const std::vector<std::vector<std::string>> k_commands = {
     {"mesh", "box.stl", "-o", "m.su2"},
     {"mesh", "m.step", "-o", "m.su2"},
@@ -108,7 +108,7 @@ TEST_F(Units, EveryOptionOfEveryCommandCountsInTheUnitOfItsHelp) {
     SCOPED_TRACE(command[0] + " " + command[1]);
     std::string& help = helps[command[0]];
     if (help.empty()) help = sterna({command[0], "--help"}).output;
-    // Options that this input does not take are refused by name; what is left must arrive.
+    // Options that this input does not accept are refused by name; all others must arrive.
     std::vector<std::string> bare = command, with_unit = command;
     std::map<std::string, double> wanted;
     const auto show = [&](std::vector<std::string> arguments) {
@@ -142,7 +142,7 @@ TEST_F(Units, EveryOptionOfEveryCommandCountsInTheUnitOfItsHelp) {
       for (const auto& [name, value] : entries.items()) {
         const auto found = wanted.find(name);
         if (found == wanted.end()) continue;
-        // time_limit of read_cad has the name of one of the tetrahedra, which is the one that the command line means.
+        // time_limit of read_cad has the same name as an option of the tetrahedra, and the command line means the latter.
         if (value != nlohmann::json(found->second) && arrived_elsewhere(stage, name)) continue;
         EXPECT_EQ(value, nlohmann::json(found->second)) << stage << "." << name;
         ++n;
@@ -156,10 +156,10 @@ TEST_F(Units, EveryOptionOfEveryCommandCountsInTheUnitOfItsHelp) {
   EXPECT_GT(n, 150u);
 }
 
-/// As many letters as the unit of the option has: "deg", "m", "K".
+/// Returns the unit in the syntax of the command line: "deg", "m", "K".
 std::string unit_text(Unit unit) { return unit == Unit::radian ? "deg" : unit == Unit::byte ? "" : std::string(to_string(unit)); }
 
-/// The option set from a number without and with its unit.
+/// Sets the option from a number without and with its unit, and expects the same value.
 std::size_t expect_same(const OptionTable& table) {
   std::size_t n = 0;
   for (const Option& option : table) {

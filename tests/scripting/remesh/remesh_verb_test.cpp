@@ -1,4 +1,4 @@
-// New triangles as a user asks for them: remesh{}, read_surface{ remesh }, `sterna remesh`, `sterna mesh --remesh`, and from the cache.
+// Remeshing as users call it: remesh{}, read_surface{ remesh }, `sterna remesh`, `sterna mesh --remesh`, and from the cache.
 #include <gmock/gmock.h>
 
 #include "scripting/terminal/exit_status.h"

@@ -1,5 +1,5 @@
-// A real mesh, damaged on purpose in one way at a time: the gate that should fail does, at the right place, in `sterna check --json` as in the page of `sterna
-// report`.
+// A real mesh, damaged on purpose in one way at a time. The corresponding gate must fail at the correct location, both in `sterna check --json` and on the page
+// of `sterna report`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Point middle_of(const HybridMesh& mesh, const Nodes& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-/// Half the length of a cell's longest edge and a bit: places are given by the middle of a cell, a face or a node of it.
+/// Returns 1.1 times the length of a cell's longest edge, a tolerance for locations: they are the centre of the cell, of one of its faces, or one of its nodes.
 template <class Nodes>
 double reach_of(const HybridMesh& mesh, const Nodes& nodes) {
   double reach = 0.0;
@@ -62,7 +62,7 @@ class DamagedMeshes : public testing::Test {
     mesh_ = *base();
   }
 
-  /// Checks the mesh and its page; both must name the gate at the place, the verdict as `is_valid` says.
+  /// Checks the mesh and its page; both must name the gate at the location, with the verdict given by `is_valid`.
   void expect_failure(const std::string& gate, const std::string& measure, const Point& place, double within, bool is_valid) {
     io::write_volume_file(mesh_, folder_ / "damaged.sterna", RunContext({.threads = 2}));
     const test::ProcessResult check = test::run_process(test::sterna_program(), {"--quiet", "check", "damaged.sterna", "--json"}, folder_);
@@ -129,7 +129,7 @@ TEST_F(DamagedMeshes, Hole) {
   expect_failure("G1", "unmatched_face", place, within, false);
 }
 
-/// The faces around a node of the curved wing that are said to lie in a symmetry plane.
+/// The faces around a node of the curved wing get the marker of a symmetry plane.
 TEST_F(DamagedMeshes, WrongMarker) {
   const BoundaryTriangle face = mesh_.boundary_triangles[mesh_.boundary_triangles.size() / 4];
   mesh_.patches.push_back({.name = "symmetry", .kind = PatchKind::symmetry});
@@ -149,7 +149,7 @@ TEST_F(DamagedMeshes, MarkerTwice) {
   expect_failure("G1", "duplicate_marker", middle_of(mesh_, face.nodes), reach_of(mesh_, face.nodes), false);
 }
 
-/// A node between two layers that nearly touches the next one: the prisms stay valid, their heights do not grow any more.
+/// A node between two layers that nearly touches the next node: the prisms stay valid, but their heights no longer grow.
 TEST_F(DamagedMeshes, PinchedLayer) {
   const auto& prism = mesh_.prisms[mesh_.prisms.size() / 2 + 1];
   const Point bottom = mesh_.points[prism[0]], top = mesh_.points[prism[3]];
@@ -159,13 +159,13 @@ TEST_F(DamagedMeshes, PinchedLayer) {
                        [&](const BoundaryTriangle& t) { return std::find(t.nodes.begin(), t.nodes.end(), node) != t.nodes.end(); });
   };
   const bool is_first = is_of_boundary(prism[0]);
-  constexpr double k_left = 0.1;  // of the layer's height
+  constexpr double k_left = 0.1;  // of the layer height
   if (is_first) mesh_.points[prism[3]] = bottom + k_left * (top - bottom);
   else mesh_.points[prism[0]] = top + k_left * (bottom - top);
   expect_failure("G8", "stack_growth", is_first ? top : bottom, within, true);
 }
 
-/// The apex of a tetrahedron pressed down on its base until the angles there are below a degree, where all cells around it stay valid.
+/// The apex of a tetrahedron is moved towards its base until the angles there are below a degree; all cells around the apex stay valid.
 TEST_F(DamagedMeshes, Sliver) {
   std::vector<std::vector<std::uint32_t>> around(mesh_.points.size());
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)

@@ -1,4 +1,4 @@
-// What a report page was filled with.
+// Data embedded in a report page.
 #pragma once
 
 #include <gtest/gtest.h>

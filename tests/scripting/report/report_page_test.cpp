@@ -22,8 +22,8 @@ TEST(ReportPage, HoldsEachMarkerOnceAndAsksForNothing) {
   EXPECT_TRUE(page.ends_with("</html>\n"));
   EXPECT_EQ(count_of(page, "<!--STERNA_JSON-->"), 1);
   EXPECT_EQ(count_of(page, "<!--STERNA_BLOB-->"), 1);
-  EXPECT_EQ(count_of(page, "default-src 'none'"), 1);  // whatever its scripts are, the browser fetches nothing for them
-  EXPECT_LT(page.size(), 2'500'000u);                  // every report carries it
+  EXPECT_EQ(count_of(page, "default-src 'none'"), 1);  // the browser loads nothing, whatever the scripts of the page contain
+  EXPECT_LT(page.size(), 2'500'000u);                  // every report contains this page
   EXPECT_GE(count_of(page, "MIT"), 2);                 // licences of three.js and Chart.js
 }
 

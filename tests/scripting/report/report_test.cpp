@@ -1,4 +1,4 @@
-// report{} through scripts: what the page holds, its size, the same bytes, and what is refused.
+// report{} in scripts: content and size of the page, identical bytes, refused input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST_F(Report, HoldsTheMeshItsGatesPlacesAndHistograms) {
 TEST_F(Report, WithoutTimesTheSameBytesForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7})
     run(mesh_script() + "report{ mesh, " + out("box" + std::to_string(threads) + ".html") + ", title = 'box', times = false }", {}, threads);
-  // The manifest names the page's file.
+  // The manifest contains the file name of the page.
   const auto without_name = [&](int threads) {
     std::string text = text_of("box" + std::to_string(threads) + ".html");
     const std::string name = "\"output\":\"box" + std::to_string(threads) + "\"";
@@ -160,7 +160,7 @@ TEST(ThinSurface, KeepsTheShapeWithFewerTriangles) {
     EXPECT_LT(thin.source[t], triangles.size());
     area += 0.5 * norm(cross(p(1) - p(0), p(2) - p(0)));
   }
-  EXPECT_NEAR(area, 4.0 * 3.14159265, 0.1 * 4.0 * 3.14159265);  // the shape of a sphere, with coarser facets
+  EXPECT_NEAR(area, 4.0 * 3.14159265, 0.1 * 4.0 * 3.14159265);  // the area of a sphere, with coarser facets
 }
 
 }  // namespace

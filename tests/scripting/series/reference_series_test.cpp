@@ -1,4 +1,5 @@
-// A series with a reference: a wing that bends keeps the reference's triangles and starts its envelope from there; the same bytes however the series is run.
+// A series with a reference case: a wing that bends keeps the reference's triangles and starts its envelope from the reference. The bytes are the same however
+// the series is run.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The wing of tests/data/shared bent upwards by `bend` metres in 5 m of span; placed in a tunnel-less farfield, at an angle of attack or as it was read.
+/// The wing of tests/data/shared, bent upwards by `bend` metres over 5 m of span; in a farfield without tunnel, at an angle of attack or as read.
 std::string bend_series(const std::string& cases, const std::string& options, const std::string& surface_options = "") {
   return "local model = read_cad \"" + (test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep").string() + "\"\n" +
          "series{ \"bend\", over = " + cases + ", reference = { bend = 0, alpha = 0 }, " + options + R"lua( case = function(p)
@@ -29,7 +30,7 @@ end }
 )lua";
 }
 
-/// { {bend = 0, alpha = 0}, ... } in this order, with equal names in any order.
+/// Returns { {bend = 0, alpha = 0}, ... } in this order; the case names do not depend on the order.
 std::string cases(const std::vector<std::pair<double, double>>& list, const std::string& more = "") {
   std::ostringstream text;
   text << "{ ";
@@ -38,7 +39,7 @@ std::string cases(const std::vector<std::pair<double, double>>& list, const std:
   return text.str() + "}";
 }
 
-/// The lines of an .off file that are triangles: what is behind its points.
+/// Returns the triangle lines of an .off file, which follow its points.
 std::string triangles_of(const std::string& off) {
   std::istringstream lines(off);
   std::string line, triangles;
@@ -61,13 +62,13 @@ TEST_F(ReferenceSeries, BentCasesKeepTrianglesAndStartTheirEnvelopeFromThere) {
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"), HasSubstr("bend=0_alpha=0/reference.kept"));  // an input
   const std::string triangles = triangles_of(wall("bend=0_alpha=0"));
   EXPECT_GT(triangles.size(), 1000u);
-  for (const std::string& name : {std::string("bend=0.1_alpha=0"), std::string("bend=0.1_alpha=3")}) {  // in its place, and moved
+  for (const std::string& name : {std::string("bend=0.1_alpha=0"), std::string("bend=0.1_alpha=3")}) {  // at the original position, and moved
     EXPECT_EQ(triangles_of(wall(name)), triangles) << name;
     EXPECT_NE(wall(name), wall("bend=0_alpha=0")) << name;
     EXPECT_THAT(reused(name), AllOf(HasSubstr(": topology of bend=0_alpha=0"), HasSubstr(": started from bend=0_alpha=0"))) << name;
     EXPECT_THAT(text_of("bend/" + name + "/status.json"), HasSubstr("VALID"));
   }
-  EXPECT_THAT(reused("bend=0_alpha=3"), Not(HasSubstr("bend=0_alpha=0")));  // moved as it is: what it always was
+  EXPECT_THAT(reused("bend=0_alpha=3"), Not(HasSubstr("bend=0_alpha=0")));  // the reference's shape, only moved: reused as in any series
   EXPECT_THAT(result.output, HasSubstr("topology of bend=0_alpha=0"));      // in the table
   EXPECT_THAT(text_of("bend/series.json"), Not(HasSubstr("INVALID")));
 }
@@ -78,11 +79,11 @@ TEST_F(ReferenceSeries, GivesTheSameBytesHoweverItIsRun) {
   const auto plain = results_only(snapshot(folder_ / "bend"));
   const std::string other_way_round = bend_series(cases({{0.3, 3}, {0.1, 3}, {0.1, 0}, {0, 0}}), "");
   const std::filesystem::path cached = folder_ / "cached";
-  run(other_way_round, {"--tasks", "1", "--threads", "1"}, cached);  // cold
+  run(other_way_round, {"--tasks", "1", "--threads", "1"}, cached);  // cold cache
   EXPECT_EQ(difference(plain, results_only(snapshot(cached / "bend"))), "");
   const std::string told_cold = contents(cached / "bend/bend=0.1_alpha=3/log.txt");
   std::filesystem::remove_all(cached / "bend");
-  run(other_way_round, {"--tasks", "2", "--threads", "7"}, cached);  // warm
+  run(other_way_round, {"--tasks", "2", "--threads", "7"}, cached);  // warm cache
   EXPECT_EQ(difference(plain, results_only(snapshot(cached / "bend"))), "");
   for (const std::string& text : {told_cold, contents(cached / "bend/bend=0.1_alpha=3/measure.json")})
     EXPECT_THAT(text, HasSubstr(": topology of bend=0_alpha=0"));
@@ -109,12 +110,12 @@ TEST_F(ReferenceSeries, ADamagedReferenceFileIsAnErrorOfTheCasesThatNeedIt) {
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"),
               AllOf(HasSubstr("\"failed\""), HasSubstr("reference.kept is damaged: its content does not have the hash"), HasSubstr("bend=0_alpha=0")));
   const test::ProcessResult healed =
-      run(script, {"--threads", "2"});  // the reference is not what it recorded any more: it is made again, and all that starts from it
+      run(script, {"--threads", "2"});  // the reference no longer equals its record, so the reference and all cases that start from it are made again
   EXPECT_EQ(healed.status, 0) << healed.errors;
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"), HasSubstr("\"done\""));
 }
 
-/// A wing in two bends: as it is, with fans along its sharp edges, and with a sheet behind its trailing edge.
+/// A wing in two bends: plain, with multi-normal fans along its sharp edges, and with a wake sheet behind its trailing edge.
 constexpr const char* k_kinds_series = R"lua(
 local model = aircraft{ wing{ name = "wing", symmetric = true, trailing_edge = 0, sections = {
   { y = 0, chord = 1, airfoil = "naca0012" }, { y = 1, chord = 0.8 } } } }
@@ -140,10 +141,10 @@ TEST_F(ReferenceSeries, FansAndSheetsAreMadeAnewOnTheBentWingAndResumed) {
       EXPECT_GT(contents(at_once / "kinds" / name / "mesh.su2").size(), 100'000u) << name;
     }
   EXPECT_THAT(contents(at_once / "kinds/bend=0.03_kind=plain/measure.json"), HasSubstr(": started from bend=0_kind=plain"));
-  for (const char* kind : {"fans", "wakes"})  // another wall than the reference's
+  for (const char* kind : {"fans", "wakes"})  // a wall other than the reference's
     EXPECT_THAT(contents(at_once / ("kinds/bend=0.03_kind=" + std::string(kind) + "/measure.json")),
                 AllOf(HasSubstr(": topology of bend=0_kind=plain"), HasSubstr("made from scratch")));
-  run(k_kinds_series, {"--tasks", "1"}, stopped, 1.5);  // s; where that is too late nothing is left to do
+  run(k_kinds_series, {"--tasks", "1"}, stopped, 1.5);  // s; if the series is finished by then, nothing is left to do
   ASSERT_EQ(run(k_kinds_series, {"--tasks", "2", "--threads", "2"}, stopped).status, 0);
   EXPECT_EQ(difference(all, results_only(snapshot(stopped / "kinds"))), "");
 }

@@ -1,4 +1,4 @@
-// Series in a folder of their own, run by the program as its users would.
+// Series in a separate folder, run by the program as a user would.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ inline std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// All files of a series by name with their contents, but for what holds times: measure.json, log.txt, series.csv and the entry "measure" of series.json.
+/// Returns all files of a series by name with their contents, without those that hold times: measure.json, log.txt, series.csv and the entry "measure" of
+/// series.json.
 inline std::map<std::string, std::string> snapshot(const std::filesystem::path& series) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(series)) {
@@ -35,7 +36,7 @@ inline std::map<std::string, std::string> snapshot(const std::filesystem::path& 
   return files;
 }
 
-/// Without what holds the script, its key, or the number of a case: meshes, manifests, quality.
+/// Removes the files that hold the script, its key, or the number of a case; meshes, manifests and quality remain.
 inline std::map<std::string, std::string> results_only(std::map<std::string, std::string> files) {
   std::erase_if(files, [](const auto& file) {
     return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json") ||
@@ -44,7 +45,7 @@ inline std::map<std::string, std::string> results_only(std::map<std::string, std
   return files;
 }
 
-/// Names of the files that differ or are in one of them only; empty when they are the same.
+/// Returns the names of files that differ or exist in one of the two sets only; empty if the sets are equal.
 inline std::string difference(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
   std::string text;
   for (const auto& [name, content] : a)

@@ -43,7 +43,7 @@ class Series : public SeriesFixture {
     std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl");
     std::ofstream(folder / "sizes.lua") << "return { radius = 20 }";
   }
-  /// Cases that ran, as the log tells.
+  /// Number of cases that ran, according to the log.
   static std::size_t n_run(const test::ProcessResult& result) {
     std::size_t n = 0;
     for (std::size_t at = 0; (at = result.errors.find("small ", at)) != std::string::npos; ++at) ++n;
@@ -75,7 +75,7 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
   EXPECT_THAT(text_of("small/series.csv"), HasSubstr("\nheight=0.01_layers=2,0.01,2,done,VALID,"));
 }
 
-/// More than one gate FAILs, the worse one behind the other in the order of gates.
+/// Several gates FAIL, and the worst is not the first in the order of gates.
 TEST_F(Series, TheWorstValueOfTheTableIsTheOneThatTheLogNamesFirst) {
   run(R"(local wall = surface_mesh{ aircraft{ wing{ name = "wing", symmetric = true, trailing_edge = 0, sections = {
   { y = 0, chord = 1, airfoil = "naca0012" }, { y = 2, chord = 0.5, sweep = 20*deg } } } }, max_edge = 0.3 }
@@ -83,7 +83,7 @@ series{ "small", over = { height = { 1e-3 } },
   case = function(p) volume_mesh{ wall, layers = 12, first_height = p.height, farfield = sphere{ radius = 20 } }:write "mesh.su2" end })");
   const auto mesh = nlohmann::json::parse(text_of("small/height=0.001/status.json"))["mesh"];
   const std::string worst = mesh["worst"], log = text_of("small/height=0.001/log.txt");
-  // Which gates FAIL depends on the triangles of the tip; two of them are needed, or nothing is to be chosen.
+  // Which gates FAIL depends on the triangles of the tip; the test needs at least two of them.
   const std::string quality = mesh["quality"], failed = quality.substr(0, quality.find(';'));
   EXPECT_THAT(failed, testing::MatchesRegex("FAIL: [A-Z0-9]+ [A-Z0-9 ]+"));
   const std::size_t blank = worst.find(' '), line = log.find("  worst  ");
@@ -94,7 +94,7 @@ series{ "small", over = { height = { 1e-3 } },
   EXPECT_THAT(first, testing::Not(HasSubstr(first_gate + " FAIL"))) << "the worst value is that of a later gate";
 }
 
-/// A table of all cases, also of those that failed, with what each wrote: pictures in it, pages linked.
+/// The page has a table of all cases, including failed ones, with the results of each: embedded pictures, linked pages.
 TEST_F(Series, EndsWithAPageThatComparesItsCases) {
   STERNA_NEEDS(!report_page().empty(), "the report page (npm or its registry, when this was built)");
   run(k_small);
@@ -126,7 +126,7 @@ TEST_F(Series, WhatIsDoneIsTakenAsItIs) {
   EXPECT_EQ(n_run(again), 0u) << again.errors;
   EXPECT_EQ(difference(first, snapshot(folder_ / "small")), "");
 
-  // An output that was changed or lost is made again, a foreign file stays.
+  // An output that was changed or lost is made again; a foreign file stays.
   std::ofstream(folder_ / "small/height=0.01_layers=2/mesh.su2") << "damaged";
   std::filesystem::remove(folder_ / "small/height=0.01_layers=3/mesh.su2.json");
   std::ofstream(folder_ / "small/height=0.01_layers=3/notes.txt") << "mine";
@@ -134,7 +134,7 @@ TEST_F(Series, WhatIsDoneIsTakenAsItIs) {
   EXPECT_EQ(text_of("small/height=0.01_layers=3/notes.txt"), "mine");
   std::filesystem::remove(folder_ / "small/height=0.01_layers=3/notes.txt");
   auto second = snapshot(folder_ / "small");
-  second.erase("height=0.01_layers=3/status.json");  // knows of the foreign file
+  second.erase("height=0.01_layers=3/status.json");  // lists the foreign file
   auto expected = first;
   expected.erase("height=0.01_layers=3/status.json");
   EXPECT_EQ(difference(expected, second), "");
@@ -151,7 +151,7 @@ TEST_F(Series, WhatItWasMadeOfDecidesWhetherACaseRunsAgain) {
   std::ofstream(folder_ / "box.stl", std::ios::app) << "\n";
   EXPECT_EQ(n_run(run(k_small)), 4u);
   const std::string retry = std::string(k_small).replace(std::string(k_small).find("over ="), 0, "retry = true, ");
-  EXPECT_EQ(n_run(run(retry)), 1u);  // the failed one: retry is no part of the key
+  EXPECT_EQ(n_run(run(retry)), 1u);  // the failed case: retry is not part of the key
   EXPECT_EQ(n_run(run(k_small)), 0u);
 }
 
@@ -215,7 +215,7 @@ end }
   const test::ProcessResult good = run(with("0"));
   EXPECT_EQ(good.status, 0) << good.errors;
   EXPECT_LT(good.errors.find("x=3"), good.errors.find("x=1"));
-  EXPECT_THAT(text_of("s/x=1/status.json"), HasSubstr("s/x=3/status.json"));  // an input of the others
+  EXPECT_THAT(text_of("s/x=1/status.json"), HasSubstr("s/x=3/status.json"));  // an input of the other cases
   const test::ProcessResult bad = run(with("3"));
   EXPECT_EQ(bad.status, 1);
   EXPECT_THAT(bad.errors, HasSubstr("x=1: failed: the reference case x=3 gave no result"));
@@ -254,7 +254,7 @@ series{ "small", over = { x = {1, 2, 3} }, run = jobs{ 2, threads = 1 }, case = 
 end }
 )lua";
 
-/// Waits until so many workers run.
+/// Waits until `n` workers run.
 std::vector<pid_t> wait_for_workers(pid_t main, std::size_t n) {
   for (;;) {
     const std::vector<pid_t> workers = test::children_of(main);
@@ -263,7 +263,7 @@ std::vector<pid_t> wait_for_workers(pid_t main, std::size_t n) {
   }
 }
 
-/// Not dead, nor a zombie that nobody has reaped.
+/// Returns true if the process is neither dead nor a zombie.
 bool is_running(pid_t process) {
   const std::string stat = contents("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name_end = stat.rfind(')');
@@ -288,7 +288,7 @@ TEST_F(Series, CtrlCStopsTheWorkersAndKeepsWhatIsDone) {
   const auto start = std::chrono::steady_clock::now();
   main.signal(SIGINT);
   EXPECT_EQ(main.wait(), 130);
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.5);  // 1 s, and a loaded machine
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.5);  // 1 s, plus the delay of a loaded machine
   for (const pid_t worker : workers) EXPECT_FALSE(is_running(worker));
   EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("\"killed\": \"stopped on request\""));
   EXPECT_THAT(text_of("small/x=1/status.json"), HasSubstr("done"));
@@ -310,7 +310,7 @@ end }
   EXPECT_EQ(main.wait(), 1);
   EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("signal 9 (Killed)"));
   EXPECT_THAT(text_of("small/x=3/status.json"), HasSubstr("done"));
-  std::filesystem::copy(folder_ / "box.stl", folder_ / "go.stl");  // nothing but case 2 and the others that would read it
+  std::filesystem::copy(folder_ / "box.stl", folder_ / "go.stl");  // affects only case 2 and the other cases that would read the file
   const test::ProcessResult again = run(script);
   EXPECT_EQ(again.status, 0) << again.errors;
   EXPECT_EQ(n_run(again), 1u) << again.errors;
@@ -322,7 +322,7 @@ TEST_F(Series, WorkersEndWithTheirMainAndTheLockWithThem) {
   ASSERT_TRUE(wait_for(folder_ / "small/x=3/status.json", "running"));
   const std::vector<pid_t> workers = test::children_of(main.pid());
 
-  // While it runs, another run of it is refused; at once, saying why.
+  // While the series runs, a second run of it is refused at once, with the reason.
   const test::ProcessResult second = run(k_endless);
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.errors, HasSubstr("another run is at work in it: process " + std::to_string(main.pid()) + " on "));
@@ -357,7 +357,7 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
   EXPECT_THAT(run("slurm{ options = { mem = print } }").errors, HasSubstr("options.mem: expected a text, a number or true, not a function"));
 }
 
-/// The program may be replaced while a series runs: what the new one has done does not count as this one's failure.
+/// The program may be replaced while a series runs: the result of a worker from another build must not count as a failure of this build.
 TEST(CaseRunners, AWorkerOfAnotherBuildIsToldAsSuch) {
   const std::filesystem::path folder = test::scratch();
   const RunContext context;
@@ -366,7 +366,7 @@ TEST(CaseRunners, AWorkerOfAnotherBuildIsToldAsSuch) {
   std::filesystem::create_directories(task.folder);
   write_status({.state = CaseState::done, .key = "of last week", .result = "null"}, task.folder);
   prepare(task, context);
-  EXPECT_EQ(settle(task, otherwise, context).message, "the worker ended without a word");  // what is left of last week says nothing
+  EXPECT_EQ(settle(task, otherwise, context).message, "the worker ended without a word");  // a status left from an earlier run is ignored
   prepare(task, context);
   write_status({.state = CaseState::done, .key = "theirs", .result = "null"}, task.folder);
   const CaseStatus status = settle(task, otherwise, context);

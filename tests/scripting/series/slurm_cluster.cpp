@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds k_patience{60};  ///< a loaded machine; it takes 4 s alone
+constexpr std::chrono::seconds k_patience{60};  ///< time limit for a loaded machine; 4 s otherwise
 
 fs::path program(const std::string& name) {
   for (const char* folder : {"/usr/sbin", "/usr/bin"})
@@ -52,7 +52,7 @@ fs::path temporary_folder() {
   return name;
 }
 
-/// Folders in /proc of whatever was started with this cluster's file of settings.
+/// Returns the folders in /proc of all processes started with the configuration file of this cluster.
 std::vector<fs::path> processes_of(const fs::path& conf) {
   const std::string setting = "SLURM_CONF=" + conf.string();
   std::vector<fs::path> found;
@@ -65,19 +65,19 @@ std::vector<fs::path> processes_of(const fs::path& conf) {
   return found;
 }
 
-/// Jobs that outlive their node.
+/// Kills jobs that outlive their node.
 void kill_jobs(const fs::path& conf) {
   for (const fs::path& process : processes_of(conf)) kill(std::stoi(process.filename()), SIGKILL);
 }
 
-/// The last lines of a log.
+/// Returns the last lines of a log.
 std::string tail(const fs::path& path) {
   constexpr std::size_t k_letters = 4000;
   const std::string all = contents(path);
   return "---- " + path.filename().string() + "\n" + (all.size() > k_letters ? all.substr(all.size() - k_letters) : all);
 }
 
-/// Ends a daemon: asks first.
+/// Sends SIGTERM to a daemon and waits for its end, at most 10 s.
 void end(StartedProcess& process) {
   process.signal(SIGTERM);
   for (const auto begin = Clock::now(); !process.has_ended() && Clock::now() - begin < std::chrono::seconds(10);)
@@ -118,7 +118,7 @@ std::string SlurmCluster::set_node(const std::string& state) const {
 }
 
 void SlurmCluster::take_node_down() const {
-  // A controller that has just come back may not know the node yet.
+  // A controller that has just restarted may not have registered the node yet.
   std::string errors;
   for (const auto begin = Clock::now(); !(errors = set_node("down")).empty();) {
     if (Clock::now() - begin > k_patience) throw std::runtime_error("scontrol: " + errors);
@@ -127,13 +127,13 @@ void SlurmCluster::take_node_down() const {
 }
 
 void SlurmCluster::bring_node_back() const {
-  // One that is back by itself, because its daemon has spoken to the controller (ReturnToService), is no state to resume from.
+  // If the node is already back, because its daemon has contacted the controller (ReturnToService), scontrol refuses to resume it.
   const std::string errors = set_node("resume");
   if (!errors.empty() && errors.find("Invalid node state") == std::string::npos) throw std::runtime_error("scontrol: " + errors);
 }
 
 void SlurmCluster::kill_controller() {
-  constexpr std::chrono::seconds k_saved{7};  // it saves its state every five seconds; what it does not know of by then it starts once more
+  constexpr std::chrono::seconds k_saved{7};  // the controller saves its state every five seconds and restarts jobs that are not in the saved state
   std::this_thread::sleep_for(k_saved);
   controller_->signal(SIGKILL);
   controller_->wait();
@@ -172,7 +172,7 @@ std::string SlurmCluster::account() const {
 }
 
 void SlurmCluster::start_munge() {
-  if (run("munge", {"-n"}, folder_).status == 0) return;  // the machine has one
+  if (run("munge", {"-n"}, folder_).status == 0) return;  // the machine already runs one
   const passwd* user = getpwnam("munge");
   if (!user) throw std::runtime_error("there is no user munge");
   for (const char* path : {"/run/munge", "/var/log/munge", "/var/lib/munge", "/etc/munge"}) own_folder(path, *user);
@@ -190,7 +190,7 @@ void SlurmCluster::start_munge() {
 
 void SlurmCluster::write_conf() {
   const std::string host = host_name(), f = folder_.string();
-  const int port = 20000 + 2 * (getpid() % 10000);  // another Slurm of this machine has the usual ones
+  const int port = 20000 + 2 * (getpid() % 10000);  // another Slurm on this machine uses the standard ports
   fs::create_directories(folder_ / "ctld");
   fs::create_directories(folder_ / "d");
   std::ofstream(folder_ / "slurm.conf") << "ClusterName=test\nSlurmctldHost=" << host << "(127.0.0.1)\nSlurmctldPort=" << port << "\nSlurmdPort=" << port + 1
@@ -218,10 +218,10 @@ void SlurmCluster::stop() noexcept {
   if (munge_) end(*munge_);
   try {
     kill_jobs(conf());
-  } catch (...) {  // of a machine without memory, say: there is nothing more to do
+  } catch (...) {  // for example out of memory: nothing more can be done
   }
   unsetenv("SLURM_CONF");
-  std::error_code ignored;  // what stays in /tmp does no harm
+  std::error_code ignored;  // files left in /tmp do no harm
   fs::remove_all(folder_, ignored);
 }
 

@@ -1,4 +1,4 @@
-// A real Slurm on this machine for as long as a test needs it: controller and one node on 127.0.0.1, without systemd, as root.
+// Starts a real Slurm on this machine for the duration of a test: controller and one node on 127.0.0.1, without systemd, as root.
 #pragma once
 
 #include <filesystem>
@@ -9,28 +9,28 @@
 
 namespace sterna::test {
 
-/// Sets SLURM_CONF for this process and all that it starts. All daemons end with the object.
+/// Sets SLURM_CONF for this process and all processes that it starts. All daemons end with the object.
 class SlurmCluster {
  public:
-  /// Whether all is installed and this is root.
+  /// Returns true if all programs are installed and the user is root.
   static bool is_possible();
-  /// \throws std::runtime_error with the daemons' words when it does not come up
+  /// \throws std::runtime_error with the output of the daemons if the cluster does not start
   SlurmCluster();
   ~SlurmCluster();
   SlurmCluster(const SlurmCluster&) = delete;
   SlurmCluster& operator=(const SlurmCluster&) = delete;
 
-  /// What squeue says of all jobs; empty once there is none.
+  /// Returns the output of squeue for all jobs; empty if there is none.
   std::string queue() const;
-  /// What jobs of cases that still run are doing (state, system call, threads of each); empty where none runs, whatever the queue says.
+  /// Returns state, system call and threads of each job that still runs a case; empty if no job runs, independent of the queue.
   std::string running_cases() const;
-  /// For a message: what the daemons know and have written.
+  /// Returns state and logs of the daemons, for a message.
   std::string account() const;
   std::filesystem::path conf() const { return folder_ / "slurm.conf"; }
-  /// The node fails: what runs there is lost, and nothing starts until it is back. \throws std::runtime_error where scontrol refuses for a minute
+  /// Takes the node down: its jobs are lost, and nothing starts until the node is back. \throws std::runtime_error if scontrol refuses for a minute
   void take_node_down() const;
   void bring_node_back() const;
-  /// The controller is killed, and comes back with what it has saved.
+  /// Kills the controller and restarts it from its saved state.
   void kill_controller();
   void restart_controller();
 
@@ -38,11 +38,11 @@ class SlurmCluster {
   void start_munge();
   void write_conf();
   void start_controller();
-  std::string set_node(const std::string& state) const;  ///< what scontrol says against it
+  std::string set_node(const std::string& state) const;  ///< error output of scontrol
   void wait_until_idle();
   void stop() noexcept;
 
-  std::filesystem::path folder_;  ///< in /tmp: it holds sockets, whose names may have 107 letters
+  std::filesystem::path folder_;  ///< in /tmp: the folder holds sockets, whose names may have 107 characters
   std::unique_ptr<StartedProcess> munge_, controller_, node_;
 };
 

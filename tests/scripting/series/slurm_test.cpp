@@ -30,13 +30,13 @@ class SlurmSeries : public SeriesFixture {
     }
     return false;
   }
-  /// The last part of the folder's name that a script of jobs has for its first case.
+  /// Returns the last part of the folder name of the first case in a job script.
   std::string first_folder_of(const std::string& script) const {
     const std::string text = text_of(script), before = "folder='";
     const std::size_t begin = text.find(before) + before.size();
     return std::filesystem::path(text.substr(begin, text.find('\'', begin) - begin)).filename();
   }
-  /// Meshes, manifests and quality of all cases, and the table.
+  /// Returns meshes, manifests and quality of all cases, and the table.
   std::map<std::string, std::string> results() const {
     auto files = snapshot(folder_ / "polar");
     std::erase_if(files, [](const auto& file) {
@@ -46,13 +46,13 @@ class SlurmSeries : public SeriesFixture {
   }
 };
 
-// One test, because Slurm takes seconds to come up.
+// A single test, because Slurm takes seconds to start.
 TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
   STERNA_NEEDS_SHARED_DATA();
   STERNA_NEEDS(test::SlurmCluster::is_possible(), "slurm-wlm with munge, or the right to start it,");
   test::SlurmCluster cluster;
 
-  // The whole series: the same bytes as in a pool.
+  // The whole series: the same bytes as with a local pool of workers.
   const test::ProcessResult jobs =
       run(tunnel_series("run = slurm{ partition = 'cfd', tasks = 2, time = '00:20:00', options = { comment = 'a test', nice = 10 } },"));
   EXPECT_EQ(jobs.status, 1) << jobs.errors;
@@ -60,7 +60,7 @@ TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
   EXPECT_THAT(text_of("polar/slurm/array-1.sh"), HasSubstr("#SBATCH --array=1-14%2\n"));
   const auto of_slurm = results();
 
-  // A controller that has lost some seconds starts a job that is over once more: it leaves the case alone.
+  // A controller that has lost some seconds restarts a job that has already finished; the job leaves the case unchanged.
   const std::string log = "polar/" + first_folder_of("polar/slurm/array-1.sh") + "/log.txt", said = text_of(log);
   test::run_process("/usr/bin/env", {"SLURM_ARRAY_TASK_ID=1", "/bin/sh", "polar/slurm/array-1.sh"}, folder_);
   EXPECT_EQ(difference(of_slurm, results()), "");
@@ -71,7 +71,7 @@ TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
   run(tunnel_series("run = jobs{ 2, threads = 1 },"));
   EXPECT_EQ(difference(of_slurm, results()), "");
 
-  // A job that is killed is reported; the others go on, and a second run makes only what is missing.
+  // A killed job is reported; the other jobs continue, and a second run makes only the missing cases.
   const std::string script = R"lua(
 series{ "s", over = { x = {1, 2, 3} }, run = slurm{ tasks = 2 }, case = function(p)
   local wall = p.x == 2 and pcall(read_surface, "go.stl")
@@ -90,7 +90,7 @@ end }
   }
   wait_for_empty_queue(cluster);
 
-  // A node that fails takes its jobs with it; a controller that is away is told, and waited for.
+  // A failing node loses its jobs; the absence of the controller is reported, and the run waits for it.
   {
     std::filesystem::remove(folder_ / "s/x=2/status.json");
     test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
@@ -102,16 +102,16 @@ end }
     EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("running"));
     cluster.take_node_down();
     EXPECT_EQ(main.wait(), 1);
-    // Slurm may still get to ask the job to end, which then says so itself.
+    // Slurm may still send the job a signal to end; the job then reports this itself.
     EXPECT_THAT(text_of("s/x=2/status.json"),
                 AllOf(HasSubstr("\"status\": \"killed\""), AnyOf(HasSubstr("is gone from the queue"), HasSubstr("stopped on request"))));
     cluster.bring_node_back();
   }
   wait_for_empty_queue(cluster);
 
-  // Ctrl-C takes the jobs out of the queue. A main process that is killed leaves them there: the next run does it.
+  // Ctrl-C removes the jobs from the queue. A killed main process leaves them there, and the next run removes them.
   for (const int signal : {SIGINT, SIGKILL}) {
-    std::filesystem::remove(folder_ / "s/x=2/status.json");  // the one of before says "running", too
+    std::filesystem::remove(folder_ / "s/x=2/status.json");  // the previous one also contains "running"
     test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
     ASSERT_TRUE(wait_for("s/x=2/status.json", "running"));
     const auto begin = std::chrono::steady_clock::now();
@@ -121,7 +121,8 @@ end }
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2.0);
     wait_for_empty_queue(cluster);
   }
-  std::this_thread::sleep_for(std::chrono::seconds(3));  // "running" is said before the case looks for this file: on a busy machine it would find it
+  std::this_thread::sleep_for(std::chrono::seconds(3));  // "running" is reported before the case checks for this file; on a busy machine the case would
+                                                         // otherwise find the file
   std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "go.stl");
   const test::ProcessResult last = run(script);
   EXPECT_EQ(last.status, 0) << last.errors;

@@ -1,4 +1,4 @@
-// A wind-tunnel series of 14 cases with a wing from tests/data/shared, two of which fail on purpose: one outside of the tunnel, one with a wrong option.
+// A wind-tunnel series of 14 cases with a wing from tests/data/shared, two of which fail on purpose: one outside the tunnel, one with a wrong option.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace sterna::scripting {
 
 inline constexpr int k_tunnel_cases = 14, k_tunnel_failures = 2;
 
-/// \param options of series{}: "cache = false, run = jobs{ 1 }, "
+/// \param options options of series{}: "cache = false, run = jobs{ 1 }, "
 inline std::string tunnel_series(const std::string& options = {}, bool is_reversed = false) {
   return "local model = read_cad \"" + (test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep").string() + "\"\n" + R"lua(
 local tunnel = test_section{ length = 8, width = 5, height = 4, upstream = 3, max_edge = 2, walls = "slip", inflow = "inlet", outflow = "outlet" }

@@ -1,4 +1,5 @@
-// The wind-tunnel series: killed at random moments and resumed, with 1 and 2 tasks, in another order, with every mode of the cache: the same bytes.
+// The wind-tunnel series writes the same bytes when killed at random moments and resumed, with 1 and 2 tasks, in another order, and with every mode of the
+// cache.
 #include "tests/scripting/series/tunnel_series.h"
 
 #include <gmock/gmock.h>
@@ -30,16 +31,16 @@ TEST_F(TunnelSeries, GivesTheSameBytesHoweverItIsRun) {
   EXPECT_THAT(plain.at("alpha=4_beta=0_layers=4_rise=3/status.json"), HasSubstr("\"failed\""));
   EXPECT_THAT(plain.at("alpha=4_beta=0_layers=-4_rise=0/status.json"), HasSubstr("layers"));
 
-  // One task, the cases the other way round, a cache that is cold.
+  // One task, cases in reverse order, cold cache.
   run(tunnel_series("", true), {"--tasks", "1", "--threads", "2"}, cached);
   EXPECT_EQ(difference(results_only(plain), results_only(snapshot(cached / "polar"))), "");
-  // And with what the cache has by now.
+  // The same with the cache filled by that run.
   std::filesystem::remove_all(cached / "polar");
   run(tunnel_series("", true), {"--tasks", "2", "--threads", "2"}, cached);
   EXPECT_EQ(difference(results_only(plain), results_only(snapshot(cached / "polar"))), "");
 }
 
-/// Kills main or a worker at random moments until the series has come to its end by itself.
+/// Kills the main process or a worker at random moments until the series finishes by itself.
 int run_with_kills(std::mt19937& random, const std::filesystem::path& folder) {
   int n_kills = 0;
   for (int attempt = 0; attempt < 6; ++attempt) {

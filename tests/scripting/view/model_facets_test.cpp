@@ -1,4 +1,4 @@
-// Triangles of models for pictures: near the surface, outside out, without gaps, the same whatever the threads.
+// Triangles of models for pictures: near the surface, oriented outwards, without gaps, independent of the number of threads.
 #include "surfmesh/model/model_facets.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using surfmesh::ModelFacets;
 
 struct FacetMeasures {
   double area = 0.0, volume = 0.0;
-  std::size_t n_open = 0;  ///< edges (by their places) with other than two triangles
+  std::size_t n_open = 0;  ///< edges (identified by their coordinates) with a number of triangles other than two
 };
 
 FacetMeasures measures_of(const ModelFacets& facets) {
@@ -65,7 +65,7 @@ TEST(ModelFacets, OfACylinderAreNearIt) {
     least = std::min(least, curvature);
   }
   EXPECT_NEAR(largest, 2.0, 1e-9);  // 1 / radius
-  EXPECT_NEAR(least, 0.0, 1e-9);    // its ends
+  EXPECT_NEAR(least, 0.0, 1e-9);    // at its ends
 }
 
 TEST(ModelFacets, OfACpacsAircraftHaveItsArea) {

@@ -1,4 +1,4 @@
-// The doors of the workbench: what may come in, and that nothing else does.
+// Access control of the workbench server: valid requests are answered, all others are refused.
 #include "scripting/view/page_server.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class PageServerTest : public testing::Test {
   const std::string secret_ = test::parts_of(server_.address()).second;
 
   int status_for(const std::string& bytes) const { return status_of(exchange_bytes(port_, bytes)); }
-  /// Refused, and the next good request is answered.
+  /// Expects that the request is refused and that the next valid request is answered.
   void expect_refused(const std::string& bytes, const std::vector<int>& allowed, const char* what) {
     const int n_before = n_answered_;
     const int status = status_for(bytes);
@@ -46,7 +46,7 @@ TEST_F(PageServerTest, AnswersThoseWhoKnowTheSecret) {
   EXPECT_EQ(body_of(exchange_bytes(port_, get_request(port_, secret_))), "get   ");
   EXPECT_EQ(body_of(exchange_bytes(port_, get_request(port_, secret_ + "state?a=5"))), "get state 5 ");
   EXPECT_EQ(body_of(exchange_bytes(port_, post_request(port_, secret_ + "values", "{}"))), "post values  {}");
-  // Through a tunnel the port is another one.
+  // Through a tunnel the port differs.
   EXPECT_EQ(status_for("GET " + secret_ + " HTTP/1.1\r\nHost: localhost:9000\r\nOrigin: http://localhost:9000\r\n\r\n"), 200);
   const std::string answer = exchange_bytes(port_, get_request(port_, secret_));
   for (const char* header : {"X-Frame-Options: DENY", "Cache-Control: no-store", "X-Content-Type-Options: nosniff", "Referrer-Policy: no-referrer"})
@@ -121,7 +121,7 @@ TEST_F(PageServerTest, OutlivesBrokenRequests) {
     exchange_bytes(port_, bytes);
     EXPECT_EQ(status_for(good), 200);
   }
-  // Good requests with a few bytes changed: refused or answered, never the end of the server. The seed is fixed.
+  // Valid requests with a few bytes changed are refused or answered, and never end the server. The seed is fixed.
   std::mt19937 random(7);
   for (int i = 0; i < 300; ++i) {
     std::string bytes = i % 2 ? good : post_request(port_, secret_ + "values", "{\"a\": 1}");

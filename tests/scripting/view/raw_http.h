@@ -1,4 +1,4 @@
-// Bytes to a port and what comes back: requests that no library would send.
+// Sends raw bytes to a port and returns the answer, for requests that no library would send.
 #pragma once
 
 #include <arpa/inet.h>
@@ -10,13 +10,13 @@
 
 namespace sterna::test {
 
-/// Port and secret of "http://127.0.0.1:8123/5f0c/": {8123, "/5f0c/"}
+/// Returns port and secret of an address: {8123, "/5f0c/"} for "http://127.0.0.1:8123/5f0c/".
 inline std::pair<int, std::string> parts_of(const std::string& address) {
   const std::size_t colon = address.rfind(':'), slash = address.find('/', colon);
   return {std::stoi(address.substr(colon + 1, slash - colon - 1)), address.substr(slash)};
 }
 
-/// Sends the bytes and reads to the end of the answer; empty where the connection ends without one.
+/// Sends the bytes and reads to the end of the answer; empty if the connection ends without an answer.
 inline std::string exchange_bytes(int port, const std::string& bytes) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -39,7 +39,7 @@ inline std::string exchange_bytes(int port, const std::string& bytes) {
   return answer;
 }
 
-/// 200 of "HTTP/1.1 200 OK"; 0 where the connection ended.
+/// Returns the status code, e.g. 200 for "HTTP/1.1 200 OK"; 0 if the connection ended.
 inline int status_of(const std::string& answer) { return answer.starts_with("HTTP/1.") && answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0; }
 inline std::string body_of(const std::string& answer) {
   const std::size_t end = answer.find("\r\n\r\n");

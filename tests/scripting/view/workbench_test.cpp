@@ -1,4 +1,4 @@
-// The workbench as its user has it, without a browser: the program, its page's requests, a script that is changed beside it.
+// The workbench without a browser: the program, the requests of its page, a script that is changed meanwhile.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -45,7 +45,7 @@ class WorkbenchTest : public testing::Test {
 
   void write(const std::string& text) const {
     std::ofstream(folder_ / "new.lua") << text;
-    fs::rename(folder_ / "new.lua", folder_ / "case.lua");  // as editors do
+    fs::rename(folder_ / "new.lua", folder_ / "case.lua");  // as editors save files
   }
 
   void start(std::vector<std::string> words) {
@@ -66,7 +66,7 @@ class WorkbenchTest : public testing::Test {
   }
   int post(const std::string& name, const ViewJson& json) const { return status_of(exchange_bytes(port_, post_request(port_, secret_ + name, json.dump()))); }
 
-  /// The first state of which `is_so`; the last one after half a minute.
+  /// Returns the first state for which `is_so` is true; the last state after half a minute.
   template <class Test>
   ViewJson wait_for(const Test& is_so) const {
     ViewJson now;
@@ -87,7 +87,7 @@ class WorkbenchTest : public testing::Test {
     return nullptr;
   }
 
-  /// JSON of a scene, with the extent of its points along y.
+  /// Returns the JSON of a scene, and the extent of its points along y.
   std::pair<ViewJson, double> scene(std::uint64_t number) const {
     const std::string bytes = body_of(exchange_bytes(port_, get_request(port_, secret_ + "scene?scene=" + std::to_string(number))));
     if (bytes.size() < 8) return {};
@@ -128,7 +128,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   start({"case.lua", "--no-browser", "--threads", "2", "span=12"});
   EXPECT_TRUE(body_of(exchange_bytes(port_, get_request(port_, secret_))).starts_with("<!DOCTYPE html>"));
 
-  // Geometry: the model is shown, by the name of its variable; nothing is meshed or written.
+  // Mode "geometry": the model is shown under the name of its variable; nothing is meshed or written.
   ViewJson now = wait_for_end(0);
   EXPECT_EQ(now["run"]["status"], "done") << now.dump();
   EXPECT_EQ(now["run"]["mode"], "geometry");
@@ -137,7 +137,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(model["kind"], "model");
   EXPECT_EQ(model["line"], 9);
   EXPECT_EQ(model["is_shown"], true);
-  EXPECT_EQ(object(now, "main")["kind"], "component");  // a local of a function
+  EXPECT_EQ(object(now, "main")["kind"], "component");  // a local variable of a function
   EXPECT_EQ(object(now, "body")["is_shown"], false);
   EXPECT_FALSE(fs::exists(folder_ / "workbench.stl"));
   auto [shown, span] = scene(model["scene"]);
@@ -151,7 +151,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_NEAR(now["parameters"][1]["value"].get<double>(), 20.0, 1e-9);
   EXPECT_EQ(now["parameters"][1]["unit"], "deg");
 
-  // An argument: while it is dragged a sketch, then all of it; beyond its limits an error, and the picture stays.
+  // An argument: a sketch while it is dragged, then the full model; beyond its limits an error, and the picture stays.
   EXPECT_EQ(post("values", {{"values", {{"span", "16"}}}, {"is_dragging", true}}), 200);
   now = wait_for([&](const ViewJson& s) { return s["run"]["mode"] == "sketch" && s["run"]["status"] == "done" && object(s, "model")["is_quick"] == true; });
   EXPECT_NEAR(scene(object(now, "model")["scene"]).second, 16.12, 0.02);
@@ -165,7 +165,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   now = wait_for_end(now["run"]["number"]);
   EXPECT_EQ(now["run"]["status"], "done");
 
-  // Written back to the script, which is run again with it.
+  // The value is written back to the script, which is run again.
   EXPECT_EQ(post("save", ViewJson::object()), 200);
   now = wait_for([&](const ViewJson& s) { return s["values"].empty() && s["run"]["status"] == "done" && s["run"]["number"] > now["run"]["number"]; });
   std::ifstream saved(folder_ / "case.lua");
@@ -174,7 +174,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_NE(first_line.find("span = number{ 14, min = 6"), std::string::npos) << first_line;
   EXPECT_NEAR(scene(object(now, "model")["scene"]).second, 14.12, 0.02);
 
-  // A line is broken, and mended.
+  // A line is broken, then repaired.
   std::string broken = k_case;
   broken.replace(broken.find("chord = 2"), 9, "cord = 2");
   write(broken);
@@ -182,7 +182,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(now["run"]["status"], "failed");
   EXPECT_NE(now["problems"].dump().find("did you mean"), std::string::npos) << now["problems"].dump();
   EXPECT_EQ(now["problems"][0]["line"], 3) << now["problems"].dump();
-  // What the script had made before it broke is not shown by itself; what was shown is, old.
+  // Objects made by the script before the error are not shown automatically; the model shown before remains, marked as old.
   broken.replace(broken.find("local model"), 11, "local block = box{ { 0, 0, 0 }, { 1, 1, 1 } }\nlocal model");
   write(broken);
   now = wait_for_end(now["run"]["number"]);
@@ -196,7 +196,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(now["run"]["status"], "done");
   EXPECT_EQ(object(now, "model")["is_old"], false);
 
-  // The whole script.
+  // Mode "mesh": the whole script runs.
   EXPECT_EQ(post("run", {{"mode", "mesh"}}), 200);
   now = wait_for([&](const ViewJson& s) { return s["run"]["mode"] == "mesh" && s["run"]["status"] != "running"; });
   EXPECT_EQ(now["run"]["status"], "done") << now["problems"].dump();
@@ -206,13 +206,13 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(surface["is_shown"], true);
   EXPECT_GT(scene(surface["scene"]).first["surface"]["fields"].size(), 2u);
 
-  // What inspect{} finds; models are not inspected.
+  // The findings of inspect{}; models are not inspected.
   const ViewJson found = ViewJson::parse(body_of(exchange_bytes(port_, post_request(port_, secret_ + "inspect", "{\"key\": \"surface\"}"))), nullptr, false);
   EXPECT_EQ(found.value("schema", ""), "sterna-inspect-1");
   EXPECT_EQ(found.value("ok", false), true) << found.dump();
   EXPECT_EQ(post("inspect", {{"key", "model"}}), 409);
 
-  // What makes no sense is refused, and the program lives.
+  // Invalid requests are refused, and the program continues.
   EXPECT_EQ(post("run", {{"mode", "everything"}}), 400);
   EXPECT_EQ(post("show", {{"key", "nobody"}}), 404);
   EXPECT_EQ(post("nothing", ViewJson::object()), 404);
@@ -221,7 +221,7 @@ TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
   EXPECT_EQ(status_of(exchange_bytes(port_, post_request(port_, secret_ + "values", "{\"values\": {\"a b\": \"1\"}}"))), 409);
   EXPECT_EQ(status_of(exchange_bytes(port_, get_request(port_, secret_ + "scene?scene=99999"))), 410);
 
-  // Ctrl-C ends it and what it has started.
+  // Ctrl-C ends the program and the processes that it started.
   const std::vector<pid_t> workers = children_of(first_child());
   EXPECT_FALSE(workers.empty());
   ::kill(first_child(), SIGINT);
@@ -265,22 +265,22 @@ TEST_F(WorkbenchTest, GoesThroughTheCasesOfASeries) {
   EXPECT_EQ(now["run"]["status"], "done") << now.dump();
   ASSERT_EQ(now["parameters"].size(), 1u);
   EXPECT_EQ(now["parameters"][0]["name"], "case");
-  EXPECT_EQ(now["parameters"][0]["max"], 2);  // one of the three has no mesh
+  EXPECT_EQ(now["parameters"][0]["max"], 2);  // one of the three cases has no mesh
   EXPECT_NE(now["lines"].dump().find("case 1 of 2, height=1: VALID"), std::string::npos) << now["lines"].dump();
   EXPECT_EQ(object(now, "mesh")["kind"], "mesh");
   EXPECT_EQ(now["has_cases"], true);
   const ViewJson cases = ViewJson::parse(body_of(exchange_bytes(port_, get_request(port_, secret_ + "cases"))), nullptr, false);
   ASSERT_EQ(cases.size(), 3u) << cases.dump();
   EXPECT_EQ(cases[0]["case"], 1);
-  EXPECT_EQ(cases[1]["case"], nullptr);  // the one without a mesh
+  EXPECT_EQ(cases[1]["case"], nullptr);  // the case without a mesh
   EXPECT_EQ(cases[2]["case"], 2);
   EXPECT_EQ(cases[2]["parameters"]["height"], 3);
   EXPECT_EQ(cases[2]["verdict"], "VALID");
-  EXPECT_EQ(status_of(exchange_bytes(port_, get_request(port_, secret_ + "picture?picture=0"))), 404);  // none has written one
+  EXPECT_EQ(status_of(exchange_bytes(port_, get_request(port_, secret_ + "picture?picture=0"))), 404);  // no case has written one
   EXPECT_EQ(post("values", {{"values", {{"case", "2"}}}}), 200);
   now = wait_for_end(now["run"]["number"]);
   EXPECT_NE(now["lines"].dump().find("case 2 of 2, height=3: VALID"), std::string::npos) << now["lines"].dump();
-  EXPECT_EQ(post("save", ViewJson::object()), 409);  // it is no script of the user's
+  EXPECT_EQ(post("save", ViewJson::object()), 409);  // not a script of the user
 }
 
 TEST_F(WorkbenchTest, SaysWhatItCannotShow) {

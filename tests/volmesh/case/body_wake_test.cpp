@@ -1,4 +1,4 @@
-// What a body leaves behind: who refines it, in members of a family, too.
+// Wakes of bodies: which settings refine them, also in members of a mesh family.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

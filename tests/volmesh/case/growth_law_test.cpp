@@ -45,7 +45,8 @@ TEST(GrowthLaw, LayerParametersEndAtOneAndStartWithTheFirstHeight) {
   for (std::size_t j = 1; j <= 30; ++j) EXPECT_NEAR(t[j] - t[j - 1], 1.0 / 30, 1e-12);
 }
 
-/// Whatever total height the line has, flat cells grow by the common ratio, no cell is lower than the one below it, and the last parameter is the whole height.
+/// For any total height of the growth line, flat cells grow by the common ratio, no cell is lower than the cell below it, and the last parameter is the whole
+/// height.
 TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
   const double h0 = 1e-6, g = 1.3;
   for (const int n : {2, 12, 30, 45}) {
@@ -55,12 +56,12 @@ TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
         const LineGrowth line{.h0 = h0, .common = g, .edge = edge, .target = asked};
         std::vector<double> t(static_cast<std::size_t>(n) + 1);
         layer_parameters(line, height, n, t.data());
-        std::vector<double> full(t.size());  // of a neighbour as tall as asked
+        std::vector<double> full(t.size());  // of a neighbour with the full target height
         layer_parameters(line, asked, n, full.data());
         SCOPED_TRACE(testing::Message() << n << " layers, edge " << edge << ", share " << share);
         EXPECT_EQ(t.front(), 0.0);
         EXPECT_EQ(t.back(), 1.0);
-        // Lines that are too low for the largest bend have lower first cells.
+        // Growth lines that are too low for the largest bend have lower first cells.
         const double room = height_for_first_cell(line, n);
         EXPECT_GE(room, n * h0 * (1.0 - 1e-12));
         if (height >= room) EXPECT_NEAR(t[1] * height, h0, 1e-12 * h0);
@@ -70,7 +71,7 @@ TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
           const double before = t[j - 1] - t[j - 2], ratio = (t[j] - t[j - 1]) / before;
           EXPECT_GE(ratio, 1.0 - 1e-9) << j;
           above = std::max(above, ratio);
-          // The face between two prisms leans by atan(s e / 4 h) where corners' ratios differ by s.
+          // The face between two prisms leans by atan(s e / 4 h) if the ratios at its corners differ by s.
           if (share >= 0.97 && share <= 1.0 && last_height(line, height, n) > edge / 20.0) {
             const double beside = (full[j] - full[j - 1]) / (full[j - 1] - full[j - 2]);
             EXPECT_LT(std::atan(std::abs(ratio / beside - 1.0) * edge / (4.0 * before * height)), 40.0 * k_degree) << j;
@@ -83,7 +84,7 @@ TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
   }
 }
 
-/// A line of a hundredth of the height beside a full one: the proportions of flat cells stay, so that faces between them do not lean.
+/// A growth line of a hundredth of the height beside a line of full height: flat cells keep their proportions, so that faces between them do not lean.
 TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
   const double h0 = 1e-6, g = 1.25, edge = 0.1;
   const int n = 45;
@@ -96,7 +97,7 @@ TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
     EXPECT_LT(low[1] * share * full, h0);
     layer_parameters(line, 0.5 * share * full, n, lower.data());
     EXPECT_NEAR(lower[2] / lower[1], low[2] / low[1], 1e-9);
-    double change = 0.0;  // radians, the lean of faces between the two lines
+    double change = 0.0;  // radians, the lean of faces between the two growth lines
     for (std::size_t j = 2; j <= n; ++j) {
       const double h = (tall[j - 1] - tall[j - 2]) * full;
       const double tall_ratio = (tall[j] - tall[j - 1]) / (tall[j - 1] - tall[j - 2]), low_ratio = (low[j] - low[j - 1]) / (low[j - 1] - low[j - 2]);
@@ -106,8 +107,9 @@ TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
   }
 }
 
-/// Beside vertices without a layer two lines may be a thousandth of their full height, on edges that differ: what is flat is told by the cells that are made
-/// and not by those of a full line, or the lines bend while their cells are 1e4 times wider than tall (found on bjet and D150: faces at 89.97 degrees).
+/// Beside vertices without a layer, two growth lines may have a thousandth of their full height, on edges of different length. Flatness must be judged by the
+/// cells made, not by those of a line of full height; otherwise lines bend while their cells are 1e4 times wider than tall (found on bjet and D150: faces at
+/// 89.97 degrees).
 TEST(GrowthLaw, LinesFarTooLowKeepTheirProportionsWhateverTheirEdges) {
   const double h0 = 7e-6, g = 1.25;
   const int n = 50;
@@ -126,7 +128,7 @@ TEST(GrowthLaw, LinesFarTooLowKeepTheirProportionsWhateverTheirEdges) {
   }
 }
 
-/// Where cells are not flat, and where it is asked for, the law is that of eq. (11).
+/// If cells are not flat, or on request, the law is that of eq. (11).
 TEST(GrowthLaw, WithoutFlatCellsALineHasOneRatio) {
   std::vector<double> common(13), local(13);
   layer_parameters({.h0 = 1e-3, .common = 1.3, .edge = 5e-3, .target = 0.03}, 0.03, 12, common.data());

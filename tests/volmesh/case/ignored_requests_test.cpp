@@ -1,4 +1,4 @@
-// Requests in rules of patches that have no effect: each kind is an error or a warning that names it.
+// Requests in patch rules that have no effect: each kind is an error or a warning with the name of the rule.
 #include "volmesh/case/ignored_requests.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What comes of rules for a model with a wall "wing" that has layers, a wall "body" that has none, a slip wall "floor" and a farfield.
+/// Result of rules for a model with a wall "wing" that has layers, a wall "body" that has none, a slip wall "floor" and a farfield.
 struct Outcome {
   std::string error, log;
 };
@@ -70,11 +70,11 @@ TEST(IgnoredRequests, AllAreNamedTogether) {
 
 TEST(IgnoredRequests, WhatHasAnEffectOrIsReplacedPasses) {
   const std::vector<std::vector<PatchRule>> cases = {
-      {{.names = "*", .layers = 10}},                                             // on the wing
-      {{.names = "floor", .layers = 0}},                                          // as it is
-      {{.names = "floor", .kind = "slip"}},                                       // likewise
+      {{.names = "*", .layers = 10}},                                             // affects the wing
+      {{.names = "floor", .layers = 0}},                                          // equals the present state
+      {{.names = "floor", .kind = "slip"}},                                       // equals the present state
       {{.names = "floor", .layers = 10}, {.names = "floor", .kind = "slip"}},     // replaced on purpose
-      {{.names = "body", .first_height = 1e-3}, {.names = "body", .layers = 0}},  // likewise
+      {{.names = "body", .first_height = 1e-3}, {.names = "body", .layers = 0}},  // replaced on purpose
       {{.names = "floor", .open_ridges = "never"}, {.names = "body", .truncate = "never"}},
   };
   for (const std::vector<PatchRule>& rules : cases) {
@@ -141,14 +141,14 @@ TEST(IgnoredRequests, SourcesOutsideOfTheFluidAreWarnings) {
       log_of_source({.kind = SourceKind::wake, .from = {-12, 0, 0}, .to = {-12, 1, 0}, .direction = {-1, 0, 0}, .length = 3, .height = 0.1, .size = 0.1}),
       HasSubstr("wake"));
   EXPECT_THAT(log_of_source({.kind = SourceKind::samples, .points = {{40, 0, 0}, {50, 0, 0}}, .sizes = {0.1, 0.1}}), HasSubstr("samples"));
-  // Within the cube: edges longer than those of the farfield have no effect.
+  // In the cube: edges longer than those of the farfield have no effect.
   EXPECT_THAT(log_of_source({.kind = SourceKind::sphere, .from = {0.5, 0.5, 0.5}, .radius = 0.1, .size = 30}), HasSubstr("no effect"));
 }
 
 TEST(IgnoredRequests, SourcesWithAnEffectPass) {
   const std::vector<SizeSource> sources = {
       {.kind = SourceKind::sphere, .from = {3, 0, 0}, .radius = 0.5, .size = 0.1},
-      {.kind = SourceKind::sphere, .from = {0.5, 0.5, 0.5}, .radius = 0.1, .size = 0.1},        // in the body, refines beside it
+      {.kind = SourceKind::sphere, .from = {0.5, 0.5, 0.5}, .radius = 0.1, .size = 0.1},        // in the body, refines the fluid beside it
       {.kind = SourceKind::box, .from = {-100, -100, -100}, .to = {100, 100, 100}, .size = 9},  // around everything
       {.kind = SourceKind::box, .from = {9, -1, -1}, .to = {30, 1, 1}, .size = 0.1},            // across the farfield
       {.kind = SourceKind::wake, .from = {1, 0, 0.5}, .to = {1, 1, 0.5}, .length = 30, .height = 0.2, .spread = 0.1, .size = 0.1},

@@ -1,4 +1,4 @@
-// Which of number, growth and total height of layers follows from the others, and members of a mesh family.
+// Number, growth and total height of layers, each derived from the others, and members of a mesh family.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -78,11 +78,11 @@ TEST(Refined, first_height_growth_and_layers_are_exact) {
   EXPECT_DOUBLE_EQ(fine.sources[0].size, 0.1 / 1.5);
   EXPECT_DOUBLE_EQ(fine.discs[0].edge, 0.1 / 1.5);
   EXPECT_EQ(parse_sides(fine.farfield.farfield_sides)[1].edge, 0.5 / 1.5);
-  // The heights of every k-th cell boundary coincide about: both laws are samples of one exponential.
+  // The heights of every k-th cell boundary nearly coincide: both laws are samples of one exponential.
   EXPECT_NEAR(layer_height(1e-4 / 1.5, fine.envelope.max_growth, 45) / layer_height(1e-4, 1.3, 30), 1.0, 0.06);
 }
 
-/// A member of a family, its wall with edges of about 1/frequency.
+/// Makes a member of a family; its wall has edges of about 1/frequency.
 VolumeMeshResult member(int frequency, double f, const MeshCase& medium) {
   MeshCase options = medium;
   options.family.refinement = f;
@@ -97,7 +97,7 @@ TEST(Refined, nodes_grow_with_the_third_power) {
   medium.farfield.farfield_radius = 12.0;
   const VolumeMeshResult coarse = member(5, 0.5, medium), fine = member(10, 1.0, medium);
   const double ratio = static_cast<double>(fine.mesh.points.size()) / static_cast<double>(coarse.mesh.points.size());
-  EXPECT_GT(ratio, 8.0 * 0.75);  // tetrahedra of coarse meshes are fewer than their sizes ask for: a handful of edges from wall to farfield
+  EXPECT_GT(ratio, 8.0 * 0.75);  // coarse meshes have fewer tetrahedra than their sizes imply: only a few edges from wall to farfield
   EXPECT_LT(ratio, 8.0 * 1.25);
   EXPECT_EQ(coarse.mesh.layers.n_layers * 2, fine.mesh.layers.n_layers);
 }
@@ -112,7 +112,7 @@ TEST(TotalHeight, is_met_where_nothing_is_in_the_way) {
   std::string log;
   const RunContext context({.threads = 2, .log = [&](LogLevel, std::string_view line) { log += std::string(line) + "\n"; }});
   const VolumeMeshResult result = volume_mesh(wall, options, context);
-  EXPECT_NEAR(result.layer.mean_height, 0.12, 0.12 * 0.02);  // of a sphere's chords: the facets' planes are a little lower
+  EXPECT_NEAR(result.layer.mean_height, 0.12, 0.12 * 0.02);  // on chords of a sphere: the planes of the facets are a little lower
   EXPECT_GT(result.layer.coverage, 0.99);
   EXPECT_THAT(log, testing::HasSubstr("12 layers grow by 1.155 "));
 }
@@ -139,7 +139,7 @@ TEST(TotalHeight, of_a_patch_alone) {
     }
     return heights;
   }();
-  EXPECT_NEAR(tallest[PatchId(1)], 0.15, 0.07 * 0.15);  // where heights vary, smoothing may lower them to height_floor
+  EXPECT_NEAR(tallest[PatchId(1)], 0.15, 0.07 * 0.15);  // if heights vary, smoothing may lower them to height_floor
   EXPECT_NEAR(tallest[PatchId(0)], layer_height(e.first_height, 1.1, 10), 0.003);
 }
 

@@ -1,4 +1,4 @@
-// Options of a volume mesh by steps: each may be given where it has an effect, at one step and, for the outer boundary, at the one after.
+// Options of a volume mesh made in steps: each is accepted at the step in which it has an effect; options of the outer boundary also at the next step.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,7 +18,7 @@ TEST(MeshSteps, EachOptionBelongsToOneStep) {
   EXPECT_EQ(steps.size(), all.size());
   for (const Option& option : all) {
     const std::set<int> own = steps[std::string(option.stage) + "." + std::string(option.name)];
-    if (option.stage == "farfield" || option.stage == "limits")  // envelope and tetrahedra keep clear of it; both ask for memory
+    if (option.stage == "farfield" || option.stage == "limits")  // the envelope and the tetrahedra both depend on the farfield, and both need memory
       EXPECT_EQ(own, (std::set<int>{k_envelope_step, k_tetrahedra_step})) << option.name;
     else EXPECT_EQ(own.size(), 1u) << option.stage << "." << option.name;
   }

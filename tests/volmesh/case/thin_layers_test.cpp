@@ -1,4 +1,4 @@
-// Whether layers reach the size of the tetrahedra on them, told before they are made.
+// Reports before meshing whether layers reach the size of the tetrahedra on them.
 #include "volmesh/case/thin_layers.h"
 
 #include <gtest/gtest.h>
@@ -20,13 +20,13 @@ MeshCase asked(int layers) {
 }
 
 TEST(ThinLayers, says_how_many_are_enough_and_nothing_where_they_are) {
-  const TriMesh cube = test::cube(4);  // all triangles alike
+  const TriMesh cube = test::cube(4);  // all triangles are equal
   const auto thin = thin_layers(cube, asked(8));
   ASSERT_TRUE(thin.has_value());
   EXPECT_DOUBLE_EQ(thin->share, 1.0);
   EXPECT_FALSE(thin_layers(cube, asked(thin->enough)).has_value());
   EXPECT_TRUE(thin_layers(cube, asked(thin->enough - 1)).has_value());
-  // By hand: legs of a quarter and their diagonal.
+  // Hand calculation: legs of a quarter and their diagonal.
   const double edge = (0.5 + 0.25 * std::sqrt(2.0)) / 3.0, wanted = k_regular_height * edge / 3.0;
   EXPECT_EQ(thin->enough, 1 + static_cast<int>(std::ceil(std::log(wanted / 1e-4) / std::log(1.3))));
 }

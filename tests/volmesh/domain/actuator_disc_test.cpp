@@ -66,7 +66,7 @@ TEST(ActuatorDisc, TrianglesCoverDiscsAndRings) {
         const auto [a, b, c] = corners(mesh, t);
         EXPECT_LT(dot(area_vector(a, b, c), n), 0.0);
       }
-      // Area of the polygons between the rims.
+      // Area of the polygons between inner and outer rim.
       const auto polygon = [&](double radius) {
         double rim = 0.0;
         std::size_t sides = 0;
@@ -110,7 +110,7 @@ TEST(ActuatorDisc, EdgesAreShorterTowardsWalls) {
   EXPECT_GT(outer, 0.25);
 }
 
-/// Body, farfield and discs, filled and checked.
+/// Fills body, farfield and discs, and checks the mesh.
 CheckReport mesh_of(const TriMesh& wall, const std::vector<ActuatorDisc>& discs, const std::string& engine, HybridMesh& mesh) {
   TriMesh boundary = wall;
   append(boundary, farfield_sphere(wall, {.farfield_radius = 20.0}, k_context));
@@ -147,7 +147,7 @@ TEST(ActuatorDisc, DiscsInTheFluidAreValidWithBothEngines) {
     EXPECT_TRUE(report.intersections_checked);
     const CheckReport of_plain = mesh_of(test::sphere(8), {}, engine, without);
     EXPECT_NEAR(report.total_volume, of_plain.total_volume, 1e-11 * of_plain.total_volume);
-    // Both sides are there, face on face, and only the rims' nodes are shared.
+    // Both sides exist, face on face, and share only the nodes of the rims.
     const SheetSides sides = find_sheet_sides(mesh);
     ASSERT_FALSE(sides.empty());
     std::size_t n_first = 0, n_second = 0, n_single = 0;
@@ -165,7 +165,7 @@ TEST(ActuatorDisc, DiscsInTheFluidAreValidWithBothEngines) {
 }
 
 TEST(ActuatorDisc, NoFluxGetsThroughASheet) {
-  // No tetrahedron has nodes of both sides: the only way around is over the rim.
+  // No tetrahedron has nodes of both sides: the only path between the sides is around the rim.
   HybridMesh mesh;
   mesh_of(test::sphere(6), {{.center = {2, 0, 0}, .radius = 1.0, .edge = 0.2}}, "hxt", mesh);
   const SheetSides sides = find_sheet_sides(mesh);

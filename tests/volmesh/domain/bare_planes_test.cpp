@@ -1,4 +1,4 @@
-// Planes of half models on which no layer ends: vertices of their own, as symmetry planes and as ground; corners of patches that layers end on; cavities.
+// Planes of half models on which no layer ends: separate vertices, for symmetry planes and for the ground; corners of patches on which layers end; cavities.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ MeshCase case_of(int n_layers, const std::string& shape = "sphere") {
   return options;
 }
 
-/// What triangles of a patch are like in its plane.
+/// Edge lengths of the triangles of a patch in its plane.
 struct PatchEdges {
   std::size_t n_triangles = 0;
   double longest_near = 0.0;  ///< m, edge of a triangle that touches the circle of radius 1.5 about the origin
@@ -74,12 +74,12 @@ TEST(BarePlanes, AnInviscidHalfModelHasAGradedSymmetryPlane) {
   EXPECT_THAT(log, HasSubstr("no patch carries layers: the mesh is made of tetrahedra alone"));
   const PatchEdges edges = edges_of(result.mesh, "symmetry");
   EXPECT_GT(edges.n_triangles, 200u);
-  EXPECT_LT(edges.longest_near, 0.6);  // of edges of 0.15 on the ball; it was 19, from the ball to the farfield
+  EXPECT_LT(edges.longest_near, 0.6);  // from edges of 0.15 on the ball; before the fix 19, from the ball to the farfield
   EXPECT_LT(result.check.gate(Measure::sub_volume_ratio).worst, 1e3);
 }
 
 TEST(BarePlanes, WallsWithoutLayersBesideOthers) {
-  // Two balls: the one at the plane has no layers.
+  // Two balls: the ball at the plane has no layers.
   TriMesh wall = half_ball();
   TriMesh other = test::sphere(4);
   for (Point& p : other.points) p += Vec3{0.0, 4.0, 0.0};
@@ -107,7 +107,7 @@ TEST(BarePlanes, AGroundPlaneHasLayersAndItsOwnEdges) {
     EXPECT_LT(edges.longest, 1.3) << n_layers;
     EXPECT_GT(edges.n_triangles, 800u) << n_layers;
     EXPECT_LT(edges.longest_near, 0.6) << n_layers;
-    // The farfield is one patch again, though layers end on four of its sides.
+    // The farfield is one patch again, although layers end on four of its sides.
     EXPECT_EQ(result.mesh.patches.size(), 3u);
     if (n_layers > 0) {
       EXPECT_EQ(rim_edges(result).size(), 1u);
@@ -118,7 +118,7 @@ TEST(BarePlanes, AGroundPlaneHasLayersAndItsOwnEdges) {
 }
 
 TEST(BarePlanes, AGroundPlaneBetweenAnInflowAndAnOutflow) {
-  // What is left of the box is one patch of two sides and the lid, none of whose corners is at the ground.
+  // The remainder of the box is one patch of two sides and the lid, none of whose corners is on the ground.
   MeshCase options = case_of(6, "box");
   options.farfield.farfield_from_x = options.farfield.farfield_from_y = -8.0;
   options.farfield.farfield_to_x = options.farfield.farfield_to_y = options.farfield.farfield_to_z = 8.0;
@@ -187,7 +187,7 @@ TEST(BarePlanes, PeriodicPlanesGetABox) {
 }
 
 TEST(FluidRegions, SealedCavitiesAreTold) {
-  // A ball with a hollow: its inside is fluid that no flow reaches.
+  // A ball with a cavity: its inside is fluid that no flow reaches.
   TriMesh wall = test::sphere(6);
   TriMesh hollow = test::sphere(4, 0.4);
   for (TriangleVertices& t : hollow.triangles) std::swap(t[1], t[2]);

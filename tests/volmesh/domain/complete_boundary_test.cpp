@@ -61,7 +61,7 @@ std::vector<std::string> names_of(const TriMesh& mesh) {
   return names;
 }
 
-/// What the header promises of every result. Volumes: of the fluid, with its sign turned.
+/// Checks the postconditions in the header of complete_boundary. `fluid` is the volume of the fluid, with opposite sign.
 void expect_complete(const TriMesh& surface, const TriMesh& whole, double fluid, double tolerance) {
   const Topology topology(whole, k_context);
   EXPECT_EQ(topology.n_boundary_halfedges(), 0u);
@@ -77,7 +77,7 @@ void expect_complete(const TriMesh& surface, const TriMesh& whole, double fluid,
   EXPECT_NEAR(-volume_of(whole), fluid, tolerance * fluid);
 }
 
-/// Every triangle of the patches of these names lies in the plane, and its normal points to the side `inward`.
+/// Checks that every triangle of the patches with this name lies in the plane, with its normal towards the side `inward`.
 void expect_plane(const TriMesh& whole, const std::string& name, std::size_t axis, double at, double inward) {
   std::size_t n = 0;
   for (const TriangleId t : whole.triangles.ids()) {
@@ -124,7 +124,7 @@ TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
     options.farfield_sides = sides;
     const TriMesh whole = complete_boundary(cube, {options, {}}, k_context);
     expect_complete(cube, whole, 3000.0 - 1.0, 1e-12);
-    // Angles of what was added.
+    // Angles of the added triangles.
     double least = 4.0;
     for (std::size_t i = cube.n_triangles(); i < whole.n_triangles(); ++i) {
       const auto p = corners(whole, TriangleId(i));
@@ -186,7 +186,7 @@ TEST(CompleteBoundary, MovesRimsIntoTheirPlane) {
 }
 
 TEST(CompleteBoundary, TakesTwoPlanes) {
-  // A quarter: the planes meet.
+  // A quarter model: its two planes meet.
   const TriMesh quarter = half_of(half_of(test::sphere(8), {}, k_context), {.axis = "z", .keep = "-"}, k_context);
   for (const char* shape : {"sphere", "box", "cylinder"}) {
     SCOPED_TRACE(shape);
@@ -217,7 +217,7 @@ TEST(CompleteBoundary, TakesTheUsersSurface) {
   expect_complete(body, whole, 1000.0 - volume_of(body), 1e-12);
   EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "cube:farfield"));
   EXPECT_EQ(complete_boundary(body, {{.farfield_shape = "surface"}, std::make_shared<TriMesh>(turned(*tunnel))}, k_context).points.raw(), whole.points.raw());
-  // Cut where a half model ends; there a patch of the tunnel is the plane's.
+  // The tunnel is cut at the plane of a half model. If a side of the tunnel lies in that plane, its patch is kept there.
   const TriMesh half = half_of(body, {}, k_context);
   const TriMesh in_tunnel = complete_boundary(half, options, k_context);
   expect_complete(half, in_tunnel, 500.0 - 0.5 * volume_of(body), 1e-3);
@@ -228,7 +228,7 @@ TEST(CompleteBoundary, TakesTheUsersSurface) {
   const TriMesh on_side = complete_boundary(half, {{.farfield_shape = "surface"}, room}, k_context);
   expect_complete(half, on_side, 1000.0 - 0.5 * volume_of(body), 1e-3);
   expect_plane(on_side, "side", 1, 0.0, 1.0);
-  // Of another program: two of its kinds by name.
+  // A tunnel surface from another program: farfield_sides sets its kind and its name.
   const TriMesh named = complete_boundary(body, {{.farfield_shape = "surface", .farfield_sides = "cube=slip,name:tunnel"}, tunnel}, k_context);
   EXPECT_THAT(names_of(named), ElementsAre("sphere:wall", "tunnel:slip"));
   const ErrorInfo beside = completion_error(moved(body, {20, 0, 0}), options);
@@ -257,7 +257,7 @@ TEST(CompleteBoundary, LeavesCompleteDomainsAlone) {
   EXPECT_EQ(whole.n_vertices(), half.n_vertices());
   expect_plane(whole, "symmetry", 2, 0.3, 1.0);
   EXPECT_EQ(Topology(whole, k_context).n_boundary_halfedges(), 0u);
-  // A body beside a domain.
+  // A body outside the domain.
   EXPECT_THAT(completion_error(both(domain, moved(test::cube(1), {20, 0, 0})), {}).problem, HasSubstr("outermost parts"));
 }
 

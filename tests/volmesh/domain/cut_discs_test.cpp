@@ -1,4 +1,4 @@
-// Outlines of discs cut into walls: closed, in the plane, without slivers, patches kept.
+// Disc outlines cut into walls: closed, in the plane, without slivers, patches preserved.
 #include "volmesh/domain/cut_discs.h"
 
 #include <gmock/gmock.h>
@@ -44,7 +44,7 @@ double area_of(const TriMesh& mesh, PatchId patch) {
   return sum;
 }
 
-/// Smallest height of a triangle over its longest edge.
+/// Returns the smallest ratio of a triangle's height to its longest edge.
 double flattest(const TriMesh& mesh) {
   double least = 1.0;
   for (const TriangleId t : mesh.triangles.ids()) {
@@ -77,12 +77,12 @@ TEST(CutDiscs, OutlineIsOneClosedPolygonInThePlane) {
       ++n;
     } while (v != disc.outline[0][0] && n <= disc.outline.size());
     EXPECT_EQ(n, disc.outline.size());
-    // Nothing flatter than a third of what was there, the area but for moved vertices, and the farfield as it was.
+    // No triangle is flatter than a quarter of the flattest before, the area is preserved except for moved vertices, and the farfield is unchanged.
     EXPECT_GT(flattest(cut.after), 0.25 * flattest(cut.before));
     EXPECT_NEAR(area_of(cut.after, PatchId(0)), area_of(cut.before, PatchId(0)), 0.004 * area_of(cut.before, PatchId(0)));
     EXPECT_EQ(area_of(cut.after, PatchId(1)), area_of(cut.before, PatchId(1)));
     EXPECT_EQ(cut.after.patches, cut.before.patches);
-    // Triangles are parts of what they come from, in its order.
+    // Triangles are parts of their source triangles, in the same order.
     ASSERT_EQ(cut.cuts.sources.size(), cut.after.n_triangles());
     EXPECT_TRUE(std::ranges::is_sorted(cut.cuts.sources));
     for (const TriangleId t : cut.after.triangles.ids()) EXPECT_EQ(cut.after.triangle_patch[t], cut.before.triangle_patch[cut.cuts.sources[t]]);
@@ -114,7 +114,7 @@ TEST(CutDiscs, FreeDiscsAndThoseThatMeetOtherPatchesCutNothing) {
   }
 }
 
-/// A cube's edges and corners keep their place.
+/// Edges and corners of a cube keep their position.
 TEST(CutDiscs, RidgesKeepTheirLine) {
   TriMesh wall = test::cube(6);
   const Cut cut(wall, {{.center = {0.5 + 0.03, 0.5, 0.5}, .radius = 1.0}});
@@ -142,7 +142,7 @@ TEST(CutDiscs, SaysWhereADiscCannotBe) {
   ASSERT_FALSE(rim.places.empty());
   EXPECT_THAT(rim.places[0].what, HasSubstr("hub"));
   EXPECT_NEAR(rim.places[0].position.x, 0.0, 1e-12);
-  // In a face of a cube.
+  // A disc in a face of a cube.
   const ErrorInfo flat = error_of(test::cube(4), {{.name = "b", .center = {1, 0.5, 0.5}, .radius = 2.0}});
   EXPECT_EQ(flat.code, ErrorCode::self_intersection);
   EXPECT_THAT(flat.places.at(0).what, HasSubstr("lies in the disc's plane"));

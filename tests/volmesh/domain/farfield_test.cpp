@@ -53,8 +53,8 @@ TEST(FarfieldSphere, HasTheEdgeLengthAskedFor) {
       }
     }
     const double mean = sum / (3.0 * static_cast<double>(sphere.n_triangles()));
-    EXPECT_NEAR(mean / edge, 1.1, 0.15);  // pushing out to the sphere makes edges longer, up to 1.26 in the middle of a face
-    EXPECT_LT(most / least, 1.5);         // of class I subdivision: 1.41 for f = 21, growing slowly with f
+    EXPECT_NEAR(mean / edge, 1.1, 0.15);  // projection to the sphere lengthens edges, by up to 1.26 in the middle of a face
+    EXPECT_LT(most / least, 1.5);         // for class I subdivision: 1.41 for f = 21, growing slowly with f
   }
 }
 
@@ -63,7 +63,7 @@ TEST(FarfieldSphere, DefaultsToFiftyBodyLengthsAnd500Triangles) {
   for (Point& p : wall.points) p = {4.0 * p.x + 7.0, p.y, p.z};
   const TriMesh sphere = farfield_sphere(wall, {}, RunContext{});
   EXPECT_EQ(sphere.n_triangles(), 500u);
-  EXPECT_NEAR(bounding_box(sphere).longest_side(), 400.0, 0.01 * 400.0);  // no vertex need lie on an axis
+  EXPECT_NEAR(bounding_box(sphere).longest_side(), 400.0, 0.01 * 400.0);  // no vertex has to lie on an axis
   EXPECT_NEAR(bounding_box(sphere).center().x, 9.0, 1e-9);
 }
 
@@ -76,7 +76,7 @@ TEST(FarfieldSphere, MustEncloseTheWall) {
     EXPECT_EQ(error.places.size(), 1u);
   }
   EXPECT_NO_THROW(farfield_sphere(wall, {.farfield_radius = 1.2}, RunContext{}));
-  // A coarse sphere is flat: its triangles come much nearer than its radius.
+  // A coarse sphere is flat: its triangles come much nearer to the centre than its radius.
   EXPECT_EQ(sphere_error(wall, {.farfield_radius = 1.2, .farfield_edge = 10.0}).code, ErrorCode::bad_argument);
 }
 

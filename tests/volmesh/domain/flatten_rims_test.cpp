@@ -1,4 +1,4 @@
-// Rims that lie nearly in a plane are moved into it, told; others stay.
+// Open boundaries that lie nearly in a plane are moved into it, with a message; others remain unchanged.
 #include "volmesh/domain/flatten_rims.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Half a ball on the plane y = 0.2, of which rim vertices are off by up to `off` of the length.
+/// Half a ball on the plane y = 0.2; vertices of its open boundary are off the plane by up to `off` of the length.
 TriMesh half_with_waves(double off) {
   TriMesh half = test::cut_off(test::sphere(4), 1, 0.2);
   const Topology topology(half, RunContext());

@@ -1,4 +1,4 @@
-// Open terrain sheets: sides and a lid are added, layers grow on the sheet and end on the sides.
+// Open terrain surfaces: sides and a lid are added, layers grow on the terrain and end on the sides.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ constexpr double k_lid = 4.0;     ///< m
 
 bool is_house(int i, int j) { return i >= 10 && i < 14 && j >= 8 && j < 11; }
 
-/// 6 x 4.5 m of hills, with the house as part of the sheet on a level place, or without it.
+/// Terrain of 6 x 4.5 m with hills; with `has_house` the house is part of the surface, on level ground.
 TriMesh terrain(bool has_house) {
   TriMesh mesh;
   mesh.patches = Column<PatchId, Patch>{{"terrain", PatchKind::wall}, {"house", PatchKind::wall}};
@@ -50,7 +50,7 @@ TriMesh terrain(bool has_house) {
     mesh.triangle_patch.push_back(PatchId(patch));
   };
   const auto storey = [&](int i, int j) { return has_house && is_house(i, j) ? 1 : 0; };
-  // Walls of the house are three cells high.
+  // The walls of the house are three cells high.
   const auto wall = [&](int i, int j, int k, int l) {
     for (int level = 0; level < 3; ++level) {
       const auto point = [&](int m, int n, int h) {
@@ -79,7 +79,7 @@ TriMesh terrain(bool has_house) {
   return mesh;
 }
 
-/// Of the fluid between the sheet and the lid: the sum over columns on triangles.
+/// Volume of the fluid between the terrain and the lid: the sum over columns on triangles.
 double columns_of(const TriMesh& sheet, double lid) {
   double volume = 0.0;
   for (const TriangleId t : sheet.triangles.ids()) {
@@ -113,7 +113,7 @@ TEST(Floor, TerrainWithAHouseGetsSidesAndALid) {
     }
     EXPECT_GT(count_cells(result.mesh).prisms, 0);
     EXPECT_GT(result.layer.coverage, 0.9);
-    // The sides hold the prints of the columns on all edges of the rim; the lid holds none.
+    // The sides contain the column faces on all edges of the open boundary; the lid contains none.
     EXPECT_EQ(rims["inflow"], static_cast<std::size_t>(k_cells_y));
     EXPECT_EQ(rims["outflow"], static_cast<std::size_t>(k_cells_y));
     EXPECT_EQ(rims["sides"], static_cast<std::size_t>(2 * k_cells_x));
@@ -139,7 +139,7 @@ TEST(Floor, BodiesAboveTheTerrainAreInTheBox) {
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   const double expected = without - test::volume_of(body);
   EXPECT_NEAR(result.check.total_volume, expected, 1e-9 * expected);
-  // Sides and lid are one patch unless rules part them.
+  // Sides and lid are one patch unless rules separate them.
   EXPECT_EQ(rim_edges(result)["farfield"], static_cast<std::size_t>(2 * (k_cells_x + k_cells_y)));
 
   for (Point& p : body.points) p.z -= 5.0;

@@ -1,4 +1,4 @@
-// Layers that end on patches without layers: from closed surfaces with kinds to checked meshes.
+// Layers that end on patches without layers, from closed surfaces with patch kinds to checked meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ TriMesh named(TriMesh mesh, const std::string& name, PatchKind kind) {
   return mesh;
 }
 
-/// Closes the open edges of a mesh, which lie in the plane y = 0 with the fluid above it, by a patch.
+/// Closes the open edges of a mesh, which lie in the plane y = 0 with the fluid above, by a patch.
 void close_plane(TriMesh& mesh, const std::string& name, PatchKind kind) {
   const Topology topology(mesh, RunContext{});
   std::vector<Vec2> points;
@@ -60,7 +60,7 @@ void close_plane(TriMesh& mesh, const std::string& name, PatchKind kind) {
   }
 }
 
-/// Half a ball of radius 1 in half a ball of radius 10, with the plane between them.
+/// Half a ball of radius 1 in half a ball of radius 10, with the symmetry plane between them.
 TriMesh half_ball_domain(int fineness) {
   TriMesh mesh = named(test::cut_off(test::sphere(fineness), 1, 0.0), "ball", PatchKind::wall);
   append(mesh, named(turned_inwards(test::cut_off(test::sphere(4, 10.0), 1, 0.0)), "farfield", PatchKind::farfield));
@@ -140,7 +140,7 @@ TEST(HalfDomain, ABodyAwayFromSlipWallsNeedsNoFarfield) {
   EXPECT_EQ(result.mesh.patches.size(), 7u);
 }
 
-/// A square duct in free air with a plug in it, whose front is a fan face and whose back a nozzle's exit.
+/// A square duct in free air with a plug in it; the front of the plug is a fan face, its back a nozzle exit.
 TEST(HalfDomain, LayersInsideADuctEndOnFanFaceAndNozzle) {
   const auto is_fluid = [](int i, int j, int k) {
     const bool is_shell = i >= 10 && i < 22 && j >= 10 && j < 18 && k >= 10 && k < 18;
@@ -159,7 +159,7 @@ TEST(HalfDomain, LayersInsideADuctEndOnFanFaceAndNozzle) {
   EXPECT_EQ(rim_edges(result), (Edges{{"fan", 24}, {"nozzle", 24}}));
 }
 
-/// A body in free air whose back is a nozzle: the wall turns away from the jet by 270 degrees of fluid.
+/// A body in free air whose back is a nozzle: at the edge to the jet the fluid spans 270 degrees.
 TriMesh body_with_jet() {
   return test::voxel_boundary(
       {28, 24, 24}, 0.1, [](int i, int j, int k) { return !(i >= 9 && i < 19 && j >= 9 && j < 15 && k >= 9 && k < 15); },
@@ -179,8 +179,8 @@ double area_of_patch(const VolumeMeshResult& result, const std::string& name) {
   return area;
 }
 
-/// No side of a layer can stand on the jet: the jet carries the layer as well. Found on scripts/03: cells around vertices of a nozzle's border without a layer
-/// made the flow diverge.
+/// The side of a layer cannot stand on the jet, so the jet carries the layer as well. Found on scripts/03: cells around vertices of a nozzle's border without a
+/// layer made the flow diverge.
 TEST(HalfDomain, OverAJetBeyondAnOuterEdgeTheLayerGoesOn) {
   const VolumeMeshResult result = volume_mesh(body_with_jet(), layers(8, 1e-3), RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
@@ -194,7 +194,7 @@ TEST(HalfDomain, OverAJetBeyondAnOuterEdgeTheLayerGoesOn) {
     }
 }
 
-/// A rule without layers for the jet: the layer runs out at the edge, where a side of the layer would stand in the fluid.
+/// A rule without layers for the jet: the layer height falls to zero at the edge, where a side of the layer would stand in the fluid.
 TEST(HalfDomain, AtAnOuterEdgeTheLayerRunsOut) {
   MeshCase options = layers(8, 1e-3);
   options.patches = {{.names = "jet", .layers = 0}};

@@ -1,4 +1,4 @@
-// A cylinder of long strips along y: walls as users bring them, needles side by side.
+// A cylinder of long strips along y: a typical user wall of adjacent needles (sliver triangles).
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace sterna::volmesh {
 
-/// Radius 1 m, from y = 0 to `length` (m), `n` strips of two triangles; patches "side" and "end" (y = length), and "root" (y = 0) unless it is to be open.
-/// Normals out of it.
+/// Makes a cylinder of radius 1 m, from y = 0 to `length` (m), with `n` strips of two triangles. Patches: "side" and "end" (y = length), and "root" (y = 0)
+/// unless `is_open`. Normals point outwards.
 inline TriMesh long_strips(int n, double length, bool is_open = false) {
   TriMesh mesh;
   mesh.patches = Column<PatchId, Patch>{{"side", PatchKind::wall}, {"end", PatchKind::wall}, {"root", PatchKind::wall}};

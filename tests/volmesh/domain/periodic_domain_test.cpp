@@ -1,4 +1,4 @@
-// Periodic sides, from closed surfaces to checked meshes: what is on one side is on the other, node by node and face by face.
+// Periodic sides, from closed surfaces to checked meshes: both sides match node by node and face by face.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ MeshCase periodic_layers(int n, double first_height, std::vector<PeriodicNames> 
   return options;
 }
 
-/// Meshed, valid, and all pairs match: found by the check and once more here.
+/// Makes the mesh; expects that it is valid and that all pairs match, by the check and by an independent test here.
 VolumeMeshResult matched(const TriMesh& surface, const MeshCase& options) {
   VolumeMeshResult result = volume_mesh(surface, options, k_context);
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
@@ -85,7 +85,7 @@ TEST(PeriodicDomain, TwoDirectionsShareTheirEdges) {
   EXPECT_EQ(rim_edges(result), (Edges{{"ceiling", 12}, {"floor", 12}, {"left", 12}, {"right", 12}}));
 }
 
-/// The wing is bent, so that it meets both sides at other angles, and all is sheared: the translation is no normal of the sides.
+/// The wing is bent, so that it meets the two sides at different angles, and the domain is sheared: the translation is not normal to the sides.
 TEST(PeriodicDomain, ABentWingInASkewedRoom) {
   TriMesh surface = room(all_slip, is_wing);
   for (Point& p : surface.points) {
@@ -99,7 +99,8 @@ TEST(PeriodicDomain, ABentWingInASkewedRoom) {
   EXPECT_NEAR(norm(result.mesh.periodic[0].translation), std::sqrt(4.0 + 0.36 + 0.04), 1e-12);
 }
 
-/// Several normals along the edges of a wing from side to side, straight, and bent as above: ridges do not end at the sides, and fans there match.
+/// Several normals along the edges of a wing from side to side, straight and bent as above: ridges do not end at the sides, and the multi-normal fans there
+/// match.
 TEST(PeriodicDomain, RidgesGoOnBeyondTheSides) {
   for (const double bend : {0.0, 0.25}) {
     TriMesh surface = room(all_slip, is_wing);
@@ -108,7 +109,7 @@ TEST(PeriodicDomain, RidgesGoOnBeyondTheSides) {
     options.ridges = {.open_ridges = "always", .open_angle = 80.0 * test::k_degree};
     const VolumeMeshResult result = matched(surface, options);
     EXPECT_FALSE(result.mesh.hexahedra.empty());
-    // All four edges are open from side to side, in three sectors each, or four where they turn by more than 90 degrees.
+    // All four edges are opened from side to side, in three sectors each, or four if they turn by more than 90 degrees.
     const MeshingSite site(surface, options, k_context);
     EXPECT_EQ(site.domain.ridges.feet.size(), 4u * 13u) << bend;
     EXPECT_TRUE(site.domain.ridges.ends.empty()) << bend;
@@ -136,7 +137,7 @@ TEST(PeriodicDomain, ABodyThatTouchesNeitherSide) {
 }
 
 TEST(PeriodicDomain, SidesThatAreAddedInPlanes) {
-  // A bar without ends, from plane to plane: the box around it has its sides in the planes.
+  // A bar open at both ends, from plane to plane: the box around it has its sides in the planes.
   TriMesh surface;
   surface.patches.push_back({"bar", PatchKind::wall});
   const int n = 24, m = 8;
@@ -160,7 +161,7 @@ TEST(PeriodicDomain, SidesThatAreAddedInPlanes) {
 
 TEST(PeriodicDomain, ADifferentTriangulationOfTheSecondSideIsReplaced) {
   TriMesh surface = room(all_slip);
-  // One diagonal is turned, and a vertex inside moved.
+  // One diagonal is flipped, and one inner vertex moved.
   const auto right = static_cast<std::size_t>(std::ranges::find(surface.patches, "right", &Patch::name) - surface.patches.begin());
   VertexId inner;
   for (const TriangleId t : surface.triangles.ids())
@@ -180,7 +181,8 @@ TEST(PeriodicDomain, ADifferentTriangulationOfTheSecondSideIsReplaced) {
 TEST(PeriodicDomain, TheWallKnowsItsTrianglesWhereASideIsReplaced) {
   TriMesh surface = room(all_slip, is_wing);
   const auto right = PatchId(static_cast<std::size_t>(std::ranges::find(surface.patches, "right", &Patch::name) - surface.patches.begin()));
-  // The second side's come first, and one vertex inside it is elsewhere, so that its triangles are replaced and all others have other numbers.
+  // The triangles of the second side come first, and one inner vertex of that side is moved, so that its triangles are replaced and all others have different
+  // numbers.
   TriMesh sorted = surface;
   sorted.triangles.clear();
   sorted.triangle_patch.clear();
@@ -216,7 +218,7 @@ TEST(PeriodicDomain, VerticesFromFilesWithSixDigitsAreMovedOntoTheirImages) {
 
 TEST(PeriodicDomain, VerticesOfAMesherGoAlongTheirBorderToTheImages) {
   TriMesh surface = room(all_slip, is_wing);
-  // Inner vertices of the wing's edges along x, and of the floor's, a quarter of an edge aside on the right.
+  // On the right, inner vertices on the wing's edges along x and on those of the floor are moved by a quarter of an edge.
   for (Point& p : surface.points)
     if (p.y == 2.0 && (p.z == 0.0 || std::abs(p.z - 5.0 / 6.0) < 1e-9) && p.x > 1.4 && p.x < 2.3) p.x += 0.25 / 6.0;
   TriMesh joined = surface;
@@ -225,7 +227,7 @@ TEST(PeriodicDomain, VerticesOfAMesherGoAlongTheirBorderToTheImages) {
   EXPECT_NO_THROW(match_periodic(joined, sides[0].first, sides[0].second, 1e-12));
   matched(surface, periodic_layers(8, 1e-3));
   for (Point& p : surface.points)
-    if (p.y == 2.0 && p.z == 0.0 && std::abs(p.x - 2.0 - 0.25 / 6.0) < 1e-9) p.z += 0.02;  // off the line
+    if (p.y == 2.0 && p.z == 0.0 && std::abs(p.x - 2.0 - 0.25 / 6.0) < 1e-9) p.z += 0.02;  // off the edge line
   EXPECT_THAT(test::error_of([&] {
                 join_periodic_sides(surface, std::array{PeriodicNames{"left", "right"}}, k_context);
               })
@@ -247,14 +249,14 @@ TEST(PeriodicDomain, WhatDoesNotMatchIsSaidWithPlacesAndDistances) {
 
   TriMesh moved = surface;
   for (Point& p : moved.points)
-    if (p.y == 2.0 && std::abs(p.x - 4.0 / 3.0) < 1e-9 && p.z < 1e-9) p.x += 0.08;  // on the edge to the floor, too far to go back
+    if (p.y == 2.0 && std::abs(p.x - 4.0 / 3.0) < 1e-9 && p.z < 1e-9) p.x += 0.08;  // on the edge to the floor, too far to be moved back
   const ErrorInfo info = problem_of(moved, {{"left", "right"}});
   EXPECT_THAT(info.problem, HasSubstr("2 border vertices have no partner"));
   ASSERT_EQ(info.places.size(), 2u);
   EXPECT_THAT(info.places[0].what, HasSubstr("0.08 m off"));
   EXPECT_NEAR(info.places[0].position.x, 4.0 / 3.0, 1e-9);
 
-  // The wing ends before the right side, and something without layers has its outline there.
+  // The wing ends before the right side, and a patch without layers has its outline there.
   const TriMesh patched = test::voxel_boundary(
       {24, 12, 12}, 1.0 / 6.0, [](int i, int j, int k) { return !is_wing(i, j, k); },
       [](const Point& p, const Vec3& normal) -> Patch {

@@ -1,4 +1,4 @@
-// A room whose sides are of any kind, with bodies of blocks in it, and what to count in its meshes.
+// A room whose sides have any patch kind, with bodies of blocks in it, and functions to count in its meshes.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline MeshCase layers(int n, double first_height) {
   return options;
 }
 
-/// A room of 4 x 2 x 2 m: inlet at x = 0, outlet at x = 4, the other sides of the kind that `kind_of` says by name: floor, ceiling, left, right.
+/// A room of 4 x 2 x 2 m: inlet at x = 0, outlet at x = 4; `kind_of` gives the kind of the other sides by name: floor, ceiling, left, right.
 inline TriMesh room(const std::function<PatchKind(const std::string&)>& kind_of, const std::function<bool(int, int, int)>& is_solid = {}) {
   const std::array<int, 3> n = {24, 12, 12};
   const double size = 1.0 / 6.0;
@@ -32,7 +32,7 @@ inline TriMesh room(const std::function<PatchKind(const std::string&)>& kind_of,
       });
 }
 
-/// Quadrilaterals of a patch over the layers: edges of the footprint in it.
+/// Counts the boundary quadrilaterals of a patch over the layers: edges of the footprint in the patch.
 inline std::map<std::string, std::size_t> rim_edges(const VolumeMeshResult& result) {
   std::map<std::string, std::size_t> n;
   for (const BoundaryQuad& quad : result.mesh.boundary_quads) ++n[result.mesh.patches[quad.patch].name];

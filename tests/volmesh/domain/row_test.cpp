@@ -1,4 +1,4 @@
-// Wings and bars through two periodic sides, from exact models through surface meshes whose borders are cut alike to checked volume meshes.
+// Wings and bars through two periodic sides, from exact models through surface meshes with matching borders to checked volume meshes.
 #include <gmock/gmock.h>
 
 #include <array>

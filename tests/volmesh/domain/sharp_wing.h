@@ -8,7 +8,7 @@
 
 namespace sterna::volmesh {
 
-/// \p wedge_angle: of the trailing edge, degrees; it has n_span edges of 0.1 m.
+/// \param wedge_angle angle of the trailing edge, degrees; the trailing edge has n_span edges of 0.1 m
 inline TriMesh sharp_wing(double wedge_angle, int n_span) {
   constexpr int k_along = 10, k_nose = 8;
   const double half = 0.5 * wedge_angle * std::numbers::pi / 180.0, slope = std::tan(half);
@@ -44,7 +44,7 @@ inline TriMesh sharp_wing(double wedge_angle, int n_span) {
   return mesh;
 }
 
-/// The same without its cap at y = 0, where it is open (half of a wing of twice the span), or without both.
+/// The same wing without its cap at y = 0, where it is open (half of a wing of twice the span), or without both caps.
 inline TriMesh open_sharp_wing(double wedge_angle, int n_span, bool is_open_at_both) {
   const TriMesh wall = sharp_wing(wedge_angle, n_span);
   TriMesh open;

@@ -1,4 +1,4 @@
-// Needles and caps of given walls, flipped and split before the layer is made.
+// Needles and caps (sliver triangles) of given walls, flipped and split before the layer is made.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ std::vector<double> patch_areas(const TriMesh& mesh) {
   return areas;
 }
 
-/// Closed, manifold, the same body and the same patches.
+/// Expects a closed, manifold mesh of the same body with the same patches.
 void expect_same_body(const TriMesh& split, const TriMesh& given) {
   EXPECT_EQ(Topology(split, k_context).n_boundary_halfedges(), 0u);
   EXPECT_NEAR(test::volume_of(split), test::volume_of(given), 1e-12 * test::volume_of(given));
@@ -58,7 +58,7 @@ void expect_same_body(const TriMesh& split, const TriMesh& given) {
   for (const VertexId v : given.points.ids()) ASSERT_EQ(split.points[v], given.points[v]);
 }
 
-/// Corners are where their weights in the given triangle say.
+/// Expects that new corners are at the positions given by their weights in the source triangle.
 void expect_weights(const TriMesh& split, const TriMesh& given, const NeedleSplits& splits) {
   ASSERT_EQ(splits.sources.size(), split.n_triangles());
   std::int64_t n_known = 0;
@@ -76,7 +76,7 @@ void expect_weights(const TriMesh& split, const TriMesh& given, const NeedleSpli
   EXPECT_GT(n_known, 0);
 }
 
-/// A cube with points close to edges inside of its faces: caps.
+/// A cube with points close to edges inside its faces, which makes caps.
 TriMesh cube_with_caps() {
   const TriMesh cube = test::cube(4);
   const Topology topology(cube, k_context);
@@ -125,7 +125,7 @@ TEST(SplitNeedles, LongStripsBetweenCreasesAreSplitCompletely) {
   EXPECT_EQ(needles_below(split, 5 * k_degree), 0);
   EXPECT_EQ(splits.report.n_left, 0);
   EXPECT_EQ(splits.report.n_triangles, static_cast<std::int64_t>(split.n_triangles()));
-  // Pieces of 20 m / 16 and strips of 0.13 m have 6 degrees; so a factor of 2 is for where pieces are of different levels.
+  // Pieces of 20 m / 16 and strips of 0.13 m have 6 degrees; the factor of 2 allows for pieces of different levels.
   EXPECT_LT(split.n_triangles(), 2u * 16u * 96u);
 }
 
@@ -170,7 +170,7 @@ TEST(SplitNeedles, WithoutNeedlesAndWithoutLeaveNothingChanges) {
   expect_unchanged(sphere, {});
   expect_unchanged(strips, {.split_needles = 0.0});
   expect_unchanged(strips, {.needle_budget = 50.0, .flip_angle = 0.0});
-  expect_unchanged(long_strips(24, 1e4), k_rich);  // a thousand pieces each: out of reach
+  expect_unchanged(long_strips(24, 1e4), k_rich);  // a thousand pieces each: beyond the limit
 }
 
 TEST(SplitNeedles, PatchesWithoutLayersAndRimsStayAsTheyAre) {
@@ -217,7 +217,7 @@ TEST(SplitNeedles, MeshesHaveTheFinerWallAndStepsByHandAreTheSame) {
   EXPECT_TRUE(whole.check.is_valid());
   EXPECT_EQ(whole.needles.n_needles, 48);
   EXPECT_EQ(whole.needles.n_left, 0);
-  EXPECT_GE(whole.mesh.layers.n_columns(), static_cast<std::size_t>(whole.needles.n_triangles));  // more where an engine splits
+  EXPECT_GE(whole.mesh.layers.n_columns(), static_cast<std::size_t>(whole.needles.n_triangles));  // more if an engine splits triangles
   EXPECT_GT(whole.needles.n_triangles, static_cast<std::int64_t>(wall.n_triangles()));
 
   const EnvelopeStage envelope = make_envelope(wall, options, {}, k_context);

@@ -1,4 +1,4 @@
-// A run that is stopped behind each step and continued, compared with the one that was not.
+// Compares a run that is stopped after each step and continued with an uninterrupted run.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ struct Continued {
   int n_rounds = 0;  ///< ClosedFans::n_rounds
 };
 
-/// Stops a run behind each step and goes on; the envelope is the one of the last round in which fans were closed.
+/// Stops a run after each step and continues it; the envelope is that of the last round in which multi-normal fans were closed.
 inline Continued expect_continued(const TriMesh& wall, const MeshCase& options) {
   EnvelopeStage envelope;
   FilledStage filled;

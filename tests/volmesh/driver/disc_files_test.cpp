@@ -1,4 +1,4 @@
-// Actuator discs on walls of real surfaces, and what independent programs say of such meshes.
+// Actuator discs on walls of real surfaces, and the results of independent programs for such meshes.
 #include <gtest/gtest.h>
 
 #include "geom/math/measures.h"
@@ -34,7 +34,8 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
     ActuatorDisc disc;
     double first_height;  ///< m
     double area,
-        tolerance;  ///< m^2: of the circle inside of the duct, whose radius is 0.4 to 0.402 m there; of the disc without the nose, which is 0.2 to 0.45 m thick
+        tolerance;  ///< m^2; expected area: the circle inside the duct, whose radius is 0.4 to 0.402 m there, or the disc without the nose, which is 0.2 to
+                    ///< 0.45 m thick
   };
   const RunContext context({.threads = 2});
   for (const Case& c : {Case{"flowpanel_duct_duct_remeshed_refined.msh", {.name = "fan", .radius = 0.5}, 1e-4, 0.505, 0.003},
@@ -42,7 +43,7 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
     SCOPED_TRACE(c.file);
     const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / c.file, context)}, {}, context).mesh;
     MeshCase options;
-    options.envelope.layers = 6;  // few, and the farfield near: what is looked at is the disc
+    options.envelope.layers = 6;  // few layers and a near farfield, since only the disc matters here
     options.envelope.first_height = c.first_height;
     options.farfield.farfield_radius = 5.0 * body_length(wall);
     options.discs = {c.disc};

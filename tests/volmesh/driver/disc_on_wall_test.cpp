@@ -58,7 +58,7 @@ Side side_of(const HybridMesh& mesh, const std::string& name, const ActuatorDisc
   return side;
 }
 
-/// Both sides cover the ring between two radii, face on face, in the plane, and share no node but those of free rims.
+/// Expects that both sides cover the ring between two radii, face on face, in the plane, and share only the nodes of free rims.
 void expect_disc(const VolumeMeshResult& result, const ActuatorDisc& disc, double inner, double outer) {
   SCOPED_TRACE(disc.name);
   const HybridMesh& mesh = result.mesh;
@@ -145,7 +145,7 @@ TEST(DiscOnWall, TwoDiscsOnOneHubAndOneFree) {
   EXPECT_EQ(side_of(result.mesh, "free", discs[1]).n_triangles, side_of(result.mesh, "free.back", discs[1]).n_triangles);
 }
 
-/// Triangles between them have corners on both outlines.
+/// The triangles between the two discs have corners on both outlines.
 TEST(DiscOnWall, TwoDiscsLessThanAnEdgeApart) {
   const std::vector<ActuatorDisc> discs = {{.name = "front", .center = {-0.1, 0, 0}, .radius = 1.2}, {.name = "rear", .center = {0.15, 0, 0}, .radius = 1.2}};
   const VolumeMeshResult result = volume_mesh(hub(6), eight_layers_with(discs), k_context);
@@ -153,7 +153,7 @@ TEST(DiscOnWall, TwoDiscsLessThanAnEdgeApart) {
   expect_disc(result, discs[1], hub_radius(0.15), 1.2);
 }
 
-/// Two regions that share nothing but the disc.
+/// Two regions that share only the disc.
 TEST(DiscOnWall, FanThatPartsTheFluid) {
   const TriMesh wall = room([](const std::string&) { return PatchKind::wall; });
   for (const char* engine : {"hxt", "tetgen"}) {
@@ -173,7 +173,7 @@ TEST(DiscOnWall, FanThatPartsTheFluid) {
   }
 }
 
-/// Walls of another body so near that layers collapse at the outlines: sides of cells are triangles there.
+/// Walls of another body so close that layers collapse at the disc outlines: cell sides there are triangles.
 TEST(DiscOnWall, CollapsedLinesAtTheOutline) {
   TriMesh wall = hub(), other = hub();
   for (Point& p : other.points) p.y += 1.002;
@@ -191,7 +191,7 @@ TEST(DiscOnWall, CollapsedLinesAtTheOutline) {
   EXPECT_EQ(front.off_plane, 0.0);
 }
 
-/// Beside a layer that ends on a symmetry plane, and with other numbers of layers.
+/// A disc beside a layer that ends on a symmetry plane, and with other numbers of layers.
 TEST(DiscOnWall, NacelleBesideAHalfBody) {
   TriMesh wall = test::cut_off(hub(), 1, 0.0), nacelle = hub();
   for (Point& p : nacelle.points) p.y += 1.5;
@@ -226,13 +226,13 @@ TEST(DiscOnWall, SaysWhereItCannotBe) {
   const auto mesh = [&](std::vector<ActuatorDisc> discs) {
     return test::error_info_of([&] { volume_mesh(hub(6), eight_layers_with(std::move(discs)), k_context); });
   };
-  // The rim goes through the wall.
+  // The rim intersects the wall.
   const ErrorInfo rim = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});
   EXPECT_EQ(rim.code, ErrorCode::self_intersection);
   EXPECT_THAT(rim.attempted, HasSubstr("prop"));
   EXPECT_THAT(rim.problem, HasSubstr("rims"));
   EXPECT_FALSE(rim.places.empty());
-  // Beyond the farfield.
+  // A disc beyond the farfield.
   const ErrorInfo far = mesh({{.name = "prop", .center = {0, 0, 0}, .radius = 40.0}});
   EXPECT_EQ(far.code, ErrorCode::self_intersection);
   EXPECT_THAT(far.places.at(0).what, HasSubstr("farfield"));

@@ -21,7 +21,7 @@ MeshCase ten_layers_with(std::vector<ActuatorDisc> discs) {
   return options;
 }
 
-/// Triangles of each patch by name.
+/// Returns the number of triangles of the patch with this name.
 std::size_t n_triangles_of(const HybridMesh& mesh, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::count_if(mesh.boundary_triangles, [&](const auto& t) { return mesh.patches[t.patch].name == name; }));
 }

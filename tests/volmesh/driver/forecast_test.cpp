@@ -1,4 +1,5 @@
-// What a mesh will need is told before it is made: too much is an error before the work, with the figures and a remedy, and the figures are about right.
+// The required memory is reported before the mesh is made. Too large a mesh is an error before the work starts, with the figures and a remedy; the figures are
+// approximately right.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// "about 2.77 M prisms and 688 k tetrahedra, 0.33 GB ...": the tetrahedra of the last such line.
+/// Returns the number of tetrahedra in the last line of the form "about 2.77 M prisms and 688 k tetrahedra, 0.33 GB ...".
 double told_tetrahedra(const std::vector<std::string>& lines) {
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     const std::size_t at = line->find(" prisms and ");
@@ -55,7 +56,7 @@ TEST(Forecast, TooMuchIsAnErrorBeforeTheWork) {
   const TriMesh wall = test::sphere(12);
   test::expect_error(ErrorCode::overflow, "limits.max_memory is 0.062 GB", [&] { volume_mesh(wall, options, heard.context()); });
   test::expect_error(ErrorCode::overflow, "force = true", [&] { volume_mesh(wall, options, heard.context()); });
-  for (const std::string& line : heard.lines) EXPECT_EQ(line.find("envelope"), std::string::npos) << line;  // nothing was begun
+  for (const std::string& line : heard.lines) EXPECT_EQ(line.find("envelope"), std::string::npos) << line;  // no work was started
 }
 
 TEST(Forecast, ForceGoesOnToTheSameMesh) {
@@ -71,7 +72,7 @@ TEST(Forecast, ForceGoesOnToTheSameMesh) {
   EXPECT_NE(heard.warnings.front().find("are to be expected"), std::string::npos) << heard.warnings.front();
 }
 
-/// Tolerance: the figures are for a decision whether to begin, so a factor of two is enough; real meshes are within a third.
+/// Tolerance: the forecast supports the decision whether to start, so a factor of two is sufficient; real meshes are within a third.
 TEST(Forecast, CountsTetrahedraAboutRight) {
   STERNA_NEEDS_SHARED_DATA();
   for (const char* file : {"clean/vspgeom_geom2_geom2.stl", "clean/pygeo_bwb.stl", "clean/flowpanel_duct_duct_remeshed_refined.msh", "clean/pmp_fandisk.off"}) {

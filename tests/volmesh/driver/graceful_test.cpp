@@ -1,4 +1,4 @@
-// Layers far thicker than the surface allows: the layer compresses and collapses where it must, the mesh is valid all the same, and the report says where.
+// Layers far thicker than the surface allows: the layer compresses and collapses where necessary, the mesh is still valid, and the report names the locations.
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Nasty, TooThick,
                          [](const auto& info) { return std::string(std::get<1>(info.param).name) + std::to_string(info.index); });
 
 TEST(WrongUnit, ALayerThinnerThanItsOwnCellsIsWarnedAbout) {
-  const TriMesh wall = test::sphere(5, 1e-3);  // drawn in metres, meant in millimetres
+  const TriMesh wall = test::sphere(5, 1e-3);  // coordinates in metres that were meant in millimetres
   MeshCase options;
   options.envelope.layers = 10;
   options.envelope.first_height = 1e-3;
@@ -86,7 +86,7 @@ TEST(OuterBoundary, AWallThatDoesNotFitIsRefusedWithPlaces) {
   const TriMesh wall = test::cube(3);
   MeshCase options;
   options.envelope.first_height = 1e-4;
-  options.farfield.farfield_radius = 0.8;  // the corners lie 0.87 from the centre
+  options.farfield.farfield_radius = 0.8;  // the corners are at a distance of 0.87 from the centre
   try {
     volume_mesh(wall, options, RunContext({.threads = 2}));
     FAIL();

@@ -1,4 +1,4 @@
-// The steps of the ladder that change the layer, through the whole pipeline; helpers that fail on purpose.
+// The retry steps that change the layer, through the whole pipeline; helper programs that fail on purpose.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A plate whose narrow sides are slivers, so that there is something to repair.
+/// A plate whose narrow sides are slivers, so that repair is necessary.
 TriMesh thin_plate() {
   TriMesh plate = test::cube(4);
   for (Point& p : plate.points) p.z *= 5e-4;
@@ -25,7 +25,7 @@ TriMesh thin_plate() {
 
 class DriverLadder : public testing::Test {
  protected:
-  /// TetGen's helper crashes in its first `n` runs, HXT's always.
+  /// Returns a helper folder in which TetGen crashes in its first `n` runs, and HXT always.
   std::string folder_that_fails(int n) {
     const std::filesystem::path folder = test::scratch();
     const std::string count = (folder / "count").string();

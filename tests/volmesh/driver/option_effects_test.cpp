@@ -1,5 +1,5 @@
-// Every option of a volume mesh changes something where it matters: the mesh, or what is refused. Read off the tables of options, so a new option fails here
-// until somebody says where it matters.
+// Every option of a volume mesh has an effect in a suitable setting: on the mesh, or on the refused input. The options come from the option tables, so that a
+// new option fails here until a setting is given for it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,18 +24,18 @@ namespace {
 
 using test::k_context;
 
-/// A bent block: an L of voxels, concave and convex edges, edges of 0.25 m.
+/// An L-shaped block of voxels with concave and convex edges, edge length 0.25 m.
 TriMesh bent_block() {
   TriMesh mesh = test::voxel_boundary(
       {8, 4, 8}, 0.25, [](int i, int, int k) { return i < 4 || k < 4; },
       [](const Point&, const Vec3&) -> Patch {
         return {"body", PatchKind::wall};
       });
-  for (TriangleVertices& v : mesh.triangles) std::swap(v[1], v[2]);  // the fluid is around it
+  for (TriangleVertices& v : mesh.triangles) std::swap(v[1], v[2]);  // the fluid is outside the block
   return mesh;
 }
 
-/// Two cubes nearer to each other than their layers are high.
+/// Two cubes closer to each other than their layer height.
 TriMesh near_cubes() {
   TriMesh mesh = test::cube(4), other = test::cube(4);
   for (Point& p : other.points) p.x += 1.12;
@@ -54,7 +54,7 @@ MeshCase few_layers() {
   return mesh_case;
 }
 
-/// Where options matter, by name.
+/// Returns the setting with this name, in which some options have an effect.
 Setting setting_of(const std::string& name) {
   Setting setting{bent_block(), few_layers()};
   if (name == "cubes") setting.wall = near_cubes();
@@ -68,12 +68,12 @@ Setting setting_of(const std::string& name) {
     setting.mesh_case.tetrahedra.engine = "tetgen";
     setting.mesh_case.size.size_growth = 2.0;
   }
-  if (name == "flat") {  // cells near the wall are, and the least ratio that reaches the edges is below the largest
+  if (name == "flat") {  // cells near the wall are flat, and the smallest ratio that reaches the edges is below the largest
     setting.mesh_case = layers(16, 1e-5);
     setting.mesh_case.farfield.farfield_radius = 8.0;
     setting.mesh_case.envelope.max_growth = 2.0;
   }
-  if (name == "graded") {  // edges, and with them heights, that differ
+  if (name == "graded") {  // edges of different length, and therefore different heights
     setting.wall = test::cube(8);
     for (Point& p : setting.wall.points) p.x *= p.x;
     setting.mesh_case.envelope.max_growth = 2.5;
@@ -86,7 +86,7 @@ Setting setting_of(const std::string& name) {
   if (name == "box" || name == "cylinder") {
     FarfieldOptions& far = setting.mesh_case.farfield;
     far.farfield_shape = name;
-    if (name == "box") far.farfield_radius = FarfieldOptions().farfield_radius;  // the radius of other shapes is an error
+    if (name == "box") far.farfield_radius = FarfieldOptions().farfield_radius;  // a radius is an error for other shapes
     far.farfield_from_x = far.farfield_from_y = far.farfield_from_z = -5.0;
     far.farfield_to_x = far.farfield_to_y = far.farfield_to_z = 6.0;
     if (name == "cylinder") far.farfield_from_y = far.farfield_from_z = far.farfield_to_y = far.farfield_to_z = 0.5;
@@ -109,7 +109,7 @@ Setting setting_of(const std::string& name) {
   return setting;
 }
 
-/// Another value of an option, and where that matters.
+/// Another value of an option, and the setting in which it has an effect.
 struct Change {
   std::string value;
   std::string where = "block";
@@ -176,7 +176,7 @@ const std::map<std::string, Change> k_changes = {
     {"limits.max_memory", {"1e6"}},
 };
 
-/// Options that show only when something fails or takes too long: each has its test.
+/// Options whose effect shows only when something fails or takes too long: each has its own test.
 const std::map<std::string, std::string> k_elsewhere = {
     {"ends.ends_min_angle", "plane_end_test: a goal that shows where loops leave room for it"},
     {"envelope.boundary_layer", "what gate G12 compares the layer with, the mesh stays: the last test below"},
@@ -193,7 +193,7 @@ const std::map<std::string, std::string> k_elsewhere = {
     {"farfield.farfield_surface", "the file's name is for messages; continuation_test and farfield_test read it"},
 };
 
-/// What a user sees of a run: nodes and cells, or the error.
+/// The visible result of a run: nodes and cells, or the error.
 struct Outcome {
   std::vector<Point> points;
   std::vector<std::array<NodeId, 4>> tetrahedra;
@@ -217,7 +217,7 @@ Outcome outcome_of(const Setting& setting) {
 }
 
 TEST(OptionEffects, EachOptionChangesTheMeshWhereItMatters) {
-  std::map<std::string, Outcome> usual;  // by setting
+  std::map<std::string, Outcome> usual;  // by setting name
   MeshCase all;
   for (const Option& option : options_of(all)) {
     const std::string name = std::string(option.stage) + "." + std::string(option.name);

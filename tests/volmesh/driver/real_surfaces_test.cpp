@@ -18,20 +18,20 @@ namespace {
 struct Case {
   const char* file;             ///< below the surfaces of tests/data/shared
   double asked_coverage;        ///< required share of the area with lines of 0.9 h_target; 0: the surface has no room for it
-  bool has_open_places = true;  ///< false: every triangle of it has a vertex where the wall itself is in the way
+  bool has_open_places = true;  ///< false: every triangle has a vertex at which the wall itself obstructs the layer
 };
 
-/// Where nothing is in the layer's way, judged by the wall alone: the ball of two target heights' radius that touches the wall from the fluid's side holds
-/// nothing else of it, at a vertex and at all those beside it (a triangle hinders the lines on its other corners, too).
+/// Unobstructed locations, judged by the wall alone. At such a vertex, a ball that touches the wall from the fluid side, with a radius of two target heights,
+/// contains no other part of the wall; the same holds at all adjacent vertices (a triangle also obstructs the lines on its other corners).
 struct OpenPlaces {
-  double share = 0.0;       ///< of the wall's area; each vertex stands for a third of its triangles
-  double low = 0.0;         ///< of the wall's area: open, and the layer is lower than 0.9 of its target all the same
-  double long_lines = 0.0;  ///< of the wall's area: lines as long as 0.9 of the target, whether they lean or not
+  double share = 0.0;       ///< unobstructed share of the wall area; each vertex counts for a third of its triangles
+  double low = 0.0;         ///< share of the wall area that is unobstructed although the layer is lower than 0.9 of its target
+  double long_lines = 0.0;  ///< share of the wall area with growth lines of at least 0.9 of the target length, leaning or not
 };
 
 constexpr double k_reach = 2.0;        ///< radius of the ball over the target height: the layer ends half-way to its centre
-constexpr double k_ball_slack = 0.02;  ///< of the radius: on a curved wall of flat triangles the ball cuts the facets beside the vertex a little
-constexpr double k_full_height = 0.9;  ///< of the target height, as in the definition of coverage
+constexpr double k_ball_slack = 0.02;  ///< share of the radius: on a curved wall of flat triangles the ball slightly cuts the facets beside the vertex
+constexpr double k_full_height = 0.9;  ///< share of the target height, as in the definition of coverage
 
 OpenPlaces open_places_of(const HybridMesh& mesh) {
   const LayerBlock& layers = mesh.layers;
@@ -77,8 +77,7 @@ OpenPlaces open_places_of(const HybridMesh& mesh) {
   return open;
 }
 
-/// Measured: 0.042 (netgen_plane), 0.02 (ka-6d, bwb), 0.0012 or less elsewhere; lines that converge at edges of a coarse wall lower what is beside
-/// them.
+/// Measured: 0.042 (netgen_plane), 0.02 (ka-6d, bwb), 0.0012 or less elsewhere. Growth lines that converge at edges of a coarse wall lower the layer nearby.
 constexpr double k_low_without_hindrance = 0.045;
 /// Measured: 0.046 (ka-6d), 0.33 (part1) and more.
 constexpr double k_enough_open = 0.04;
@@ -101,7 +100,7 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_LE(result.layer.coverage, result.layer.attainable + 1e-12);
   EXPECT_LE(result.layer.coverage, result.layer.attained + 1e-12);
-  // Where the layer is low there is a reason, and the wall shows it.
+  // Every lost height has a reported reason.
   double explained = result.layer.coverage;
   for (const auto& [reason, share] : result.layer.lost_area) {
     EXPECT_NE(reason, to_string(HeightLimit::none));
@@ -117,7 +116,7 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   EXPECT_LE(result.layer.collapsed.size(), 3u);
 }
 
-// couplingdown: a coarse wall under a layer of a tenth of its length, which gives way where its envelope would have needles.
+// couplingdown: a coarse wall under a layer of a tenth of its length; the layer is lowered where its envelope would otherwise have needles.
 INSTANTIATE_TEST_SUITE_P(Clean, RealSurface,
                          testing::Values(Case{"clean/caturbs_wing_wing.stl", 0.9}, Case{"clean/cgal_data_anchor_dense.off", 0.0},
                                          Case{"clean/cgal_data_couplingdown.off", 0.7}, Case{"clean/flowpanel_duct_duct_remeshed_refined.msh", 0.9},

@@ -1,4 +1,4 @@
-// Bodies of revolution about x that actuator discs end on.
+// Bodies of revolution about x on which actuator discs end.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline TriMesh hub(int f = 10) {
 }
 inline double hub_radius(double x) { return 0.5 * std::sqrt(1.0 - 0.25 * x * x); }
 
-/// A duct, an ellipse of half length 1 and thickness 0.5 turned around x at radius 1.5; patch "duct".
+/// A duct: an ellipse of half length 1 and thickness 0.5, revolved about x at radius 1.5; patch "duct".
 inline TriMesh duct(int n_around = 48, int n_section = 28) {
   TriMesh mesh;
   mesh.patches = Column<PatchId, Patch>{{"duct", PatchKind::wall}};
@@ -35,7 +35,7 @@ inline TriMesh duct(int n_around = 48, int n_section = 28) {
   mesh.triangle_patch.assign(mesh.n_triangles(), PatchId(0));
   return mesh;
 }
-/// Of its inner face.
+/// Radius of the inner face of the duct.
 inline double duct_radius(double x) { return 1.5 - 0.25 * std::sqrt(1.0 - x * x); }
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// Several normals at a sharp trailing edge: the whole mesh is proved, the wall stays what it was, and steps that cannot have fans refuse them.
+// Several normals at a sharp trailing edge: the whole mesh is proved valid, the wall is unchanged, and stages that cannot handle multi-normal fans refuse them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ Domain opened(const TriMesh& wall, const RidgeOptions& options, std::vector<Vert
   return domain;
 }
 
-/// Wall faces as sorted triples of places.
+/// Returns the wall faces as sorted triples of coordinates.
 std::vector<std::array<std::array<double, 3>, 3>> wall_faces(const HybridMesh& mesh) {
   std::vector<std::array<std::array<double, 3>, 3>> faces;
   for (const sterna::BoundaryTriangle& face : mesh.boundary_triangles) {
@@ -63,14 +63,14 @@ TEST(Ridges, OpenWallIsClosedAndHasTheGivenOneInIt) {
   const TriMesh wall = sharp_wing(30.0, 8);
   const Domain domain = opened(wall, {.open_ridges = "always"});
   const OpenedRidges& ridges = domain.ridges;
-  EXPECT_EQ(ridges.feet.size(), 7u);  // the two corners end the ridge
+  EXPECT_EQ(ridges.feet.size(), 7u);  // the ridge ends at the two corners
   EXPECT_EQ(ridges.end_vertices.size(), 2u);
   EXPECT_EQ(domain.wall.n_vertices(), wall.n_vertices() + 7 * 5);  // 150 degrees in five sectors
   EXPECT_EQ(ridges.quads.size(), 6u * 5u);
   EXPECT_EQ(ridges.ends.size(), 2u * 5u);
   const Topology topology(domain.wall, k_context);
   EXPECT_EQ(topology.n_boundary_halfedges(), 0u);
-  // Without virtual triangles, and with the lines of each foot as one vertex, it is the wall.
+  // The opened wall equals the given wall once virtual triangles are removed and the growth lines of each ridge base vertex are merged.
   ASSERT_EQ(ridges.n_given_triangles, wall.n_triangles());
   for (const TriangleId t : wall.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.foot[domain.wall.triangles[t][k]], wall.triangles[t][k]);
@@ -105,7 +105,7 @@ TEST(Ridges, MeshesOfWedgesAreValidAndKeepTheWall) {
     EXPECT_TRUE(open.check.is_valid()) << angle;
     EXPECT_GT(open.mesh.hexahedra.size(), 0u) << angle;
     EXPECT_EQ(wall_faces(open.mesh), wall_faces(closed.mesh)) << angle;
-    // Columns beside explicit cells are measured as what they are.
+    // Columns beside explicit cells are measured in the same way as explicit cells.
     const CheckReport all_explicit = check(explicit_cells(open.mesh), {}, k_context);
     EXPECT_TRUE(all_explicit.is_valid()) << angle;
     EXPECT_EQ(all_explicit.cells.total(), open.check.cells.total());
@@ -113,7 +113,7 @@ TEST(Ridges, MeshesOfWedgesAreValidAndKeepTheWall) {
   }
 }
 
-/// Two sharp wings beside each other, each its own patch: "wing" and "tail".
+/// Two sharp wings side by side with separate patches: "wing" and "tail".
 TriMesh two_wings() {
   TriMesh wall = sharp_wing(30.0, 8), tail = wall;
   for (Point& p : tail.points) p.x += 4.0;
@@ -159,7 +159,7 @@ TEST(Ridges, FansOfAHalfModelStandInItsPlane) {
   const TriMesh wall = half_sharp_wing(30.0, 6);
   const MeshingSite site(wall, wing_case(true), k_context);
   const Domain& domain = site.domain;
-  ASSERT_EQ(domain.ridges.feet.size(), 6u);  // up to the plane; the corner at the tip ends the ridge
+  ASSERT_EQ(domain.ridges.feet.size(), 6u);  // up to the plane; the ridge ends at the corner of the tip
   EXPECT_EQ(domain.ridges.end_vertices.size(), 1u);
   const auto in_plane = std::ranges::find_if(domain.ridges.feet, [](const OpenedRidges::Foot& foot) { return foot.point.y == 0.0; });
   ASSERT_NE(in_plane, domain.ridges.feet.end());
@@ -172,12 +172,12 @@ TEST(Ridges, FansOfAHalfModelStandInItsPlane) {
     ++n_lines;
   }
   EXPECT_EQ(n_lines, 6);
-  EXPECT_DOUBLE_EQ(in_plane->to_end, 0.6);  // the plane is no end
+  EXPECT_DOUBLE_EQ(in_plane->to_end, 0.6);  // the ridge does not end at the plane
   const VolumeMeshResult closed = volume_mesh(wall, wing_case(false), k_context), open = volume_mesh(wall, wing_case(true), k_context);
   EXPECT_TRUE(open.check.is_valid());
   EXPECT_EQ(wall_faces(open.mesh), wall_faces(closed.mesh));
   EXPECT_NEAR(open.check.dual_volume, closed.check.dual_volume, 1e-11 * closed.check.dual_volume);
-  // Around the trailing edge in the plane: a triangle on the wall and quadrilaterals above it for each of five sectors.
+  // At the trailing edge in the plane: for each of five sectors a triangle on the wall and quadrilaterals above it.
   int n_triangles = 0;
   for (const sterna::BoundaryTriangle& face : open.mesh.boundary_triangles)
     if (open.mesh.patches[face.patch].kind == PatchKind::symmetry)
@@ -193,7 +193,7 @@ TEST(Ridges, BentInThePlaneOfAHalfModelTheyEndBeforeIt) {
     TriMesh wall = half_sharp_wing(30.0, 6);
     for (Point& p : wall.points) p.x += sweep * p.y;
     const MeshingSite site(wall, wing_case(true), k_context);
-    const auto is_inboard = [](const OpenedRidges::Foot& foot) { return foot.point.y < 0.55; };  // edges of the tip are ridges, too
+    const auto is_inboard = [](const OpenedRidges::Foot& foot) { return foot.point.y < 0.55; };  // the edges of the tip are ridges, too
     EXPECT_EQ(std::ranges::count_if(site.domain.ridges.feet, is_inboard), n_feet) << sweep;
   }
 }
@@ -206,7 +206,7 @@ TEST(Ridges, OfPlacedPartsAreThoseOfTheWholeWall) {
   MeshCase mesh_case = wing_case(true);
   const VolumeMeshResult whole = volume_mesh(wall, mesh_case, k_context);
   mesh_case.parts.push_back({std::make_shared<const TriMesh>(own), pitch});
-  const VolumeMeshResult placed = volume_mesh(wall, mesh_case, k_context);  // an opened wall is no part's any more
+  const VolumeMeshResult placed = volume_mesh(wall, mesh_case, k_context);  // an opened wall no longer matches its part
   EXPECT_TRUE(placed.check.is_valid());
   EXPECT_FALSE(placed.mesh.hexahedra.empty());
   EXPECT_EQ(placed.mesh.points, whole.mesh.points);
@@ -263,12 +263,12 @@ TEST(Ridges, ContinuedMeshesAreTheSame) {
   EXPECT_EQ(all_open.n_rounds, 0);
 }
 
-/// Two rounds: some fans have no valid cells and are closed.
+/// Two rounds: some multi-normal fans have no valid cells and are closed.
 TEST(Ridges, ContinuedMeshesWithClosedFansAreTheSame) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = io::read_surface_file(test::shared_data() / "surfaces/clean/vspgeom_geom2_geom2.stl", k_context);
   MeshCase mesh_case = layers(20, 1e-4);
-  mesh_case.envelope.max_growth = 1.4;  // in lower layers no fan stays open
+  mesh_case.envelope.max_growth = 1.4;  // in lower layers no fan would stay open
   mesh_case.envelope.growth = "local";
   mesh_case.ridges.open_ridges = "always";
   const Continued geom2 = expect_continued(surfmesh::stitch_surface({soup}, {}, k_context).mesh, mesh_case);
@@ -288,11 +288,11 @@ MeshCase cube_case() {
   return mesh_case;
 }
 
-/// Two flat pyramids on a square of 2 m, base to base: sharp edges that bend by 90 degrees at its four corners, n edges along each.
+/// Two flat pyramids on a square of 2 m, base to base: the sharp edges bend by 90 degrees at the four corners; n edges along each side.
 TriMesh double_pyramid(int n) {
   TriMesh wall;
   wall.patches.push_back({"wing", PatchKind::wall});
-  std::map<std::array<int, 3>, VertexId> vertices;  // by quarter turns of (n - i, i) on ring j
+  std::map<std::array<int, 3>, VertexId> vertices;  // by x, y and side; both sides share the vertices of the square
   const auto vertex = [&](int x, int y, int side) {
     const int ring = std::abs(x) + std::abs(y);
     const auto [at, is_new] = vertices.try_emplace({x, y, ring == n ? 0 : side});
@@ -301,7 +301,7 @@ TriMesh double_pyramid(int n) {
   };
   for (const int side : {1, -1})
     for (int quarter = 0; quarter < 4; ++quarter) {
-      const auto at = [&](int along, int across) {  // along from one axis, across from the next one
+      const auto at = [&](int along, int across) {  // along: from one axis, across: from the next axis
         const std::array<std::array<int, 2>, 4> turned = {{{along, across}, {-across, along}, {-along, -across}, {across, -along}}};
         return vertex(turned[static_cast<std::size_t>(quarter)][0], turned[static_cast<std::size_t>(quarter)][1], side);
       };
@@ -340,11 +340,11 @@ TEST(Ridges, MeetInCorners) {
   EXPECT_TRUE(domain.ridges.ends.empty());
   EXPECT_EQ(domain.ridges.corners.size(), 8u * 3u * 3u);  // 90 degrees in three sectors on each of three ridges
   EXPECT_EQ(domain.wall.n_vertices(), wall.n_vertices() + 12 * 5 * 3 + 8 * 9);
-  // The line in the middle of a corner is that of all three sides.
+  // The middle growth line of a corner makes equal angles with all three sides.
   const VertexId first = domain.ridges.foot[domain.ridges.corners.front()[2]];
   const auto foot = std::ranges::find(domain.ridges.feet, first, &OpenedRidges::Foot::vertex);
   EXPECT_NEAR(foot->visibility, 1.0 / std::sqrt(3.0), 1e-12);
-  // One that is to stay closed ends its ridges.
+  // Ridges end at a corner that is to stay closed.
   const VertexId closed = domain.ridges.foot[domain.ridges.corners.front()[0]];
   const Domain parted = opened(wall, options, {closed});
   expect_opened_wall_is_the_given_one(wall, parted);
@@ -353,7 +353,7 @@ TEST(Ridges, MeetInCorners) {
 }
 
 TEST(Ridges, EdgesBetweenTwoCornersAreOpenedToo) {
-  const TriMesh wall = test::cube(1);  // no vertex inside of a ridge
+  const TriMesh wall = test::cube(1);  // no vertex inside a ridge
   const Domain domain = opened(wall, cube_case().ridges);
   expect_opened_wall_is_the_given_one(wall, domain);
   EXPECT_EQ(domain.ridges.feet.size(), 8u);
@@ -370,7 +370,7 @@ TEST(Ridges, BendAroundCornersOfSharpEdges) {
 }
 
 TEST(Ridges, ArrowsHaveACornerAndNotchesHaveNone) {
-  for (const auto& [sweep, n_triangles] : {std::pair(-1.0, 2 * 5), std::pair(1.0, 0)}) {  // forward and back, 45 degrees; the tips have corners, too
+  for (const auto& [sweep, n_triangles] : {std::pair(-1.0, 2 * 5), std::pair(1.0, 0)}) {  // swept forward and back by 45 degrees; the tips have corners, too
     TriMesh wall = sharp_wing(30.0, 8);
     for (Point& p : wall.points) p.x += sweep * std::abs(p.y - 0.4);
     const Domain domain = opened(wall, {.open_ridges = "always"});
@@ -381,13 +381,16 @@ TEST(Ridges, ArrowsHaveACornerAndNotchesHaveNone) {
   }
 }
 
-/// Opened, the wall would cross itself in the notch between two blocks one above the other: fans stay closed there, and the mesh is made.
+/// If its trailing edge were opened, the wall would cross the round nose of a second wing just behind it: the multi-normal fans of the first wing stay closed,
+/// and the mesh is made.
 TEST(Ridges, ThatWouldCrossTheWallStayClosed) {
   TriMesh wall = sharp_wing(30.0, 8), beside = wall;
-  for (Point& p : beside.points) p.x += 1.0 + std::tan(15.0 * test::k_degree) + 5e-6;  // a round nose nearer to the trailing edge than lines are raised
+  for (Point& p : beside.points)
+    p.x += 1.0 + std::tan(15.0 * test::k_degree) + 5e-6;  // a round nose closer to the trailing edge than the distance by which
+                                                          // growth lines are raised
   append(wall, beside);
   const Domain domain = opened(wall, {.open_ridges = "always"});
-  EXPECT_EQ(domain.ridges.feet.size(), 7u);  // of the other one
+  EXPECT_EQ(domain.ridges.feet.size(), 7u);  // only the second wing is opened
   for (const OpenedRidges::Foot& foot : domain.ridges.feet) EXPECT_GT(foot.point.x, 1.5);
 }
 

@@ -1,4 +1,4 @@
-// The engine whose mesh keeps hard limits is the one that is kept; walls of needles and structured walls through the whole pipeline.
+// If two engines mesh the domain, the mesh that keeps the hard limits is used; walls of needles and structured walls through the whole pipeline.
 #include "volmesh/second_engine.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr double k_degree = std::numbers::pi / 180.0;
 
-/// Between a cube and a room around it.
+/// The boundary between a cube and a room around it.
 FillBoundary cube_in_a_room() {
   FillBoundary boundary;
   const auto add = [&](const TriMesh& mesh, const Vec3& low, double side, bool is_turned) {
@@ -39,7 +39,7 @@ FillBoundary cube_in_a_room() {
   return boundary;
 }
 
-/// Tetrahedra without points in the volume: flat and long.
+/// Returns tetrahedra without points in the volume: flat and long.
 TetraResult unrefined(const FillBoundary& boundary, std::string engine) {
   tets::Recovery recovery = tets::recover(boundary.points, boundary.triangles, {}, RunContext{});
   TetraResult result;
@@ -110,7 +110,7 @@ VolumeMeshResult meshed(const TriMesh& wall, double farfield_radius, int threads
   return volume_mesh(wall, options, RunContext({.threads = threads, .log = [&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; }}));
 }
 
-/// Issue 42, D5: least angle 0.06 degrees, ten seconds of improvement.
+/// Issue 42, D5: smallest angle 0.06 degrees, ten seconds of improvement.
 TEST(SecondEngine, StructuredWallsByTheOwnEngine) {
   std::string log;
   const VolumeMeshResult result = meshed(test::cube(30), 20.0, 2, "sterna", log);
@@ -118,7 +118,7 @@ TEST(SecondEngine, StructuredWallsByTheOwnEngine) {
   EXPECT_LT(result.improvement.max_angle_after, 165.0 * k_degree);
 }
 
-/// Issue 42, D16: nine in ten triangles are needles, on which no engine is good.
+/// Issue 42, D16: nine in ten triangles are needles, on which all engines give poor tetrahedra.
 TEST(SecondEngine, DrilledPlatesOfNeedles) {
   std::string log;
   const VolumeMeshResult result = meshed(test::drilled_plate(2, 1, 48, 0.6, 0.3), 10.0, 2, "automatic", log);

@@ -1,4 +1,4 @@
-// A run that is stopped behind a step and continued gives the mesh of the uninterrupted run, to the bit.
+// A run that is stopped after a step and continued gives the mesh of the uninterrupted run, to the bit.
 #include "volmesh/stages.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Layers that end early where there is no room for their last cells: two balls next to each other, whose gap shrinks to nearly nothing.
+// Layers with fewer cells where the last cells have no room: two adjacent balls, whose gap shrinks to nearly zero.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using test::k_context;
 
-/// Two balls of radius 1, as one wall, so far from each other.
+/// Two balls of radius 1, as one wall, separated by `gap`.
 TriMesh two_balls(double gap) {
   TriMesh wall = test::sphere(9), other = test::sphere(9);
   for (Point& p : other.points) p.x += 2.0 + gap;
@@ -69,11 +69,11 @@ TEST(Truncation, GapsGetFewerAndTallerLayersInTheSameHeight) {
     EXPECT_LE(result.check.gate(Measure::stack_growth).worst, 1.4 * 1.03);
     EXPECT_GT(count_cells(result.mesh).pyramids, 0);
     EXPECT_LT(count_cells(result.mesh).prisms, count_cells(whole.mesh).prisms);
-    // No height is given up; what the layer has is better used.
+    // No height is lost; the height of the layer is used better.
     EXPECT_NEAR(result.layer.coverage, whole.layer.coverage, 1e-3);
     EXPECT_NEAR(result.layer.mean_height, whole.layer.mean_height, 1e-3 * whole.layer.mean_height);
     EXPECT_GT(result.layer.interface.within, whole.layer.interface.within);
-    // Told.
+    // The truncated area is reported.
     EXPECT_GT(result.layer.truncated_area, 0.0);
     ASSERT_EQ(result.layer.patches.size(), 1u);
     EXPECT_NEAR(result.layer.patches[0].truncated, result.layer.truncated_area, 1e-9);
@@ -112,7 +112,7 @@ TEST(Truncation, FilesKeepIt) {
   EXPECT_EQ(to_json(check(back, {}, k_context)), to_json(check(mesh, {}, k_context)));
 }
 
-/// A wing from side to side of a room, an edge above its floor: layers of both end on the sides.
+/// A wing from side to side of a room, one edge length above its floor: the layers of wing and floor end on the sides.
 TriMesh room_with_low_wing() {
   return room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; },
               [](int i, int, int k) { return i >= 8 && i < 14 && k >= 1 && k < 3; });
@@ -120,7 +120,7 @@ TriMesh room_with_low_wing() {
 
 TEST(Truncation, StepsEndOnSidesInTriangles) {
   for (const bool is_periodic : {false, true}) {
-    MeshCase mesh_case = layers(16, 1e-3);  // half an edge of the gap and more
+    MeshCase mesh_case = layers(16, 1e-3);  // the layers need more than half of the gap
     mesh_case.prisms.truncate = "always";
     if (is_periodic) mesh_case.periodic = {{"left", "right"}};
     const VolumeMeshResult result = volume_mesh(room_with_low_wing(), mesh_case, k_context);
@@ -137,7 +137,7 @@ TEST(Truncation, OpenedRidgesKeepTheirLayers) {
   mesh_case.farfield.farfield_radius = 10.0;
   mesh_case.ridges.open_ridges = "always";
   TriMesh wall = sharp_wing(30.0, 8);
-  const TriMesh other = wall;  // another one, little above it
+  const TriMesh other = wall;  // a second wing, slightly above the first
   for (const Point& p : other.points) wall.points.push_back(p + Vec3{0.0, 0.0, 1.15 * box_height(other)});
   for (const TriangleVertices& v : other.triangles) {
     const auto shifted = [&](VertexId w) { return VertexId(w.index() + other.n_vertices()); };

@@ -1,5 +1,5 @@
-// growth = "uniform": flat cells of all lines grow alike, so that faces between the prisms of a column do not lean, also where lines are squeezed or turn
-// around edges.
+// growth = "uniform": flat cells of all growth lines have the same growth ratio, so that faces between the prisms of a column do not lean, also where lines are
+// compressed or turn around edges.
 #include <gtest/gtest.h>
 
 #include "tests/support/constants.h"
@@ -48,7 +48,7 @@ TEST(UniformGrowth, FacesWithinColumnsDoNotLean) {
   EXPECT_LT(uniform.layer.compressed_area, 0.5);
 }
 
-/// Few layers on a coarse ball, thin against its edges: the height that is asked for has room for the first heights above the facets.
+/// Few layers on a coarse ball, thin compared with its edges: the requested height leaves room for the first heights above the facets.
 TEST(UniformGrowth, ThinLayersOnCoarseWallsHaveTheirFirstHeights) {
   MeshCase mesh_case;
   mesh_case.envelope.layers = 12;
@@ -60,7 +60,8 @@ TEST(UniformGrowth, ThinLayersOnCoarseWallsHaveTheirFirstHeights) {
   EXPECT_LT(result.check.gate(Measure::first_height).worst, 0.021) << to_text(result.check);
 }
 
-/// Around a vertex without a layer lines rise from it in proportion to their distance, so that the cells of pyramids beside it grow like all others.
+/// Around a vertex without a layer, growth lines rise in proportion to their distance from the vertex, so that the cells of pyramids beside it grow like all
+/// others.
 TEST(UniformGrowth, FacesBesideAVertexWithoutALayerDoNotLean) {
   const TriMesh wall = test::chain_of_cubes(4);
   const VolumeMeshResult result = volume_mesh(wall, cube_case("uniform"), k_context);

@@ -1,4 +1,4 @@
-// The whole pipeline on shapes that are hard in one way each, in every position and scale.
+// The whole pipeline on shapes that are each difficult in one way, in every position and scale.
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
@@ -23,7 +23,7 @@ void expect_valid(const TriMesh& wall, const MeshCase& options) {
   EXPECT_EQ(result.check.cells.prisms + result.check.cells.pyramids, static_cast<std::int64_t>(wall.n_triangles()) * options.envelope.layers);
 }
 
-/// A wing-like wedge: unit chord and span, sharp trailing edge of `angle` radians.
+/// A wing-like wedge: unit chord and span, sharp trailing edge with an angle of `angle` radians.
 TriMesh sharp_wedge(double angle) {
   TriMesh mesh;
   mesh.patches.push_back({"wedge", PatchKind::wall});
@@ -68,13 +68,14 @@ TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
   EXPECT_EQ(result.mesh.layers.n_layers, 12);
   EXPECT_EQ(result.mesh.layers.layers_of_line(0), 12);
   EXPECT_EQ(result.mesh.layers.layers_of_line(wall.n_vertices() - 1), 5);
-  EXPECT_NEAR(result.mesh.request.first_height_of(wall.n_vertices() - 1), 1e-3, 2e-5);  // above the facets: 1.6 % more along vertex normals of this sphere
+  EXPECT_NEAR(result.mesh.request.first_height_of(wall.n_vertices() - 1), 1e-3, 2e-5);  // measured above the facets: 1.6 % more along the vertex normals of
+                                                                                        // this sphere
   EXPECT_LT(result.check.gate(Measure::first_height).worst, 0.02);
   EXPECT_EQ(result.layer.first_node.vertex_share, 1.0);
-  // Without a first height for all walls each patch needs its own.
+  // Without a first height for all walls each patch must have its own.
   options.envelope.first_height = k_automatic;
   test::expect_error(ErrorCode::bad_argument, "first_height is not given for sphere", [&] { (void)volume_mesh(wall, options, RunContext({.threads = 2})); });
-  // Other threads, the same nodes.
+  // The nodes are the same for any number of threads.
   options = thin_layers(wall, 12);
   options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};
   EXPECT_EQ(volume_mesh(wall, options, RunContext({.threads = 7})).mesh.points, result.mesh.points);

@@ -1,4 +1,5 @@
-// Layers that go on behind a sharp trailing edge: the sheet is no boundary, both sides share its faces, the wall stays what it was, the whole mesh is proved.
+// Layers that continue behind a sharp trailing edge: the wake sheet is no boundary, both sides share its faces, the wall is unchanged, and the whole mesh is
+// proved valid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ MeshCase wake_case(std::vector<WakeSheet> wakes) {
 using Place = std::array<double, 3>;
 Place place_of(const Point& p) { return {p.x, p.y, p.z}; }
 
-/// Boundary faces of the wing as sorted triples of places.
+/// Returns the boundary faces of the wing as sorted triples of coordinates.
 std::vector<std::array<Place, 3>> faces_of_wing(const HybridMesh& mesh) {
   std::vector<std::array<Place, 3>> faces;
   for (const sterna::BoundaryTriangle& face : mesh.boundary_triangles) {
@@ -50,10 +51,10 @@ std::vector<std::array<Place, 3>> faces_of_wing(const HybridMesh& mesh) {
   return faces;
 }
 
-/// A plate of chord 1 and a thickness, with a base and eight edges of 0.1 m along it.
+/// A plate of chord 1 with the given thickness, with a blunt base and eight edges of 0.1 m along it.
 TriMesh plate(double thickness) {
   constexpr int k_along = 10, k_span = 8;
-  std::vector<std::array<double, 2>> section;  // over the upper side to the front, back below
+  std::vector<std::array<double, 2>> section;  // over the upper side to the front, back along the lower side
   for (int i = 0; i <= k_along; ++i) section.push_back({1.0 - 0.1 * i, 0.5 * thickness});
   for (int i = 0; i <= k_along; ++i) section.push_back({0.1 * i, -0.5 * thickness});
   const int n = static_cast<int>(section.size());
@@ -79,7 +80,7 @@ TriMesh plate(double thickness) {
   return mesh;
 }
 
-/// A second body, of its own patch.
+/// Adds a second body with a separate patch.
 TriMesh with_obstacle(TriMesh wall, const Vec3& low, const Vec3& high) {
   TriMesh block = test::cube(6);
   const Box unit = bounding_box(block);
@@ -118,8 +119,8 @@ TEST(TrailingEdges, OfAWingItIsTheSharpOne) {
   EXPECT_FALSE(chains[0].is_loop);
   for (const HalfedgeId h : chains[0].edges) EXPECT_EQ(wall.points[topology.from(h)].x, 1.0);
   for (std::size_t i = 0; i + 1 < chains[0].edges.size(); ++i) EXPECT_EQ(topology.to(chains[0].edges[i]), topology.from(chains[0].edges[i + 1]));
-  for (const double chord : local_chords(wall, topology, wing, {1, 0, 0}, chains[0])) EXPECT_NEAR(chord, 1.176, 0.01);  // and the nose
-  EXPECT_TRUE(find_trailing_edges(wall, topology, wing, {-1, 0, 0}).empty());                                           // it leads there
+  for (const double chord : local_chords(wall, topology, wing, {1, 0, 0}, chains[0])) EXPECT_NEAR(chord, 1.176, 0.01);  // chord including the nose
+  EXPECT_TRUE(find_trailing_edges(wall, topology, wing, {-1, 0, 0}).empty());  // the edge is a leading edge in this direction
   EXPECT_TRUE(find_trailing_edges(wall, topology, {"tail*", wall.n_triangles()}, {1, 0, 0}).empty());
 }
 
@@ -141,8 +142,8 @@ TEST(WakeSheets, TheWallIsAThinBodyThen) {
       ++n_on_edge;
     }
   }
-  EXPECT_EQ(n_on_edge, 7u);                          // the two corners of the wing are ends of the opened edge
-  for (const TriangleId t : wall.triangles.ids()) {  // no triangle and no edge is on rims alone
+  EXPECT_EQ(n_on_edge, 7u);                          // the opened edge ends at the two corners of the wing
+  for (const TriangleId t : wall.triangles.ids()) {  // no triangle has only rim vertices
     const auto is_rim = [&](VertexId v) { return std::ranges::binary_search(sheets.rims, v); };
     EXPECT_FALSE(t.index() >= given.n_triangles() && std::ranges::all_of(wall.triangles[t], is_rim));
   }
@@ -164,7 +165,7 @@ TEST(WakeSheets, MeshesOfWedgesAreValidAndKeepTheWall) {
   }
 }
 
-/// Of the wedge shaped wing: mesh with 14 layers, and first heights on the sheet that grow by a ratio from row to row.
+/// Makes the mesh of the wedge-shaped wing with 14 layers, and first heights on the wake sheet that grow by a ratio from row to row.
 VolumeMeshResult with_height_growth(double growth, const char* truncate = "never") {
   MeshCase mesh_case = layers(14, 1e-3);
   mesh_case.farfield.farfield_radius = 10.0;
@@ -173,7 +174,7 @@ VolumeMeshResult with_height_growth(double growth, const char* truncate = "never
   return volume_mesh(sharp_wing(20.0, 12), mesh_case, k_context);
 }
 
-/// Least height of a cell at the sheet behind x, m: the shortest edge off the plane z = 0 at one of its nodes.
+/// Returns the smallest height (m) of a cell at the sheet behind x: the shortest edge off the plane z = 0 at one of its nodes.
 double least_height_behind(const HybridMesh& mesh, double x) {
   constexpr double k_on_sheet = 1e-6;
   double least = 1.0;
@@ -191,7 +192,7 @@ TEST(WakeSheets, HeightsGrowAlongThemAndLayersGetFewer) {
   EXPECT_TRUE(growing.check.is_valid());
   EXPECT_EQ(faces_of_wing(growing.mesh), faces_of_wing(equal.mesh));
   EXPECT_EQ(growing.mesh.layers.base.size(), equal.mesh.layers.base.size());
-  EXPECT_TRUE(growing.mesh.layers.is_uniform());  // what is left as columns stands on the wing
+  EXPECT_TRUE(growing.mesh.layers.is_uniform());  // the remaining columns stand on the wing
   EXPECT_LT(growing.mesh.prisms.size(), 0.8 * static_cast<double>(equal.mesh.prisms.size()));
   EXPECT_LT(least_height_behind(equal.mesh, 2.0), 2e-3);
   EXPECT_GT(least_height_behind(growing.mesh, 2.0), 2.0 * least_height_behind(growing.mesh, 1.0));
@@ -217,7 +218,7 @@ TEST(WakeSheets, EqualForAnyNumberOfThreads) {
 TEST(WakeSheets, OfAHalfModelItEndsInThePlane) {
   const VolumeMeshResult with = volume_mesh(half_sharp_wing(20.0, 6), wake_case({{.length = 1.0}}), k_context);
   EXPECT_TRUE(with.check.is_valid());
-  std::size_t n_behind = 0;  // quadrilaterals of layers on the plane behind the wing
+  std::size_t n_behind = 0;  // layer quadrilaterals on the plane behind the wing
   for (const BoundaryQuad& quad : with.mesh.boundary_quads) {
     EXPECT_EQ(with.mesh.patches[quad.patch].name, "symmetry");
     n_behind += std::ranges::all_of(quad.nodes, [&](NodeId n) { return with.mesh.points[n].x > 1.0; }) ? 1 : 0;
@@ -230,8 +231,9 @@ TEST(WakeSheets, BehindABluntBaseItStartsAtTheUpperEdge) {
   const VolumeMeshResult with = volume_mesh(wall, wake_case({{.length = 0.6}}), k_context), without = volume_mesh(wall, wake_case({}), k_context);
   EXPECT_TRUE(with.check.is_valid());
   EXPECT_EQ(faces_of_wing(with.mesh), faces_of_wing(without.mesh));
-  // Lines at the base's edges have columns on one side and cells of the sheet on the other: their first heights are right along the normal of all facets.
-  EXPECT_LT(with.check.gate(Measure::first_height).worst, 0.2);  // the gate's
+  // Growth lines at the edges of the base have columns on one side and cells of the sheet on the other: their first heights are correct along the normal of all
+  // facets.
+  EXPECT_LT(with.check.gate(Measure::first_height).worst, 0.2);  // limit of the gate
 }
 
 TEST(WakeSheets, EndWhereAWallIsInTheWay) {
@@ -252,7 +254,7 @@ TEST(WakeSheets, EndWhereAWallIsInTheWay) {
   const Box before_all = sheets_before(with_obstacle(wing, {2.0, -1.0, -0.5}, {2.5, 2.0, 0.5}));
   EXPECT_LT(before_all.max.x, 2.0);
   EXPECT_GT(before_all.max.x, 1.2);
-  const Box beside = sheets_before(with_obstacle(wing, {1.1, 0.55, -0.5}, {4.0, 2.0, 0.5}));  // behind its right third
+  const Box beside = sheets_before(with_obstacle(wing, {1.1, 0.55, -0.5}, {4.0, 2.0, 0.5}));  // behind the right third of the wing
   EXPECT_LT(beside.max.y, 0.55);
   EXPECT_GT(beside.max.x, 3.0);
   test::expect_error(ErrorCode::bad_argument, "no room", [&] { sheets_before(with_obstacle(wing, {1.02, -1.0, -0.5}, {2.5, 2.0, 0.5})); });
@@ -271,7 +273,7 @@ TEST(WakeSheets, AGivenPlaneOfSymmetryIsMadeAnew) {
   for (const BoundaryQuad& quad : with.mesh.boundary_quads) EXPECT_EQ(with.mesh.patches[quad.patch].name, "symmetry");
 }
 
-/// Without caps, and bent between the sides, so that the wing meets them at other angles.
+/// A wing without caps, bent between the sides, so that it meets them at different angles.
 TriMesh wing_from_side_to_side(double wedge_angle, double bend) {
   constexpr int k_span = 10;
   TriMesh open = open_sharp_wing(wedge_angle, k_span, true);
@@ -314,7 +316,7 @@ TEST(WakeSheets, BetweenPeriodicSidesThereMayBeOtherWings) {
   mesh_case.farfield = {.farfield_shape = "box"};
   mesh_case.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
   TriMesh wall = wing_from_side_to_side(20.0, 0.0);
-  // Another wing ends between the sides: its sheet has rims.
+  // Another wing ends between the sides: its wake sheet has rims.
   TriMesh tip = sharp_wing(20.0, 4);
   for (Point& p : tip.points) p += Vec3{5.0, 0.3, 0.0};
   append(wall, tip);
@@ -327,9 +329,9 @@ TEST(WakeSheets, FollowTheInflowOfATunnel) {
   for (Patch& patch : tunnel.patches) patch.kind = patch.name == "floor" ? PatchKind::inflow : PatchKind::slip;
   EXPECT_EQ(stream_of(tunnel), (Vec3{0.0, 0.0, 1.0}));
   for (Patch& patch : tunnel.patches)
-    if (patch.name == "ceiling") patch.kind = PatchKind::inflow;  // against each other
+    if (patch.name == "ceiling") patch.kind = PatchKind::inflow;  // opposite inflows
   EXPECT_EQ(stream_of(tunnel), k_stream);
-  for (Patch& patch : tunnel.patches) patch.kind = patch.name == "floor" ? PatchKind::inflow : PatchKind::farfield;  // an engine's jet is no stream
+  for (Patch& patch : tunnel.patches) patch.kind = patch.name == "floor" ? PatchKind::inflow : PatchKind::farfield;  // the jet of an engine is not the stream
   EXPECT_EQ(stream_of(tunnel), k_stream);
 }
 

@@ -1,4 +1,4 @@
-// The number of layers that follows from the walls.
+// The automatic number of layers, derived from the walls.
 #include "volmesh/envelope/automatic_layers.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ MeshCase asked(double first_height) {
 int layers_of(const TriMesh& surface, const MeshCase& mesh_case) { return with_automatic_layers(surface, mesh_case, RunContext()).envelope.layers; }
 
 TEST(AutomaticLayers, the_last_cell_is_half_a_regular_tetrahedron) {
-  const TriMesh cube = test::cube(4);  // all triangles alike: legs of a quarter
+  const TriMesh cube = test::cube(4);  // all triangles are equal: legs of a quarter
   const double edge = std::sqrt(4.0 / std::sqrt(3.0) * 0.5 * 0.25 * 0.25), wanted = 0.5 * k_regular_height * edge;
   for (const double h0 : {1e-6, 1e-4, 1e-3}) {
     const int n = layers_of(cube, asked(h0));
@@ -54,10 +54,10 @@ TEST(AutomaticLayers, patches_count_with_what_they_ask_for) {
   none.patches = {{.names = "*", .layers = 0}};
   EXPECT_EQ(layers_of(cube, none), 0);
   slip.patches = {{.names = "*", .kind = "slip"}};
-  EXPECT_EQ(layers_of(cube, slip), 1);  // which has no wall to stand on: an error later
+  EXPECT_EQ(layers_of(cube, slip), 1);  // no wall to stand on: an error later
 }
 
-/// A member of a family has as many more as it is finer.
+/// A member of a mesh family has more layers in proportion to its refinement.
 TEST(AutomaticLayers, follow_the_member_of_a_family) {
   const TriMesh coarse = test::cube(4), fine = test::cube(8);
   MeshCase member = asked(1e-4);

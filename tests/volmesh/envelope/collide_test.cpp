@@ -1,4 +1,4 @@
-// Collisions of the layer with itself, its sides, the wall and the outer boundary: two ways agree, and what moves is all that is looked at.
+// Collisions of the layer with itself, its sides, the wall and the outer boundary: two methods agree, and updates check only what moved.
 #include "volmesh/envelope/collide.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 
 using test::k_context;
 
-/// Directions along the vertex normals, heights drawn from [0, tallest] with a few collapsed vertices: a tangle.
+/// Directions along the vertex normals, heights drawn from [0, tallest] with a few collapsed vertices: a tangled envelope.
 EnvelopeShape tangle(const LayerBase& base, double tallest, unsigned seed) {
   std::mt19937 random(seed);
   EnvelopeShape shape;
@@ -35,7 +35,7 @@ EnvelopeShape tangle(const LayerBase& base, double tallest, unsigned seed) {
   return shape;
 }
 
-/// The same crossings by find_crossings over one indexed set, without sides; pairs of wall and outer boundary among themselves left out.
+/// Returns the same crossings from find_crossings over one indexed set, without sides; omits pairs of wall and outer boundary triangles among themselves.
 std::set<BoundaryCrossing> slow_crossings(const LayerBase& base, const TriMesh* outer, const EnvelopeShape& shape) {
   test::EnvelopeSurface all = test::envelope_surface(base, shape, k_context);
   std::vector<BoundaryTriangle> name;
@@ -83,7 +83,7 @@ TEST(Collider, AgreesWithOneSearchOverAllTriangles) {
     const std::vector<BoundaryCrossing> found = collider.crossings(k_context);
     const std::set<BoundaryCrossing> expected = slow_crossings(base, &outer, shape);
     EXPECT_EQ(as_set(found), expected);
-    EXPECT_EQ(found.size(), expected.size());  // each pair once
+    EXPECT_EQ(found.size(), expected.size());  // each pair is found once
     const auto has = [&](BoundaryPart part) {
       return std::any_of(found.begin(), found.end(), [part](const BoundaryCrossing& c) { return c[1].part == part; });
     };
@@ -131,7 +131,7 @@ TEST(Collider, SidesStandOnTheBoundaryOfTheWall) {
   for (const BoundaryCrossing& pair : collider.crossings(k_context)) {
     EXPECT_TRUE(pair[0].part == BoundaryPart::side || pair[1].part == BoundaryPart::side);
     has_side_through_wall = has_side_through_wall || (pair[0].part == BoundaryPart::side && pair[1].part == BoundaryPart::wall);
-    // At the share found the two are clear, a little above they cross.
+    // At the share found, the two are clear of each other; slightly above it they cross.
     if (pair[1].part == BoundaryPart::wall) {
       EXPECT_NEAR(collider.clear_share(pair, shape), 0.5 / 0.8, 2e-3);
     }

@@ -1,4 +1,4 @@
-// Walls that end on planes: half and quarter bodies grow the layer that the whole body grows, flush with the plane to the bit.
+// Walls that end on planes: half and quarter bodies grow the same layer as the whole body, flush with the plane to the bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ ConstrainedLayer grow(const TriMesh& wall, const EnvelopeOptions& options) { ret
 EnvelopeOptions thin_layers_of(double h0, int n, double thickness = k_automatic) {
   EnvelopeOptions options;
   options.first_height = h0;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   options.layers = n;
   options.max_thickness = thickness;
@@ -71,7 +71,7 @@ std::int64_t n_invalid_cells(const Extrusion& extrusion) {
   return n;
 }
 
-/// Everything that has to hold for any constrained layer; returns the number of rim nodes looked at.
+/// Checks all properties that any constrained layer must have; returns the number of checked nodes on the layer boundary.
 std::size_t expect_sound(const ConstrainedLayer& layer) {
   const LayerBase& base = layer.base;
   EXPECT_TRUE(invalid_macros(base, layer.envelope, k_context).empty());
@@ -96,7 +96,8 @@ std::size_t expect_sound(const ConstrainedLayer& layer) {
   return n_nodes;
 }
 
-/// Share of a half's vertices whose growth differs by more than 1e-6 of it from that of the same vertex on the whole body (whose vertices come first there).
+/// Returns the share of a half's vertices whose growth differs by more than the relative tolerance (1e-6 by default) from the same vertex of the whole body,
+/// whose first vertices are those of the half.
 double share_different(const ConstrainedLayer& half, const ConstrainedLayer& whole, double tolerance = 1e-6) {
   double n = 0.0;
   for (const VertexId v : half.base.wall.points.ids()) {
@@ -151,7 +152,7 @@ TEST(ConstrainRims, ObliquePlanesMayBeGiven) {
 }
 
 TEST(ConstrainRims, ErrorsSayWhere) {
-  // A sphere with one vertex cut out obliquely: its rim lies in no plane of constant coordinate.
+  // A sphere with one vertex cut out obliquely: its open boundary lies in no plane of constant coordinate.
   TriMesh holed = test::sphere(4);
   std::size_t kept = 0;
   for (const TriangleId t : holed.triangles.ids()) {
@@ -172,7 +173,7 @@ TEST(ConstrainRims, ErrorsSayWhere) {
     EXPECT_NE(text.find("lie in no plane x, y or z = constant"), std::string::npos) << text;
     EXPECT_NE(text.find("half model"), std::string::npos) << text;
   }
-  // A body that goes on beyond the plane it ends on.
+  // A body that extends beyond the plane on which it ends.
   TriMesh beyond = test::cut_off(test::cube(4), 1, 0.5);
   TriMesh other = test::cube(2);
   for (Point& p : other.points) p.y -= 3.0;
@@ -185,7 +186,7 @@ TEST(ConstrainRims, ErrorsSayWhere) {
   }
 }
 
-/// Stages 1-5 alone: the optimiser visits vertices in an order that the mirror image changes, so there halves agree only as far as it has converged.
+/// Disables stage 6, the optimiser: it visits vertices in an order that the mirror image changes, so that halves agree only within its convergence.
 EnvelopeOptions without_optimiser(EnvelopeOptions options) {
   options.optimiser = "none";
   return options;
@@ -200,7 +201,7 @@ TEST(ConstrainedLayer, OptimisedHalfAgreesWithTheWholeCube) {
   const ConstrainedLayer full = grow(test::with_mirror_image(half, 1, 0.5), {}, options);
   double sum = 0.0;
   for (const VertexId v : half.points.ids()) sum += distance(own.envelope.point(half, v), full.envelope.point(half, v)) / full.envelope.height[v];
-  EXPECT_LT(sum / static_cast<double>(half.n_vertices()), 0.02);  // the descent lets vertices rest that move less than 0.002 of their height
+  EXPECT_LT(sum / static_cast<double>(half.n_vertices()), 0.02);  // the descent skips vertices that move less than 0.002 of their height
 }
 
 TEST(ConstrainedLayer, HalfCubeIsHalfOfTheCubesLayer) {
@@ -237,7 +238,7 @@ TEST(ConstrainedLayer, ConcaveWallsOfAQuarterBoxToo) {
 }
 
 TEST(ConstrainedLayer, BodiesBesideThePlaneKeepClearOfIt) {
-  // Half a cube on the plane, and a small one whose gap to the plane is less than the layer is thick.
+  // Half a cube on the plane, and a small cube whose gap to the plane is smaller than the layer height.
   TriMesh wall = test::cut_off(test::cube(8), 1, 0.5);
   TriMesh pod = test::cube(8);
   for (Point& p : pod.points) p = Vec3{3, 0.55, 0} + p;
@@ -247,7 +248,7 @@ TEST(ConstrainedLayer, BodiesBesideThePlaneKeepClearOfIt) {
   for (const VertexId v : wall.points.ids()) {
     EXPECT_TRUE(wall.points[v].y == 0.5 || layer.envelope.point(wall, v).y > 0.5);
   }
-  // The layer on the side towards the plane takes what it would take beside its mirror image.
+  // The layer on the side towards the plane has the height that it would have beside its mirror image.
   const ConstrainedLayer full = grow(test::with_mirror_image(wall, 1, 0.5), {}, thin_layers_of(1e-4, 15, 0.2));
   for (const VertexId v : wall.points.ids()) {
     if (distance(wall.points[v], {3.5, 0.55, 0.5}) > 1e-9) continue;
@@ -272,7 +273,7 @@ TEST(ConstrainedLayer, FixedVerticesStayOnTheWall) {
 }
 
 TEST(ConstrainedLayer, NodesLieOnTheCylinderThatTheWallEndsOn) {
-  // A half cube whose rim is bent onto a cylinder about the z axis with radius 3, the tunnel wall at y = -2.5 + 3.
+  // A half cube whose open boundary is bent onto a cylinder about the z axis with radius 3, the tunnel wall at y = -2.5 + 3.
   TriMesh half = test::cut_off(test::cube(8), 1, 0.5);
   const auto tunnel = std::make_shared<ConstraintCylinder>(Point{0.5, 3.0, 0}, Vec3{0, 0, 1}, 2.5);
   Constraints constraints;
@@ -321,7 +322,7 @@ TEST(ConstrainedLayer, HalfAWingIsHalfOfTheWingsLayer) {
   const ConstrainedLayer own = grow(half, options);
   EXPECT_GT(expect_sound(own), 0u);
   const ConstrainedLayer full = grow(test::with_mirror_image(half, 0, cut), {}, options);
-  // The optimiser visits the vertices of the whole in another order, and stops before the last digit; decisions at a threshold may fall to the other side.
+  // The optimiser visits the vertices of the whole body in another order and stops before full convergence, so decisions at a threshold may differ.
   EXPECT_LT(share_different(own, full, 0.01), 0.002);
 }
 

@@ -1,4 +1,4 @@
-// Constraints of envelope vertices: projections, axes and surfaces with answers by hand.
+// Constraints of envelope vertices: projections, axes and surfaces, compared with hand calculations.
 #include "volmesh/envelope/constraint.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(ConstraintSurface, PlaneCylinderAndTrianglesAgreeWithHand) {
   EXPECT_LT(distance(tunnel.normal({7, 0.6, 0.8}), {0, -0.6, -0.8}), 1e-15);
   const ConstraintCylinder post({0, 0, 0}, {1, 0, 0}, 2.0, true);
   EXPECT_NEAR(post.inside_distance({7, 0.6, 0.8}), -1.0, 1e-15);
-  // The outside of a fine sphere: everything within its sagitta of the exact one.
+  // The outside of a fine sphere: all results are within the sagitta of the exact sphere.
   const ConstraintTriangles sphere(test::sphere(24), k_context);
   for (const Vec3& d : k_directions) {
     const Point p = 1.5 * normalized(d);

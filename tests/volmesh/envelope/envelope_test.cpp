@@ -1,4 +1,4 @@
-// The stages of the envelope on shapes whose answer is known by hand.
+// The stages of the envelope on shapes with hand-calculated results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using test::k_context;
 EnvelopeOptions layers_of(double h0, int n) {
   EnvelopeOptions options;
   options.first_height = h0;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   options.layers = n;
   return options;
@@ -108,7 +108,7 @@ TEST(SmallestCap, ThreeMutuallyOrthogonalNormals) {
 
 TEST(Unwarp, TangledHeightsBecomeValidAndOnlyFall) {
   TriMesh cube = test::cube(6);
-  for (const TriangleId t : cube.triangles.ids()) std::swap(cube.triangles[t][1], cube.triangles[t][2]);  // inside of a box: all corners concave
+  for (const TriangleId t : cube.triangles.ids()) std::swap(cube.triangles[t][1], cube.triangles[t][2]);  // inside of a box: all corners are concave
   const LayerBase base(cube, k_context);
   const EnvelopeOptions options = layers_of(1e-4, 12);
   Envelope envelope = initial_envelope(base, options, k_context);

@@ -1,4 +1,4 @@
-// Gaps between opposing walls: what remains, and who gets how much.
+// Gaps between opposing walls: the remaining gap, and its distribution between the two layers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,14 +19,14 @@ using test::k_context;
 EnvelopeOptions bounded_layers_of(double h0, int n, double thickness) {
   EnvelopeOptions options;
   options.first_height = h0;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   options.layers = n;
   options.max_thickness = thickness;
   return options;
 }
 
-/// Box of n x n x n cells with the given corner and sides.
+/// A box of n x n x n cells with the given corner and side lengths.
 TriMesh block(int n, const Vec3& corner, const Vec3& size) {
   TriMesh mesh = test::cube(n);
   for (Point& p : mesh.points) p = {corner.x + size.x * p.x, corner.y + size.y * p.y, corner.z + size.z * p.z};
@@ -40,7 +40,7 @@ TriMesh naca0012(int n_chord, int n_span, double span) {
   mesh.patches.push_back({"wing", PatchKind::wall});
   const auto thickness = [](double x) { return 0.6 * (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x); };
   for (int j = 0; j <= n_span; ++j) {
-    for (int i = 0; i < n_around; ++i) {  // from the trailing edge over the upper side to the nose and back below
+    for (int i = 0; i < n_around; ++i) {  // from the trailing edge over the upper side to the nose and back along the lower side
       const double x = 0.5 * (1.0 + std::cos(2.0 * M_PI * i / n_around));
       mesh.points.push_back({x, span * j / n_span, i == 0 ? 0.0 : (i <= n_chord ? 1.0 : -1.0) * thickness(x)});
     }
@@ -73,7 +73,7 @@ double mean_envelope_edge(const LayerBase& base, const Envelope& envelope, Verte
   return sum / static_cast<double>(base.topology.neighbours(v).size());
 }
 
-/// The part of the envelope whose wall triangles start at vertex `first` or later, as a mesh.
+/// Returns the part of the envelope whose wall triangles start at vertex `first` or later, as a mesh.
 TriMesh envelope_from(const LayerBase& base, const Envelope& envelope, std::size_t first) {
   TriMesh mesh;
   mesh.patches = base.wall.patches;
@@ -86,8 +86,8 @@ TriMesh envelope_from(const LayerBase& base, const Envelope& envelope, std::size
   return mesh;
 }
 
-/// Smallest gap that remains between the layers of the first body (vertices below `n_first`) and of the others, over the local envelope edge of the former,
-/// among vertices whose layer was cut for the gap.
+/// Returns the smallest remaining gap between the layers of the first body (vertices below `n_first`) and those of the others, divided by the local envelope
+/// edge of the first body. Only vertices whose layer was lowered for the gap are counted.
 double smallest_remaining(const LayerBase& base, const Envelope& envelope, std::size_t n_first, int& n_cut) {
   const TriMesh others = envelope_from(base, envelope, n_first);
   const TriangleTree tree(others, k_context);
@@ -107,7 +107,7 @@ void expect_proved(const LayerBase& base, Collider& collider, const Envelope& en
 }
 
 TEST(ShareGaps, TwoPlatesShareInProportionToWhatTheyAskFor) {
-  // Lower plate with edges of 1/8, upper one of 1/4: by eq. (1) the upper one asks for the taller layer.
+  // Lower plate with edges of 1/8, upper plate with edges of 1/4: by eq. (1) the upper plate requests the taller layer.
   TriMesh wall = block(8, {0, 0, -0.2}, {1, 1, 0.2});
   const std::size_t n_first = wall.n_vertices();
   const double gap = 0.4;
@@ -116,7 +116,7 @@ TEST(ShareGaps, TwoPlatesShareInProportionToWhatTheyAskFor) {
   Collider collider(base, nullptr, k_context);
   const EnvelopeOptions options = bounded_layers_of(1e-3, 15, 1.0);
   Envelope envelope = initial_envelope(base, options, k_context);
-  // What each asks for, the same all over each plate.
+  // Requested heights, constant over each plate.
   const double low = 0.21, high = 0.42;
   for (const VertexId v : wall.points.ids()) envelope.height[v] = envelope.target[v] = envelope.cap[v] = v.index() < n_first ? low : high;
   for (const VertexId v : wall.points.ids()) envelope.direction[v] = {0, 0, v.index() < n_first ? 1.0 : -1.0};
@@ -141,7 +141,7 @@ TEST(ShareGaps, TwoPlatesShareInProportionToWhatTheyAskFor) {
 
 TEST(ShareGaps, ANarrowGapIsHalfLeftFree) {
   TriMesh wall = block(4, {0, 0, -0.2}, {1, 1, 0.2});
-  append(wall, block(4, {0, 0, 0.02}, {1, 1, 0.2}));  // 0.08 edges
+  append(wall, block(4, {0, 0, 0.02}, {1, 1, 0.2}));  // edges of 0.08
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
   const EnvelopeOptions options = bounded_layers_of(1e-5, 15, 0.3);
@@ -158,13 +158,13 @@ TEST(ShareGaps, ANarrowGapIsHalfLeftFree) {
 TEST(ShareGaps, WingAboveAPlateKeepsTheirDistance) {
   TriMesh wall = naca0012(24, 6, 0.6);
   const std::size_t n_first = wall.n_vertices();
-  append(wall, block(10, {-0.5, -0.5, -0.24}, {2, 1.6, 0.06}));  // its top lies 0.12 below the lower side
+  append(wall, block(10, {-0.5, -0.5, -0.24}, {2, 1.6, 0.06}));  // its top lies 0.12 below the lower side of the wing
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
   const Envelope envelope = build_envelope(base, bounded_layers_of(1e-5, 25, 0.3), collider, k_context);
   expect_proved(base, collider, envelope);
   int n_cut = 0;
-  EXPECT_GE(smallest_remaining(base, envelope, n_first, n_cut), 0.15);  // 0.2 are left; lines that the optimiser turns spend some of it
+  EXPECT_GE(smallest_remaining(base, envelope, n_first, n_cut), 0.15);  // 0.2 are left; lines that the optimiser turns use some of this gap
   EXPECT_GT(n_cut, 20);
 }
 

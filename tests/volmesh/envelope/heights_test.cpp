@@ -1,4 +1,4 @@
-// Heights without bumps, and room above them: l_j of eq. (1), the membrane, the distance that the top keeps.
+// Smooth heights and the room above them: l_j of eq. (1), the membrane, the distance kept by the layer top.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,14 +22,14 @@ using test::k_context;
 EnvelopeOptions layers_of(double h0, int n, double thickness) {
   EnvelopeOptions options;
   options.first_height = h0;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   options.layers = n;
   options.max_thickness = thickness;
   return options;
 }
 
-/// A sphere whose vertices are moved along the surface by up to `share` of an edge, without order: triangles of chance, as imports have them.
+/// A sphere whose vertices are moved randomly along the surface by up to `share` of an edge: irregular triangles, as in imported surfaces.
 TriMesh uneven_sphere(int n, double share) {
   TriMesh mesh = test::sphere(n);
   const double edge = distance(mesh.points[mesh.triangles[TriangleId(0)][0]], mesh.points[mesh.triangles[TriangleId(0)][1]]);
@@ -45,7 +45,7 @@ TriMesh uneven_sphere(int n, double share) {
   return mesh;
 }
 
-/// Standard deviation of a column over its mean.
+/// Returns the standard deviation of a column divided by its mean.
 double relative_scatter(const Column<VertexId, double>& values) {
   double sum = 0.0, squares = 0.0;
   for (const VertexId v : values.ids()) {
@@ -71,12 +71,12 @@ TEST(LayerEdge, OfStretchedTrianglesTheOneWithTheirAreaButAtLeastAThird) {
     for (Point& p : wall.points) p.x *= stretch;
     const LayerBase base(wall, k_context);
     for (const VertexId v : wall.points.ids()) {
-      if (std::abs(wall.points[v].x - 0.5 * stretch) > 0.13 * stretch) continue;  // of the long sides
+      if (std::abs(wall.points[v].x - 0.5 * stretch) > 0.13 * stretch) continue;  // vertices of the long sides only
       EXPECT_LE(base.layer_edge[v], 1.001 * base.mean_edge[v]);
-      EXPECT_GE(base.layer_edge[v], 0.2 * base.mean_edge[v]);  // a third, smoothed with the ends' short edges
+      EXPECT_GE(base.layer_edge[v], 0.2 * base.mean_edge[v]);  // a third, smoothed with the short edges at the ends
     }
   }
-  // The same body in another scale has the same edges in that scale.
+  // The same body at another scale has the same edges at that scale.
   TriMesh large = test::cube(6);
   const LayerBase unit_base(large, k_context);
   const Column<VertexId, double> unit = unit_base.layer_edge;
@@ -156,7 +156,7 @@ TEST(KeepDistance, TheTopStaysAwayFromWhatItFaces) {
   for (std::size_t i = 0; i < half; ++i) {
     const VertexId v(i);
     const Point p = envelope.point(wall, v);
-    if (dot(envelope.direction[v], Vec3{1, 0, 0}) < 0.9) continue;  // faces the other one
+    if (dot(envelope.direction[v], Vec3{1, 0, 0}) < 0.9) continue;  // vertices that face the other body
     const double kept = std::min(k_kept_edges * envelope_edge(base, envelope, v), k_kept_share * 0.2);
     const double distance = tree.nearest(p).distance;
     EXPECT_GE(distance, 0.9 * kept);

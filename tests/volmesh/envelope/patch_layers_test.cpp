@@ -1,4 +1,4 @@
-// Walls with their own layers: what rules for patches ask of each vertex, layers of walls that meet, and layers in concave corners.
+// Walls with separate layer settings: layer settings from patch rules at each vertex, layers of walls that meet, and layers in concave corners.
 #include "volmesh/envelope/patch_layers.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ using test::k_degree;
 EnvelopeOptions growing_layers_of(double h0, int n, double growth = 1.4) {
   EnvelopeOptions options;
   options.first_height = h0;
-  options.growth = "local";  // uniform growth has tests of its own
+  options.growth = "local";  // uniform growth has separate tests
   options.layers = n;
   options.max_growth = growth;
   return options;
@@ -126,7 +126,7 @@ TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
     const Point& p = room.points[v];
     const double from_floor = p.z, from_sides = std::min({p.x, p.y, 1.0 - p.x, 1.0 - p.y});
     if (p.z == 0.0 && from_sides == 0.0) {
-      EXPECT_NEAR(demand.first_height[v], std::sqrt(k_floor * k_other), 1e-12);  // the mean of the logarithms, also where three walls meet
+      EXPECT_NEAR(demand.first_height[v], std::sqrt(k_floor * k_other), 1e-12);  // the logarithmic mean, also where three walls meet
       EXPECT_NEAR(demand.max_growth[v], 1.3, 1e-12);
     } else if (p.z == 0.0) {
       if (from_sides >= k_blend) EXPECT_EQ(demand.first_height[v], k_floor);
@@ -164,7 +164,7 @@ TEST(DemandOf, OneNumberOfLayersForWhatIsConnectedAndAnotherForWhatIsNot) {
 }
 
 TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
-  // A room with a strut from floor to ceiling: the strut wants thinner cells, the floor a lower growth.
+  // A room with a strut from floor to ceiling: the strut requires thinner cells, the floor a lower growth.
   constexpr int k_n = 12;
   const auto patch = [](const Point& p, const Vec3& normal) -> Patch {
     if (normal.z != 0.0) return {normal.z > 0.0 ? "floor" : "ceiling", PatchKind::wall};
@@ -199,7 +199,7 @@ TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
   EXPECT_GT(n_others, 200u);
 }
 
-/// Heights over the targets around a concave edge, of the lines that begin on it and of those within three edges.
+/// Ratios of heights to target heights around a concave edge, for growth lines that begin on the edge and for those within three edges.
 struct CornerHeights {
   double least_on_edge = 1e300, mean_on_edge = 0.0, least_near = 1e300;
 };

@@ -1,4 +1,4 @@
-// Walls between two periodic planes: the layer at one side is that at the other, to the bit.
+// Walls between two periodic planes: the layer is the same at both sides, to the bit.
 #include "volmesh/envelope/periodic.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TriMesh bar(std::uint32_t n, std::uint32_t m, double length) {
 
 using Partners = std::vector<std::array<VertexId, 2>>;
 
-/// The vertices of a bar at both ends.
+/// Returns the pairs of vertices at both ends of a bar.
 Partners ends_of_bar(std::uint32_t n, std::uint32_t m) {
   Partners partners;
   for (std::uint32_t i = 0; i < 4 * n; ++i) partners.push_back({VertexId(i), VertexId(4 * n * m + i)});
@@ -62,7 +62,7 @@ EnvelopeOptions fifteen_layers() {
 
 TEST(Periodic, PartnersHaveTheNormalsAndEdgesOfAllTheirTriangles) {
   TriMesh wall = bar(6, 10, 2.0);
-  // One end alone opens like a funnel, and has longer triangles.
+  // One end is widened like a funnel and has longer triangles.
   for (Point& p : wall.points)
     if (p.y > 1.5) p = Vec3{0.5 + (p.x - 0.5) * (1.0 + 0.5 * (2.0 - p.y)), p.y, 0.5 + (p.z - 0.5) * (1.0 + 0.5 * (2.0 - p.y))};
   const Partners partners = ends_of_bar(6, 10);
@@ -129,7 +129,7 @@ TEST(Periodic, HeightsAndDirectionsAreEqualAtPartnersAndTheLayerStaysSound) {
   EXPECT_TRUE(invalid_macros(base, envelope, k_context).empty());
   collider.move_top(envelope, k_context);
   EXPECT_TRUE(collider.crossings(k_context).empty());
-  // Once more changes nothing.
+  // A second call changes nothing.
   EXPECT_TRUE(equalise_partners(base, options, &collider, envelope, k_context).empty());
 }
 

@@ -1,4 +1,4 @@
-// No needles and no narrow folds in the envelope that the wall has not, on made and real walls; derivatives of what keeps it so.
+// The envelope has no needles and no narrow folds that the wall does not have, on generated and real walls; derivatives of the corresponding terms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::array<double, 3> sines_of(const std::array<Point, 3>& p) {
   return corner_sines(a, b, norm(cross(a, b)));
 }
 
-/// Every standing triangle, measured here: by angles, where the product measures sines.
+/// Checks every triangle that is not collapsed, with an independent measurement: folds by angles, where the product measures sines.
 void expect_shapely(const TriMesh& wall, const EnvelopeOptions& options) {
   const LayerBase base(wall, k_context);
   const Envelope envelope = build_envelope(base, options, k_context);
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Clean, RealEnvelopeShape,
 TEST(EdgeFold, AnglesOfTheFluidAreThoseOfAHinge) {
   for (double degrees = 4.0; degrees < 179.0; degrees += 7.0) {
     const double angle = degrees * k_one_degree;
-    // The edge along x, one triangle in the plane z = 0 towards +y, the fluid above it; the other one turned up towards the first.
+    // The edge lies along x; one triangle lies in the plane z = 0 towards +y, with the fluid above; the other is turned up towards the first.
     const FoldPoints hinge = {Point{0, 0, 0}, Point{1, 0, 0}, Point{0.4, 1, 0}, Point{0.6, std::cos(angle), std::sin(angle)}};
     const Fold fold = fold_of(hinge);
     EXPECT_TRUE(fold.is_concave) << degrees;
@@ -101,7 +101,7 @@ TEST(EdgeFold, AnglesOfTheFluidAreThoseOfAHinge) {
     const FoldLimit flat;
     EXPECT_EQ(fold_slack(fold, flat) > 0.0, degrees > 15.0) << degrees;
     EXPECT_EQ(fold_slack(fold, flat) < 1.0, degrees < 40.0) << degrees;
-    // Over a wall that is as sharp, half of its angle is allowed, and nothing pulls.
+    // Over a wall with the same angle, half of that angle is allowed, and the term vanishes.
     const FoldLimit own = fold_limit(hinge);
     EXPECT_NEAR(fold_slack(fold, own), 1.0, 1e-9) << degrees;
   }

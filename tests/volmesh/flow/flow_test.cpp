@@ -1,4 +1,4 @@
-// Tables of the standard atmosphere, the spacings of DPW-4, and what is refused.
+// Tables of the standard atmosphere, the spacings of DPW-4, and refused input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,8 +62,8 @@ TEST(FirstHeight, the_spacings_of_dpw_4_within_2_percent) {
 }
 
 TEST(FirstHeight, laws_agree_where_they_overlap) {
-  // Local laws within a tenth of each other at Re 5e6, as published comparisons have them; means of a plate are 1/0.8 .. 1/0.85 of the local value at its end
-  // (exactly 1/0.8 for Re^-0.2).
+  // Local laws agree within a tenth at Re 5e6, as in published comparisons. The mean over a plate is 1/0.8 .. 1/0.85 of the local value at its end (exactly
+  // 1/0.8 for Re^-0.2).
   const double local = skin_friction("schlichting", 5e6);
   for (const char* law : {"seventh_root", "kays_crawford", "prandtl"}) EXPECT_NEAR(skin_friction(law, 5e6) / local, 1.0, 0.1) << law;
   for (const char* law : {"prandtl_schlichting", "ittc57"}) EXPECT_NEAR(skin_friction(law, 5e6) / local, 1.2, 0.06) << law;
@@ -80,7 +80,7 @@ TEST(FirstHeight, is_linear_in_y_plus_and_twice_as_high_for_cell_centres) {
   const FirstHeight one = first_height({.y_plus = 1.0}, flow);
   EXPECT_DOUBLE_EQ(first_height({.y_plus = 30.0}, flow).height, 30.0 * one.height);
   EXPECT_DOUBLE_EQ(first_height({.y_plus = 1.0, .at = "cell_centre"}, flow).height, 2.0 * one.height);
-  // y+ = y u_tau / nu, put together again from what is known of the flow
+  // y+ = y u_tau / nu, recomputed from the flow conditions
   EXPECT_NEAR(one.wall_distance * one.friction_velocity * flow.density / flow.viscosity, 1.0, 1e-12);
   EXPECT_THAT(describe(one), testing::AllOf(testing::HasSubstr("y+ 1 at the first node"), testing::HasSubstr("Mach 0.78"),
                                             testing::HasSubstr("11000 m of the standard atmosphere")));

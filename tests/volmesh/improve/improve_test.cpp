@@ -25,7 +25,7 @@ namespace {
 
 using test::k_degree;
 
-/// A domain that owns its points, with tetrahedra in it.
+/// A domain with tetrahedra in it, which owns its points.
 struct Filled {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -63,7 +63,7 @@ struct Filled {
   }
 };
 
-/// A sphere in a sphere, filled by TetGen as badly as its ratio allows.
+/// A spherical shell, filled by TetGen with the poorest quality that its radius-edge ratio allows.
 Filled shell(int f, double radius_edge) {
   Filled filled;
   filled.add(test::sphere(f), false);
@@ -73,7 +73,7 @@ Filled shell(int f, double radius_edge) {
   return filled;
 }
 
-/// The cube's six tetrahedra per cell with inner vertices shaken by a share of the cell.
+/// A cube with six tetrahedra per cell; inner vertices are displaced randomly by a share of the cell.
 Filled shaken_cube(int n, double shake) {
   Filled filled;
   filled.add(test::cube(n), true);
@@ -93,7 +93,7 @@ Filled shaken_cube(int n, double shake) {
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) {
         std::array<int, 3> axes = {0, 1, 2};
-        do {  // Kuhn's: one path from corner to corner for each order of the axes
+        do {  // Kuhn's subdivision: one path from corner to corner for each order of the axes
           std::array<int, 3> at = {i, j, k};
           std::array<std::uint32_t, 4> c{};
           c[0] = vertex(at[0], at[1], at[2]);
@@ -105,7 +105,7 @@ Filled shaken_cube(int n, double shake) {
           filled.tets.tetrahedra.push_back(c);
         } while (std::next_permutation(axes.begin(), axes.end()));
       }
-  // The cube's triangles are those of the tetrahedra.
+  // The triangles of the cube are faces of the tetrahedra.
   std::map<std::array<std::uint32_t, 3>, std::pair<int, std::array<std::uint32_t, 3>>> faces;
   constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   for (const auto& c : filled.tets.tetrahedra)
@@ -136,7 +136,7 @@ void expect_improved(Filled filled, const ImproveOptions& options, double bad_sh
   EXPECT_EQ(report.n_bad_free_after, 0);
   EXPECT_EQ(static_cast<std::int64_t>(report.remaining.size()), report.n_bad_after);
   EXPECT_LE(report.n_forced, report.n_bad_after);
-  // The report tells what is there.
+  // The report matches the mesh.
   std::int64_t n_bad = 0;
   double low = 4.0, high = 0.0;
   for (std::size_t t = 0; t < filled.tets.tetrahedra.size(); ++t) {
@@ -150,14 +150,15 @@ void expect_improved(Filled filled, const ImproveOptions& options, double bad_sh
   EXPECT_NEAR(report.max_angle_after, high, 1e-6);
 }
 
-/// Least volume in double precision, over the largest product of three edges at a corner.
+/// Smallest volume in double precision, divided by the largest product of three edges at a corner.
 double least_relative_volume(const Filled& filled) {
   double least = 1.0;
   for (std::size_t t = 0; t < filled.tets.tetrahedra.size(); ++t) least = std::min(least, least_computed_jacobian(CellKind::tetrahedron, filled.corners(t)));
   return least;
 }
 
-/// Moves an inner vertex to within 1e-15 of the face opposite to it in one tetrahedron, where all others around it stay positive. False where there is none.
+/// Moves an inner vertex to within 1e-15 of the opposite face of one tetrahedron, such that all others around the vertex stay positive. Returns false if there
+/// is no such vertex.
 bool flatten_one(Filled& filled) {
   const auto n_fixed = static_cast<std::uint32_t>(filled.points.size());
   for (const auto& tet : filled.tets.tetrahedra)
@@ -185,7 +186,7 @@ TEST(Improve, RepairsVolumesWithinRoundingOfDoublePrecision) {
   ASSERT_TRUE(flatten_one(filled));
   improve_tetrahedra(filled.boundary(), filled.tets, {}, RunContext());
   EXPECT_GT(least_relative_volume(filled), 1e3 * k_solver_margin);
-  // A thin tetrahedron has good angles and no volume that a solver could rely on.
+  // A thin tetrahedron has good angles, but too little volume for a solver.
   EXPECT_LT(tet_quality({0, 0, 0}, {1, 0, 0}, {1, 1e-8, 0}, {1, 0.5e-8, 0.8e-8}, 1.0), k_solver_margin);
   EXPECT_GT(tet_quality({0, 0, 0}, {1, 0, 0}, {1, 1e-4, 0}, {1, 0.5e-4, 0.8e-4}, 1.0), 0.1);
 }
@@ -203,7 +204,7 @@ TEST(TetQuality, is_the_smallest_weighted_sine) {
       continue;
     }
     ++n_positive;
-    // Of obtuse angles the largest, of acute ones the smallest has the smallest sine.
+    // The smallest sine belongs to the largest obtuse or to the smallest acute angle.
     const auto [min, max] = tet_dihedral_range(p);
     const double expected = std::min(min > std::numbers::pi / 2 ? 1.0 : std::sin(min), max > std::numbers::pi / 2 ? 0.6 * std::sin(max) : 1.0);
     if (max > std::numbers::pi / 2) {
@@ -220,7 +221,7 @@ TEST(TetQuality, is_the_smallest_weighted_sine) {
 
 TEST(TetQuality, both_limits_are_one_threshold) {
   const QualityLimits limits = quality_limits(12 * k_degree, 160 * k_degree);
-  // Wedges about the z axis with a given angle there, other angles harmless.
+  // Wedges about the z axis with a given angle there; the other angles are uncritical.
   const auto wedge = [&](double angle) {
     return tet_quality({0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}, limits.obtuse_weight);
   };
@@ -235,7 +236,7 @@ TEST(TetQuality, both_limits_are_one_threshold) {
   EXPECT_LE(quality_limits(3 * k_degree, 175 * k_degree).hard, std::sin(3 * k_degree));
 }
 
-/// Tetrahedra around the edge 0-1 with a ring of n vertices.
+/// Returns tetrahedra around the edge 0-1 with a ring of n vertices.
 std::vector<Region::Corners> around_edge(int n) {
   std::vector<Region::Corners> tets;
   for (int i = 0; i < n; ++i) tets.push_back({0, 1, static_cast<std::uint32_t>(2 + i), static_cast<std::uint32_t>(2 + (i + 1) % n)});
@@ -258,7 +259,7 @@ double region_volume(const Region& region) {
 
 TEST(Region, removes_an_edge_with_a_ring_of_any_size) {
   for (int n = 3; n <= 7; ++n) {
-    // The edge passes the ring beside its middle, near one side: the tetrahedron there is flat at the edge.
+    // The edge passes the ring off its centre, near one side: the tetrahedron there is flat at the edge.
     const double half_side = std::numbers::pi / n;
     std::vector<Vec3> points = {{0.95 * std::cos(half_side), 0, -1.0}, {0.95 * std::cos(half_side), 0, 1.0}};
     for (int i = 0; i < n; ++i) points.push_back({std::cos(half_side * (2 * i - 1)), std::sin(half_side * (2 * i - 1)), 0.0});
@@ -280,7 +281,7 @@ TEST(Region, removes_an_edge_with_a_ring_of_any_size) {
 }
 
 TEST(Region, only_tries_with_all_neighbours_at_hand_count) {
-  // A flat tetrahedron at the edge 0-1, which goes when all three around it are there; without one of them nothing helps.
+  // A flat tetrahedron at the edge 0-1, which is removed if all three around the edge are given; if one is missing, no operation helps.
   const std::vector<Vec3> points = {{0.45, 0, -1.0}, {0.45, 0, 1.0}, {0.5, -0.87, 0.0}, {0.5, 0.87, 0.0}, {-1.0, 0.0, 0.0}};
   const std::vector<Region::Corners> tets = around_edge(3);
   const auto tries = [&](std::size_t n_tets, VertexRole role) {
@@ -296,7 +297,7 @@ TEST(Region, only_tries_with_all_neighbours_at_hand_count) {
 }
 
 TEST(Region, two_three_flip_opens_a_flat_pair) {
-  // Two tetrahedra over a triangle, apexes close to it: three around the new edge are better.
+  // Two tetrahedra over a triangle, with apexes close to it: three around the new edge are better.
   const std::vector<Vec3> points = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.15}, {0, 0, -0.15}};
   const std::vector<VertexRole> fixed(points.size(), VertexRole::boundary);
   Region region(quality_limits(30 * k_degree, 120 * k_degree));
@@ -331,7 +332,7 @@ TEST(Region, smooths_a_free_vertex_to_the_middle) {
 
 TEST(Improve, shaken_cubes_lose_their_slivers) {
   Filled filled = shaken_cube(10, 0.55);
-  // Shaken too far some cells turn over; such a mesh is no input.
+  // If displaced too far, some cells are inverted; such a mesh is not a valid input.
   if (filled.worst(1.0) <= 0.0) filled = shaken_cube(10, 0.3);
   expect_improved(filled, {.improve_min_angle = 18 * k_degree, .improve_max_angle = 150 * k_degree}, 0.02);
 }
@@ -343,8 +344,8 @@ TEST(Improve, engine_meshes_reach_stricter_limits_but_for_the_boundary) {
 }
 
 TEST(Improve, passes_that_bring_little_are_the_last) {
-  // Limits that nothing can reach: nearly all tetrahedra are bad and stay bad, as on walls full of needles. Three passes that take more than they bring are the
-  // last; without that rule all passes allowed are made (measured).
+  // Limits that cannot be reached: nearly all tetrahedra are bad and stay bad, as on walls full of needles. The improver stops after three passes that cost
+  // more than they gain; without that rule it makes all allowed passes (measured).
   Filled filled = shell(4, 2.0);
   const QualityLimits limits = quality_limits(50 * k_degree, 100 * k_degree);
   const double worst = filled.worst(limits.obtuse_weight);
@@ -356,7 +357,7 @@ TEST(Improve, passes_that_bring_little_are_the_last) {
   const RunContext context;
   Improver improver(filled.boundary(), filled.tets, limits, context);
   improver.work_on(bad);
-  constexpr int k_passes = 16;  // as often as one away from the boundary is tried
+  constexpr int k_passes = 16;  // the number of attempts for a tetrahedron away from the boundary
   EXPECT_LT(improver.run(k_passes), k_passes);
   improver.finish(filled.tets);
   EXPECT_GT(improver.effort(), 0u);
@@ -365,7 +366,7 @@ TEST(Improve, passes_that_bring_little_are_the_last) {
 }
 
 TEST(Improve, what_a_sharp_boundary_forces_is_listed_with_its_angle) {
-  // A wedge of 5 degrees: one tetrahedron, nothing to be done.
+  // A wedge of 5 degrees: a single tetrahedron, no operation applies.
   const double angle = 5 * k_degree;
   Filled wedge;
   wedge.points = {{0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}};
@@ -379,7 +380,7 @@ TEST(Improve, what_a_sharp_boundary_forces_is_listed_with_its_angle) {
   EXPECT_THAT(report.remaining[0].what, testing::HasSubstr("forced: boundary triangles meet at 5 deg"));
 }
 
-/// The boundary of one tetrahedron, seen from its inside.
+/// The boundary of one tetrahedron, oriented inwards.
 Filled one_tetrahedron(std::vector<Vec3> points) {
   Filled filled;
   filled.points = std::move(points);
@@ -408,7 +409,7 @@ TEST(Forcing, a_flat_tetrahedron_is_forced_on_all_its_triangles) {
 }
 
 TEST(Forcing, sheets_force_each_other_only_when_cores_overlap) {
-  // Two triangles face to face; each core is tan 12 of the inscribed circle's radius high.
+  // Two triangles face to face; the height of each core is tan 12 times the radius of the inscribed circle.
   const double core = std::tan(12 * k_degree) * 0.5 / std::sqrt(3.0);
   const auto sheets = [&](double gap) {
     Filled filled;
@@ -444,14 +445,14 @@ TEST(Improve, a_thin_slab_is_forced_and_a_cube_is_not) {
 }
 
 TEST(Improve, group_boundaries_stop_no_flip) {
-  // Some thousand bad ones, so that groups of them meet; the smooth boundary forces none.
+  // Some thousand bad tetrahedra, so that groups of them touch; the smooth boundary forces none.
   Filled filled = shell(24, 2.0);
   const ImproveReport report = improve_tetrahedra(filled.boundary(), filled.tets, {.improve_min_angle = 15 * k_degree}, RunContext());
   EXPECT_GT(report.n_bad_before, 1000);
   EXPECT_EQ(report.n_bad_after, 0);
 }
 
-/// Last prisms under the inner sphere as tall as fits regular tetrahedra on it; none elsewhere.
+/// Returns heights of last prisms: under the inner sphere as tall as fits regular tetrahedra on them; zero elsewhere.
 std::vector<double> fitting_layer(const Filled& filled) {
   std::vector<double> volumes;
   for (const auto& t : filled.triangles) {
@@ -463,8 +464,8 @@ std::vector<double> fitting_layer(const Filled& filled) {
 }
 
 struct Wishes {
-  int n_steps = 0;       ///< tetrahedra on the layer whose volume is beyond a third or three times of what fits
-  int n_hard_steps = 0;  ///< an eighth, or eight times
+  int n_steps = 0;       ///< tetrahedra on the layer with a volume below a third or above three times the fitting volume
+  int n_hard_steps = 0;  ///< the same with an eighth and eight times
   int n_obtuse = 0;      ///< tetrahedra with an angle above 155 degrees
 };
 Wishes unmet(const Filled& filled, const std::vector<double>& layer) {

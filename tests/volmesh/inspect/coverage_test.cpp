@@ -1,4 +1,4 @@
-// The predicted layer against the one of the finished mesh, on real walls.
+// Compares the predicted layer with the layer of the finished mesh, on real walls.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// The prediction leaves out the optimiser and the tests for collisions, and counts the lengths of lines, where the mesh counts heights along the normal.
+/// The prediction omits the optimiser and the collision tests, and counts the lengths of growth lines, whereas the mesh counts heights along the normal.
 /// Measured: 0.001 (caturbs), 0.004 (bwb), 0.075 (couplingdown: at the corners of this coarse wall lines have to lean).
 constexpr double k_tolerance = 0.09;
 
@@ -22,7 +22,7 @@ TEST(InspectCoverage, IsNearThatOfTheFinishedMesh) {
     SCOPED_TRACE(name);
     const RunContext context({.threads = 2});
     const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces/clean" / name, context)}, {}, context).mesh;
-    // With uniform growth a line has its first height if it is at most 2 % lower than asked; lines that lean at corners are lower (couplingdown: 0.035).
+    // With uniform growth, a line has its first height if it is at most 2 % lower than requested; lines that lean at corners are lower (couplingdown: 0.035).
     for (const auto& [growth, compressed_tolerance] : {std::pair("local", 0.02), std::pair("uniform", 0.05)}) {
       SCOPED_TRACE(growth);
       InspectRequest request;

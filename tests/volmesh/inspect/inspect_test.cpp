@@ -1,4 +1,4 @@
-// One known defect each, found at its place and nothing else; clean shapes without a word.
+// Surfaces with one known defect each: inspection finds it at its location and nothing else; clean shapes have no findings.
 #include "volmesh/inspect/inspect.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ using test::k_degree;
 InspectRequest request_of(int layers, double first_height) {
   InspectRequest request;
   request.volume.envelope.layers = layers;
-  request.volume.envelope.max_growth = 1.4;  // so that these layers meet the tetrahedra
+  request.volume.envelope.max_growth = 1.4;  // so that the heights of these layers match the tetrahedra
   request.volume.envelope.growth = "local";
   request.volume.envelope.first_height = first_height;
   return request;
@@ -73,14 +73,14 @@ const TriMeshField& field(const InspectReport& report, const std::string& name) 
   throw std::runtime_error("no field " + name);
 }
 
-/// The finding, which must be there.
+/// Returns the finding of this kind, which must exist.
 const Finding& the(const InspectReport& report, Kind kind) {
   const Finding* finding = report.find(kind);
   if (!finding) throw std::runtime_error("no finding " + std::string(to_string(kind)));
   return *finding;
 }
 
-/// Middles of the triangles that the picture marks.
+/// Returns the centres of the triangles that the picture marks.
 std::vector<Point> marked(const InspectReport& report, Kind kind) {
   std::vector<Point> places;
   for (const TriangleId t : report.mesh.triangles.ids()) {
@@ -123,7 +123,7 @@ TEST(Inspect, FieldsFitTheSurface) {
     EXPECT_TRUE(names.insert(f.name).second);
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"finding", "smallest_angle", "visibility_angle", "height_share", "gap", "top_ratio"}));
-  // At the cube's corners the best direction sees the three faces at acos(1/sqrt 3), at its edges at 45 degrees.
+  // At the corners of the cube the best direction is at acos(1/sqrt 3) to the three face normals, at its edges at 45 degrees.
   const VertexId corner = nearest_vertex(report.mesh, {1, 1, 1}), edge = nearest_vertex(report.mesh, {1, 1, 0.5}),
                  face = nearest_vertex(report.mesh, {0.5, 0.5, 1});
   EXPECT_NEAR(field(report, "visibility_angle").values[corner.index()], std::acos(1.0 / std::sqrt(3.0)) / k_degree, 1e-3);
@@ -155,7 +155,7 @@ TEST(Inspect, FindsATriangleMuchSmallerThanItsNeighbours) {
   const TriangleVertices v = mesh.triangles[t];
   const auto [a, b, c] = corners(mesh, t);
   const Point middle = (a + b + c) / 3.0;
-  std::array<VertexId, 3> w;  // a triangle within it, a thirtieth of its size
+  std::array<VertexId, 3> w;  // a triangle within the other, a thirtieth of its size
   for (std::size_t k = 0; k < 3; ++k) w[k] = mesh.points.push_back(middle + 0.03 * (mesh.points[v[k]] - middle));
   mesh.triangles[t] = {w[0], w[1], w[2]};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -182,7 +182,7 @@ TEST(Inspect, FindsAShortEdge) {
   EXPECT_NE(edge.advice.find("weld_tolerance"), std::string::npos);
 }
 
-/// A wedge with its edge along y at x = 0, of n strips in x and y.
+/// A wedge of n strips in x and y with its edge along y at x = 0.
 TriMesh wedge(double angle, int n) {
   TriMesh mesh;
   mesh.patches.push_back({"wedge", PatchKind::wall});
@@ -232,9 +232,9 @@ TEST(Inspect, FindsAFoldAndHowBadlyItsEdgeIsSeen) {
   EXPECT_EQ(fold.places.size(), 5u);  // max_places
   for (const FindingPlace& place : fold.places) EXPECT_EQ(place.position.x, 0.0);
   EXPECT_NE(fold.text.find("(0 of them with the fluid inside)"), std::string::npos);
-  // Two facets that turn by 172 degrees are seen at half of that.
+  // Two facets that turn by 172 degrees have a visibility angle of half of that.
   const Finding& edge = the(report, Kind::visibility);
-  EXPECT_NEAR(edge.value, 86.0, 0.5);  // a little more at the ends
+  EXPECT_NEAR(edge.value, 86.0, 0.5);  // slightly more at the ends
   EXPECT_EQ(edge.places.at(0).position.x, 0.0);
   EXPECT_THAT(kinds(inspect(wedge(8.0 * k_degree, 7))), UnorderedElementsAre(Kind::visibility, Kind::not_looked_at)) << "8 degrees are no fold by default";
 }
@@ -262,7 +262,7 @@ TEST(Inspect, FindsCrossingsWithTheirPairs) {
   const Finding& crossing = the(report, Kind::crossing);
   EXPECT_EQ(crossing.severity, Severity::error);
   EXPECT_GT(crossing.count, 10);
-  Box overlap;  // of the two cubes, and a triangle around
+  Box overlap;  // of the two cubes, extended by one triangle
   overlap.add(Vec3{0.6, 0.55, 0.52} - Vec3{0.25, 0.25, 0.25});
   overlap.add(Vec3{1.25, 1.25, 1.25});
   for (const FindingPlace& place : crossing.places) {
@@ -320,7 +320,7 @@ TEST(Inspect, FindsBodiesThatNearlyTouch) {
   EXPECT_GT(contact.value, apart / 0.5);
   EXPECT_LT(contact.value, apart / 0.2);
   EXPECT_NEAR(contact.places.at(0).position.x, 1.0, 1e-3);
-  // Back to back through the solid is no contact: a plate thinner than that, seen from outside.
+  // Opposite sides of a solid are not a contact: a thinner plate, seen from outside.
   InspectRequest request;
   EXPECT_FALSE(inspect(moved(test::cube(4), {}, {1.0, 1.0, 1e-3}), request).find(Kind::contact));
 }
@@ -361,17 +361,17 @@ TEST(Inspect, MeasuresAGapAgainstTheLayers) {
     ++n;
   }
   EXPECT_GE(n, 2 * 9 * 9);
-  // Nothing of it where the layers are thin enough.
+  // Thin layers have none of these findings.
   EXPECT_THAT(kinds(inspect(plates, request_of(8, 1e-4))), testing::Not(testing::Contains(Kind::lowered)));
 }
 
 TEST(Inspect, TellsOfCompressedAndCollapsedLayers) {
   const TriMesh plates = joined(moved(test::cube(16), {}, {1.0, 1.0, 0.2}), moved(test::cube(16), {0.0, 0.0, 0.203}, {1.0, 1.0, 0.2}));
-  const InspectReport compressed = inspect(plates, request_of(20, 1e-4));  // 2 mm are the first cells, about 0.75 mm are left for each side
+  const InspectReport compressed = inspect(plates, request_of(20, 1e-4));  // the first cells need 2 mm, about 0.75 mm are available on each side
   ASSERT_TRUE(compressed.find(Kind::compressed));
   EXPECT_GT(compressed.layer.compressed, 0.2);
   EXPECT_NE(the(compressed, Kind::compressed).advice.find("layers = "), std::string::npos);
-  const InspectReport collapsed = inspect(plates, request_of(20, 1e-3));  // a fifth of the first cells are 4 mm
+  const InspectReport collapsed = inspect(plates, request_of(20, 1e-3));  // a fifth of the first cells is 4 mm
   ASSERT_TRUE(collapsed.find(Kind::collapsed));
   EXPECT_GT(collapsed.layer.collapsed, 0.2);
   EXPECT_TRUE(collapsed.is_ok()) << "it can be meshed";
@@ -381,15 +381,15 @@ TEST(Inspect, ComparesFirstAndLastCellsWithTheEdges) {
   const TriMesh cube = test::cube(16);
   EXPECT_THAT(kinds(inspect(cube, request_of(8, 1e-5))), UnorderedElementsAre(Kind::thin_top, Kind::wake));
   InspectRequest one = request_of(8, 1e-5);
-  one.volume.envelope.max_thickness = 1.0;  // m, out of the way
+  one.volume.envelope.max_thickness = 1.0;  // m, large enough to have no effect
   const InspectReport few = inspect(cube, one);
-  // 0.816 edges of about 0.07 from 1e-5 by 1.4: 27 layers.
+  // From a first height of 1e-5, with growth 1.4, to a last height of 0.816 edges of about 0.07: 27 layers.
   const std::string advice = the(few, Kind::thin_top).advice;
   ASSERT_EQ(advice.find("layers = 2"), 0u) << advice;
   InspectRequest enough = request_of(std::stoi(advice.substr(9)), 1e-5);
   enough.volume.envelope.max_thickness = 1.0;
   EXPECT_FALSE(inspect(cube, enough).find(Kind::thin_top)) << "the advice helps";
-  // Below the usual cap of a tenth of the length other numbers match, or none does and shorter edges are advised.
+  // Below the usual limit of a tenth of the length, other numbers of layers match; if none does, shorter edges are advised.
   const std::string capped = the(inspect(test::cube(12), request_of(12, 1e-4)), Kind::thin_top).advice;
   ASSERT_EQ(capped.find("layers = "), 0u) << capped;
   EXPECT_FALSE(inspect(test::cube(12), request_of(std::stoi(capped.substr(9)), 1e-4)).find(Kind::thin_top)) << capped;
@@ -426,7 +426,7 @@ TEST(Inspect, RulesOfPatchesCount) {
   EXPECT_NE(the(wrong, Kind::refused).text.find("nothing"), std::string::npos);
 }
 
-// ---- All of it ------------------------------------------------------------------------------------------------------------------------------
+// ---- All findings ---------------------------------------------------------------------------------------------------------------------------
 
 TEST(Inspect, IsTheSameForAnyNumberOfThreads) {
   const TriMesh plates = joined(test::sphere(20, 0.5), moved(test::sphere(20, 0.5), {1.01, 0.0, 0.0}));
@@ -467,7 +467,7 @@ TEST(Inspect, TrianglesThatCannotBeJoinedAreLookedAtOneByOne) {
   EXPECT_TRUE(report.find(Kind::needle)) << "a triangle without a place has no angle";
 }
 
-/// A layer of about 80 mm on a base of 1 mm, and on one of 40 mm; sharp edges and slabs with sides of their own are no bases.
+/// A layer of about 80 mm on a base 1 mm thick, and on a base 40 mm thick; sharp edges and slabs with separate side patches are not bases.
 TEST(Inspect, FindsABaseTooThinForItsLayer) {
   InspectRequest request = request_of(20, 1e-4);
   request.volume.envelope.total_height = 0.08;

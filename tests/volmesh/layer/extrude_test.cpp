@@ -1,4 +1,4 @@
-// Lines, curving, repair and certificate of the extruded layer on shapes whose answer is known by hand.
+// Growth lines, curving, repair and certificate of the extruded layer on shapes with hand-calculated results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,13 +24,13 @@ using test::k_context;
 EnvelopeOptions layers_of(double h0, int n) {
   EnvelopeOptions options;
   options.first_height = h0;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   options.layers = n;
   return options;
 }
 
-/// An envelope of one height along the vertex normals.
+/// Returns an envelope of constant height along the vertex normals.
 Envelope even_envelope(const LayerBase& base, double height) {
   const std::size_t n = base.wall.n_vertices();
   Envelope envelope;
@@ -41,7 +41,7 @@ Envelope even_envelope(const LayerBase& base, double height) {
   return envelope;
 }
 
-/// `d` leant by `angle` (radians) towards +x or, where it is along x, +y.
+/// Returns `d` tilted by `angle` (radians) towards +x, or towards +y if `d` is along x.
 Vec3 leant(const Vec3& d, double angle) {
   const Vec3 aside = std::abs(d.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 tangent = normalized(aside - dot(aside, d) * d);
@@ -75,7 +75,7 @@ TEST(LayerLine, NodesAreTheLawsDistancesAlongTheNormalWhateverTheSlantAndTheCurv
       EXPECT_EQ(p[n], envelope.point(cube, v));  // to the bit
       EXPECT_NEAR(p[1].z - 1.0, h0, 1e-14);
       for (std::size_t j = 1; j <= n; ++j) EXPECT_NEAR(p[j].z - 1.0, t[j] * h_n, 1e-14);
-      // The line leaves the wall along the normal when curved, along the growth direction when straight.
+      // A curved line leaves the wall along the normal, a straight line along the growth direction.
       const double slope = (p[1].x - p[0].x) / (p[1].z - p[0].z);
       if (c_t == 0.0) EXPECT_NEAR(slope, std::tan(angle), 1e-9);
       else EXPECT_LT(slope, 0.4 * std::tan(angle) + 1e-9);
@@ -132,7 +132,7 @@ TEST(Curving, StaysBelowTheLimitsFallsOnlyAndIsUntouchedFarAway) {
   std::vector<double> before;
   for (const VertexId v : sphere.points.ids()) before.push_back(curving[v]);
   curving.limit(VertexId(8), 0.0);
-  curving.limit(VertexId(7), 0.1);  // not below what it is
+  curving.limit(VertexId(7), 0.1);  // not below the present value
   curving.smooth(k_context);
   EXPECT_EQ(curving[VertexId(8)], 0.0);
   for (const VertexId v : sphere.points.ids()) EXPECT_LE(curving[v], before[v.index()]);
@@ -160,7 +160,7 @@ TEST(Extrude, AnEvenLayerOnASphereNeedsNoRepair) {
   EXPECT_EQ(first.n_compressed + first.n_collapsed, 0);
 }
 
-/// On a flat face, one line leans hard over its neighbour's wall point: valid when straight, not when both curves stay at the wall's normal.
+/// On a flat face, one line leans far over the wall point of its neighbour: the layer is valid if straight, but not if both curves start along the wall normal.
 struct LeaningCase {
   TriMesh cube = test::cube(8);
   LayerBase base{cube, k_context};
@@ -205,7 +205,7 @@ TEST(Extrude, CurvedLinesGrowLittleMoreThanTheirHeights) {
 }
 
 TEST(LayerCells, ASideIsCutAlongTheSameDiagonalOnBothSidesOrNotAtAll) {
-  // A unit square between two prisms; its upper corner is pushed towards one and then the other.
+  // A unit square between two prisms; its upper corner is pushed towards one prism and then towards the other.
   const auto can_be_cut = [](double push, bool has_beyond) {
     const std::array<Point, 2> from = {Point{0, 0, 0}, {0, 0, 1}}, to = {Point{1, 0, 0}, {1, push, 1}}, own = {Point{0.5, 1, 0}, {0.5, 1, 1}},
                                beyond = {Point{0.5, -1, 0}, {0.5, -1, 1}};

@@ -1,4 +1,4 @@
-// Lines that slide after improvement, on a real surface whose folds and warped sides gates would FAIL.
+// Growth lines that slide after improvement, on a real surface whose folds and warped sides would FAIL gates.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -20,7 +20,7 @@ VolumeMeshResult meshed(const TriMesh& wall, double slide_share, int threads) {
   MeshCase options;
   const double length = body_length(wall);
   options.envelope.layers = 30;
-  options.envelope.max_growth = 1.4;  // so that layers meet the tetrahedra
+  options.envelope.max_growth = 1.4;  // so that the heights of the layers match the tetrahedra
   options.envelope.growth = "local";
   options.envelope.first_height = 1e-6 * length;
   options.improve.slide_share = slide_share;
@@ -44,7 +44,7 @@ TEST(SlideLines, MendWhatImprovementWithinTheBoundaryCannot) {
   EXPECT_GT(n_beyond(as_made), 0);
   EXPECT_EQ(n_beyond(slid), 0) << to_text(slid.check);
 
-  // The wall and the first cells are as they were, and tops have not moved further than allowed: up by half as much as down, aside besides.
+  // The wall and the first cells are unchanged, and tops have moved at most as far as allowed: up by half as much as down, and also sideways.
   ASSERT_EQ(as_made.mesh.layers.n_lines(), slid.mesh.layers.n_lines());
   std::int64_t n_moved = 0;
   for (std::uint32_t line = 0; line < slid.mesh.layers.n_lines(); ++line) {
@@ -58,7 +58,7 @@ TEST(SlideLines, MendWhatImprovementWithinTheBoundaryCannot) {
     EXPECT_LE(distance(node(as_made, n), node(slid, n)), (0.2 + 0.2 + 1e-9) * height);
   }
   EXPECT_EQ(n_moved, slid.improvement.n_slid);
-  EXPECT_LE(n_moved, 200);  // some dozens of 6475: a remedy for places
+  EXPECT_LE(n_moved, 200);  // some dozens of 6475: the remedy is local
 }
 
 TEST(SlideLines, SameBytesForAnyNumberOfThreads) {

@@ -1,4 +1,4 @@
-// Splits of the tetrahedra's boundary carried down to the wall, through the whole pipeline.
+// Boundary triangles split by the tet engine: the splits are carried down to the wall, through the whole pipeline.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<double> patch_areas(const HybridMesh& mesh) {
   return areas;
 }
 
-/// Each face of the cube a patch of its own, so that splits across patches would show.
+/// A cube with a separate patch for each face, so that splits across patches would show.
 TriMesh cube_of_patches() {
   TriMesh cube = test::cube(3);
   cube.patches = {};
@@ -49,7 +49,7 @@ TriMesh cube_of_patches() {
 TEST(SplitLayer, NewVerticesOfASphereAreOnTheSphere) {
   const TriMesh wall = test::sphere(4);
   MeshCase options = with_splits(wall);
-  options.sources.push_back({.kind = SourceKind::point, .from = {1.5, 0.1, 0.2}, .size = 0.1});  // the sphere's own triangles need no splits
+  options.sources.push_back({.kind = SourceKind::point, .from = {1.5, 0.1, 0.2}, .size = 0.1});  // the triangles of the sphere itself need no splits
   const Makers makers{
       .part_envelope = {}, .wall_envelope = {}, .true_surface = [](const Point& p, TriangleId, const std::array<double, 3>&) { return p / norm(p); }};
   const VolumeMeshResult result = volume_mesh(wall, options, makers, {}, RunContext({.threads = 2}));
@@ -60,7 +60,7 @@ TEST(SplitLayer, NewVerticesOfASphereAreOnTheSphere) {
     const double radius = norm(result.mesh.points[result.mesh.layers.node(static_cast<std::uint32_t>(line), 0)]);
     EXPECT_NEAR(radius, 1.0, 1e-14);
   }
-  // Nearer to the sphere than the flat triangles were.
+  // The refined surface is nearer to the sphere than the flat triangles were.
   double flat_area = 0.0;
   for (const TriangleId t : wall.triangles.ids()) {
     const auto [a, b, c] = corners(wall, t);

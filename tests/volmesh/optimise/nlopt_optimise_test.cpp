@@ -1,4 +1,4 @@
-// The paper's problem through NLopt: what a run promises, why it ends, and that nothing makes it return a spoilt envelope.
+// The paper's problem solved with NLopt: guarantees of a run, reasons for its end, and protection against a damaged envelope.
 #include "volmesh/envelope/nlopt_optimise.h"
 
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@ namespace {
 
 using test::k_context;
 
-/// A wall with a valid envelope, and what every run on it gets.
+/// A wall with a valid envelope, and the input of every run on it.
 struct Case {
-  /// A cube with tilted lines and uneven heights.
+  /// A cube with tilted growth lines and uneven heights.
   static Case cube() {
     Case c(test::cube(6));
     c.options.layers = 35;
@@ -32,7 +32,7 @@ struct Case {
     c.finish();
     return c;
   }
-  /// A sphere from within with layers nearly to the centre, unevenly: most triangles turned over.
+  /// The inside of a sphere with uneven layers nearly to the centre: most triangles are inverted.
   static Case tangle() {
     Case c(hollow_sphere(6));
     c.options = thick_layers();
@@ -109,13 +109,13 @@ TEST_P(Nlopt, RealWingImprovesUntilTheEvaluationsAreSpent) {
   EXPECT_EQ(report.run.n_evaluations, 30);
   EXPECT_EQ(report.n_feasibility_evaluations, 0);  // a valid envelope is feasible
   EXPECT_FALSE(report.is_time_limit);
-  EXPECT_LT(report.best.total, 0.9 * report.run.history.front().total);  // 0.6 measured; without slack or scaling 1
+  EXPECT_LT(report.best.total, 0.9 * report.run.history.front().total);  // 0.6 measured; 1 without slack or scaling
   EXPECT_LT(report.run.n_taken_back, report.run.n_moving / 5);
   expect_kept(c, result, report);
 }
 
 TEST_P(Nlopt, CubeConvergesToTheOptimumOfEveryVertexForItself) {
-  // Without converging lines no constraint matters: full height, along the sum of the faces' normals.
+  // Without converging growth lines no constraint is active: full height, along the sum of the face normals.
   const Case c = Case::cube();
   NloptReport report;
   const Envelope result = c.run(settings_of(GetParam()), report);
@@ -131,7 +131,7 @@ TEST_P(Nlopt, CubeConvergesToTheOptimumOfEveryVertexForItself) {
 }
 
 TEST_P(Nlopt, WithoutSlackNloptStopsWhereItStarted) {
-  // What NloptSettings::slack says of 0; a newer NLopt may differ, and then the slack can go.
+  // Checks the statement about 0 in the documentation of NloptSettings::slack; if a newer NLopt differs, the slack can be removed.
   STERNA_NEEDS_SHARED_DATA();
   const Case c = Case::wing();
   NloptSettings settings = settings_of(GetParam());
@@ -153,12 +153,12 @@ TEST_P(Nlopt, InfeasibleStartWalksToFeasibilityFirst) {
   EXPECT_TRUE(report.is_feasible);
   ASSERT_FALSE(report.violations.empty());
   EXPECT_LT(report.violations.front().constraint.total(), 1e-5);
-  EXPECT_LT(invalid_macros(c.base, result, k_context).size(), n_invalid / 2);  // feasible is not yet valid: (6) and (7) are necessary, not sufficient
+  EXPECT_LT(invalid_macros(c.base, result, k_context).size(), n_invalid / 2);  // feasible does not imply valid: (6) and (7) are necessary, not sufficient
 }
 
 TEST_P(Nlopt, StartThatCannotBeMadeFeasibleIsReturned) {
   Case c = Case::tangle();
-  c.h_l = 0.9;  // a tenth of the wall's length is left at most, and a hundredth of its area
+  c.h_l = 0.9;  // at most a tenth of the wall's length is left, and a hundredth of its area
   NloptSettings settings = settings_of(GetParam(), 50);
   settings.g1_min = 0.5;
   NloptReport report;
@@ -220,7 +220,7 @@ TEST_P(Nlopt, NothingMovesWhenAllIsCollapsed) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Nlopt, testing::Values(NloptMethod::mma, NloptMethod::ccsaq));
 
-/// Heights that may not move: what the user allows is just what the first layers need.
+/// Heights that cannot move: the height allowed by the user is just the height of the first layers.
 TEST(GlobalOptimisation, WithNothingToMoveTheEnvelopeStaysWithEachOptimiser) {
   const TriMesh wall = test::cube(3);
   for (const char* optimiser : {"mma", "ccsaq", "descent", "lbfgs"}) {

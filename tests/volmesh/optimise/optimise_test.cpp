@@ -1,4 +1,4 @@
-// Our optimiser: its objective against hand-worked values, its gradients against central differences, its runs against what it promises.
+// Our optimiser: objective compared with hand-calculated values, gradients with central differences, runs with the documented guarantees.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ double smallest_quality(const LayerBase& base, const Envelope& envelope) {
 }
 
 TEST(LayerObjective, CubeByHand) {
-  // Every line of a cube of 12 triangles leaves its corner along a space diagonal: its cosine with each face, at the wall and at the envelope (a larger
+  // Every growth line of a cube of 12 triangles leaves its corner along a space diagonal: its cosine with each face, at the wall and at the envelope (a larger
   // cube), is 1/sqrt(3). Heights are 0.8 of the bound.
   const TriMesh cube = test::cube(1);
   const LayerBase base(cube, k_context);
@@ -49,7 +49,7 @@ TEST(LayerObjective, CubeByHand) {
   EXPECT_EQ(objective.n_moving(), 8u);
   EXPECT_NEAR(value.f1, 1.0 - diagonal, 1e-14);
   EXPECT_NEAR(value.f3, 1.0 - diagonal, 1e-14);
-  double mean_rise = 0.0;  // angle-weighted normals of a cube's corners are its space diagonals
+  double mean_rise = 0.0;  // the angle-weighted normals at the corners of a cube are its space diagonals
   for (const VertexId v : cube.points.ids()) mean_rise += dot(base.vertex_normal[v], envelope.direction[v]) / 8.0;
   EXPECT_NEAR(value.f2, 1.0 - 0.8 * mean_rise, 1e-14);
   EXPECT_EQ(value.barrier, 0.0);
@@ -74,7 +74,7 @@ TEST_P(Gradient, MatchesCentralDifferencesAtSecondOrder) {
   Noise noise;
   Vec3Field direction(y.size());
   for (Vec3& d : direction) d = noise.vector();
-  for (const TriangleId t : sphere.triangles.ids())  // where a barrier is steep, the differences' own third-order error would hide the order
+  for (const TriangleId t : sphere.triangles.ids())  // where a barrier is steep, third-order errors of the differences would mask the order
     if (slack[t.index()] < 0.05f)
       for (const VertexId v : sphere.triangles[t]) direction[v.index()] = {};
   const double exact = field_dot(gradient, direction, k_context);
@@ -88,7 +88,7 @@ TEST_P(Gradient, MatchesCentralDifferencesAtSecondOrder) {
   };
   const double coarse = error_at(2e-4), fine = error_at(1e-4);
   EXPECT_LT(std::abs(fine), 1e-4 * std::abs(exact));
-  // Second order: half the step, a quarter of the error. 10 % for the next order; a tenth of a per mille of the slope is rounding.
+  // Second order: half the step gives a quarter of the error. 10 % allows for the next order; a tenth of a per mille of the slope is rounding.
   if (std::abs(coarse) > 1e-9 * std::abs(exact)) {
     EXPECT_NEAR(coarse / fine, 4.0, 0.4);
   }
@@ -118,7 +118,7 @@ TEST_P(Methods, ObjectiveFallsMonotonicallyAndElementsStayValid) {
   EXPECT_LE(report.n_evaluations, settings.max_evaluations);
   EXPECT_TRUE(invalid_macros(base, result, k_context).empty());
   EXPECT_GE(smallest_quality(base, result), 0.9 * smallest_quality(base, start) * (1.0 - 1e-12));
-  // On a sphere the best lines are the normals at full height.
+  // On a sphere the optimal growth lines are the normals at full height.
   double tilt = 0.0, share = 0.0;
   for (const VertexId v : result.height.ids()) {
     tilt += angle_between(result.direction[v], base.vertex_normal[v]);

@@ -1,4 +1,4 @@
-// The paper's problem: values against hand-worked ones, every gradient against central differences, which vertices take part, determinism.
+// The paper's problem: values compared with hand-calculated ones, every gradient with central differences; free vertices; determinism.
 #include "volmesh/envelope/paper_problem.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class Noise {
   std::uint32_t state_ = 11;
 };
 
-/// An envelope with the given growth edges, all of the same target.
+/// Returns an envelope with the given growth edges and the same target height for all.
 Envelope envelope_of(const std::vector<Vec3>& growth, double target) {
   Envelope envelope;
   for (const Vec3& g : growth) {
@@ -46,7 +46,7 @@ Envelope envelope_of(const std::vector<Vec3>& growth, double target) {
   return envelope;
 }
 
-/// One triangle in z = 0 with the right angle at the origin and legs of 1; vertices as free as if it had no rim.
+/// One triangle in z = 0 with the right angle at the origin and legs of 1; its vertices are free, as if it had no open boundary.
 TriMesh one_triangle() {
   TriMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -59,7 +59,7 @@ TriMesh one_triangle() {
 TEST(PaperProblem, OneWedgeByHand) {
   const TriMesh wall = one_triangle();
   const LayerBase base(wall, k_context);
-  // Growth edges: upright of height 0.4; 45 degrees to the side, rising 0.5; below the wall's plane by 0.1.
+  // Growth edges: upright with height 0.4; 45 degrees to the side, rising 0.5; below the plane of the wall by 0.1.
   const Envelope envelope = envelope_of({{0, 0, 0.4}, {0.5, 0, 0.5}, {0, -1.25, 0.3}}, 0.5);
   const PaperProblem problem(base, envelope, envelope.target, 1e-3, 0.3, k_context);
   ASSERT_EQ(problem.n_unknowns(), 9u);
@@ -70,8 +70,8 @@ TEST(PaperProblem, OneWedgeByHand) {
   const double cosine = -0.1 / std::hypot(1.25, 0.1);
   EXPECT_NEAR(f.f1, ((1.0 - 1.0) + (1.0 - std::sqrt(0.5)) + (1.0 - cosine)) / 3.0, 1e-14);  // (8)
   EXPECT_NEAR(f.f2, ((1.0 - 0.8) + (1.0 - 1.0) + (1.0 + 0.2)) / 3.0, 1e-14);                // (9)
-  // Envelope triangle: (0, 0, .4), (1.5, 0, .5), (0, -.25, -.1): twice its area vector has z = 1.5 * -0.25 - 0; over twice the wall's area, 1: (6) with g_1,min
-  // = 0.3
+  // Envelope triangle: (0, 0, .4), (1.5, 0, .5), (0, -.25, -.1): z of twice its area vector is 1.5 * -0.25 - 0; divided by twice the wall area, which is 1: (6)
+  // with g_1,min = 0.3
   const PaperConstraint g = problem.constraint(z, {}, k_context);
   EXPECT_NEAR(g.g1, 0.3 + 0.375, 1e-14);
   EXPECT_NEAR(g.g2, 0.1 / 0.5, 1e-14);  // (7), in units of h_u
@@ -85,7 +85,7 @@ TEST(PaperProblem, BoundsAndWhoTakesPart) {
   EnvelopeOptions options;
   options.first_height = 1e-3;
   options.layers = 10;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   Envelope envelope = initial_envelope(base, options, k_context);
   Column<VertexId, double> h_u = envelope.target;
@@ -113,7 +113,7 @@ TEST(PaperProblem, BoundsAndWhoTakesPart) {
     EXPECT_EQ(bounds.upper[i + 2], 1.0);
     i += 3;
   }
-  // Unknowns and envelope are two ways to write the same.
+  // Unknowns and envelope are two representations of the same state.
   Envelope copy = envelope;
   problem.store(z, copy, k_context);
   for (const VertexId v : cube.points.ids()) EXPECT_LT(distance(copy.point(cube, v), envelope.point(cube, v)), 1e-15);
@@ -140,7 +140,7 @@ TEST(PaperProblem, ConstraintsLeaveTwoOneOrNoTangentialUnknown) {
   EXPECT_FALSE(problem.takes_part(fixed));
   EXPECT_EQ(problem.n_vertices(), cube.n_vertices() - 1);
   EXPECT_EQ(problem.n_unknowns(), 3 * problem.n_vertices() - 1 - 2);
-  // Whatever the unknowns are, the points stay within their constraints: vertex 0 has unknowns 0-2, vertex 1 has 3-4, vertex 2 has 5.
+  // For any unknowns, the points satisfy their constraints: vertex 0 has unknowns 0-2, vertex 1 has 3-4, vertex 2 has 5.
   std::vector<double> z(problem.n_unknowns(), 0.7);
   problem.store(z, envelope, k_context);
   EXPECT_NEAR(dot(envelope.direction[plane], across), 0.0, 1e-15);
@@ -162,13 +162,13 @@ TriMesh surface_named(const std::string& name) {
 EnvelopeOptions layers_for(const TriMesh& mesh) {
   EnvelopeOptions options;
   options.layers = 35;
-  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has tests of its own
+  options.max_growth = 1.4;  // the law of eq. (1); uniform growth has separate tests
   options.growth = "local";
   options.first_height = 1e-6 * body_length(mesh);
   return options;
 }
 
-/// Equations (6) and (7) of one element by its points, written down a second time.
+/// Equations (6) and (7) of one element, as an independent implementation from its points.
 struct ElementConstraints {
   double g1 = 0.0, g2 = 0.0;
   std::array<double, 3> rise{};
@@ -185,7 +185,7 @@ ElementConstraints constraints_of(const LayerBase& base, const Column<VertexId, 
   return result;
 }
 
-/// A rough point of a problem on a surface: tilted lines, uneven heights, many violated elements.
+/// An irregular point of a problem on a surface: tilted growth lines, uneven heights, many violated elements.
 struct RoughCase {
   explicit RoughCase(const std::string& name)
       : mesh(surface_named(name)),
@@ -248,7 +248,7 @@ TEST_P(OnSurface, EveryGradientMatchesCentralDifferencesAtSecondOrder) {
   RoughCase rough(GetParam());
   const PaperProblem& problem = rough.problem;
   ASSERT_GT(problem.n_vertices(), rough.mesh.n_vertices() / 2);
-  // Along a curve z + s a + s^2 b + s^3 c, so that the linear f_2 and g_2 and the quadratic g_1 have a third derivative, too.
+  // Along a curve z + s a + s^2 b + s^3 c, so that the linear f_2 and g_2 and the quadratic g_1 also have a third derivative.
   const std::size_t n = rough.z.size();
   std::vector<double> a(n), b(n), c(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -256,12 +256,13 @@ TEST_P(OnSurface, EveryGradientMatchesCentralDifferencesAtSecondOrder) {
     b[i] = rough.noise.next();
     c[i] = rough.noise.next();
   }
-  // Sums over what is violated have kinks where an element becomes violated, or another of its edges the lowest: elements near one stay as they are.
+  // Sums over violated elements have kinks where an element becomes violated, or where another of its edges becomes the lowest: elements near a kink stay
+  // fixed.
   constexpr double k_near = 0.05;
   Column<VertexId, std::uint8_t> stays(rough.mesh.n_vertices(), 0);
   for (const TriangleId t : rough.mesh.triangles.ids()) {
     const TriangleVertices& v = rough.mesh.triangles[t];
-    double longest = 0.0, shortest = 1e300, reach = 0.0;  // how fast g_1 may change: thick layers over needles
+    double longest = 0.0, shortest = 1e300, reach = 0.0;  // for the rate of change of g_1: thick layers over needles
     for (std::size_t k = 0; k < 3; ++k) {
       const double edge = distance(rough.mesh.points[v[k]], rough.mesh.points[v[(k + 1) % 3]]);
       longest = std::max(longest, edge);
@@ -301,7 +302,7 @@ TEST_P(OnSurface, EveryGradientMatchesCentralDifferencesAtSecondOrder) {
     const auto error_at = [&](double s) { return (problem.part(part, at(s), {}, k_context) - problem.part(part, at(-s), {}, k_context)) / (2.0 * s) - exact; };
     const double coarse = error_at(4e-3), fine = error_at(2e-3);
     EXPECT_LT(std::abs(fine), 1e-3 * size);
-    EXPECT_NEAR(coarse / fine, 4.0, 0.2) << "errors " << coarse / size << " and " << fine / size << " of the slope";  // the next order is s^2 of this one
+    EXPECT_NEAR(coarse / fine, 4.0, 0.2) << "errors " << coarse / size << " and " << fine / size << " of the slope";  // the next order is s^2 of this order
   }
 }
 

@@ -1,4 +1,4 @@
-// Envelopes with tilted lines and uneven heights, for the tests of the optimisers.
+// Envelopes with tilted growth lines and uneven heights, for the tests of the optimisers.
 #pragma once
 
 #include "tests/support/shapes.h"
@@ -32,14 +32,14 @@ inline EnvelopeOptions thick_layers() {
   return options;
 }
 
-/// The sphere from within: lines converge, and a layer of half the radius leaves a quarter of the wall's area.
+/// The inside of a sphere: growth lines converge, and a layer of half the radius leaves a quarter of the wall area.
 inline TriMesh hollow_sphere(int f) {
   TriMesh mesh = test::sphere(f);
   for (TriangleVertices& v : mesh.triangles) std::swap(v[1], v[2]);
   return mesh;
 }
 
-/// A valid envelope with tilted lines and uneven heights.
+/// Returns a valid envelope with tilted growth lines and uneven heights.
 inline Envelope rough_envelope(const LayerBase& base, const EnvelopeOptions& options, double tilt, double unevenness, const RunContext& context) {
   Envelope envelope = initial_envelope(base, options, context);
   Noise noise;

@@ -1,4 +1,4 @@
-// Envelopes of parts that were made elsewhere and moved: the same at every attitude where nothing is near, lower and valid where something is, for any number
+// Envelopes of parts that were made elsewhere and moved: the same at every attitude if nothing is near, lower and valid if an obstacle is near, for any number
 // of threads.
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ struct Scene {
   MeshCase options() const {
     MeshCase options;
     options.envelope.layers = 10;
-    options.envelope.first_height = 1e-3;  // 0.07 m in all with this growth
+    options.envelope.first_height = 1e-3;  // 0.07 m in total with this growth
     options.envelope.max_growth = 1.4;
     options.envelope.max_thickness = 0.1;
     options.parts = parts;
@@ -57,7 +57,7 @@ Scene body_at(const Transform& placement) {
   return scene;
 }
 
-/// The envelope of the only part alone, as the driver asks for it.
+/// Returns the envelope of the only part alone, as the driver requests it.
 PartEnvelope alone(const Scene& scene, PartEnvelopeTask& task) {
   const MeshCase options = scene.options();
   PartEnvelope made;
@@ -106,7 +106,7 @@ TEST(PlacedParts, MeshesAreValidAtEveryAttitude) {
 double least_height(const EnvelopeStage& stage) { return *std::min_element(stage.envelope.height.begin(), stage.envelope.height.end()); }
 
 TEST(PlacedParts, NearAWallOfTheTunnelLayersAreLowerAndValid) {
-  // Turned by 45 degrees, its lower edge 0.03 m above the floor; layers are 0.07 m.
+  // Turned by 45 degrees, its lower edge 0.03 m above the floor; the layer height is 0.07 m.
   const Transform near = translation({0, 0, -2.0 + std::sqrt(0.5) + 0.03}) * rotation({}, {1, 0, 0}, std::atan(1.0));
   const Scene far = body_at(k_pitch), scene = body_at(near);
   const RunContext context({.threads = 2});
@@ -121,7 +121,7 @@ TEST(PlacedParts, PartsNearEachOtherShareTheGap) {
   scene.add(body(), translation({-0.55, 0, 0}));
   scene.add(body(), translation({0.55, 0.1, 0.1}) * rotation({}, {0, 0, 1}, std::atan(1.0) * 4.0));  // 0.1 m apart
   MeshCase options = scene.options();
-  options.envelope.growth = "local";  // whose target heights share the gap so; uniform growth asks for a little less
+  options.envelope.growth = "local";  // its target heights share the gap as tested here; uniform growth requests slightly lower heights
   const EnvelopeStage stage = make_envelope(scene.surface, options, {}, RunContext({.threads = 2}));
   EXPECT_LT(least_height(stage), 0.06);
   EXPECT_GT(least_height(stage), 0.02);
@@ -139,7 +139,7 @@ TEST(PlacedParts, WallsAroundThemHaveLayersToo) {
   EXPECT_GT(result.layer.coverage, 0.9);
 }
 
-/// A rule for the floor of the room that each column of what is asked shows in; one for each.
+/// Returns a rule for the floor of the room that sets the given layer option, in which the option has a visible effect.
 PatchRule floor_rule(std::string_view column) {
   PatchRule rule{.names = "z0"};
   if (column == "layers") rule.layers = 7;
@@ -163,9 +163,9 @@ TEST(PlacedParts, WhatIsAskedOfWallsAroundThemIsAskedOfThemAsWithoutParts) {
     const EnvelopeStage parts = make_envelope(scene.surface, with_parts, {}, context), whole = make_envelope(scene.surface, without, {}, context);
     const EnvelopeStage plain = make_envelope(scene.surface, scene.options(), {}, context);
     ASSERT_EQ(parts.envelope.target.size(), whole.envelope.target.size());
-    bool has_effect = column == "layers";  // which changes the body, too: all are asked for what their own patches say
+    bool has_effect = column == "layers";  // layers also changes the body, since each wall follows the settings of its own patches
     for (const VertexId v : parts.envelope.target.ids()) {
-      if (v.index() >= parts.envelope.target.size() - scene.parts.front().own->n_vertices()) break;  // the body has its own frame
+      if (v.index() >= parts.envelope.target.size() - scene.parts.front().own->n_vertices()) break;  // the body has a separate frame
       ++n_floor;
       EXPECT_EQ(parts.envelope.target[v], whole.envelope.target[v]) << column << " at vertex " << v.value();
       EXPECT_EQ(parts.envelope.eq1[v], whole.envelope.eq1[v]) << column << " at vertex " << v.value();

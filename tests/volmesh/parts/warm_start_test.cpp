@@ -1,4 +1,4 @@
-// An envelope that starts from that of the same wall in another shape: valid, proved, as tall; refused where it loses layer.
+// An envelope that starts from that of the same wall in another shape: valid, proved, of equal height; refused if layer height is lost.
 #include "volmesh/parts/warm_start.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ EnvelopeOptions eight_layers() {
   EnvelopeOptions options;
   options.first_height = 5e-3;
   options.layers = 8;
-  options.max_thickness = 0.1;  // not a share of the box, which turns with the wall
+  options.max_thickness = 0.1;  // not a share of the bounding box, which turns with the wall
   return options;
 }
 
@@ -65,7 +65,7 @@ TEST(WarmStart, BentWallsHaveTheHeightsOfTheStartAndAreProved) {
       const Envelope &was = from.envelope, &now = *result.start.envelope;
       EXPECT_GT(now.height[v], 0.0);
       area_share += now.height[v] / now.target[v] - was.height[v] / was.target[v];
-      EXPECT_DOUBLE_EQ(now.target[v], result.from_scratch.target[v]);  // asked anew
+      EXPECT_DOUBLE_EQ(now.target[v], result.from_scratch.target[v]);  // target is recomputed
     }
     EXPECT_GT(area_share / static_cast<double>(wall.n_vertices()), -0.02);
   }
@@ -95,7 +95,7 @@ TEST(WarmStart, HeightsFollowWhatIsAskedForHere) {
 }
 
 TEST(WarmStart, IsRefusedWhereTheLayerWouldBeMuchLower) {
-  // Two cubes that come so near to each other that they must share the gap.
+  // Two cubes so close to each other that their layers must share the gap.
   const auto cubes = [](double gap) {
     TriMesh both = test::cube(6);
     append(both, mapped(test::cube(6), [gap](const Point& p) { return Point{p.x + 1.0 + gap, p.y, p.z}; }));

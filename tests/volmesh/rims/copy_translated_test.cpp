@@ -1,4 +1,4 @@
-// Periodic sides: the same triangles on both, or an error where their loops differ.
+// Periodic sides: identical triangles on both sides, or an error if their loops differ.
 #include "volmesh/rims/copy_translated.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ EndRegion left() {
   return region;
 }
 
-/// The other side, seen the other way: points in another order, edges turned, moved by `noise`.
+/// Returns the opposite side in reversed orientation: points in another order, edges reversed, moved by `noise`.
 EndRegion right(double noise) {
   const EndRegion region = left();
   EndRegion other{.surface = &k_right, .name = "right"};

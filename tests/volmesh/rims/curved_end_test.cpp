@@ -1,4 +1,4 @@
-// Curved end surfaces: in one projection, or the neighbourhood of the footprint only.
+// Curved adjacent patches: meshed in one projection, or only in the neighbourhood of the footprint.
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
@@ -13,11 +13,11 @@ using namespace test_ends;
 
 using test::k_context;
 
-/// Cylinder about x, radius 2, from x = 0 to 6: (u, v) = arc length about the axis, x. Normals look inwards.
+/// Cylinder about x, radius 2, from x = 0 to 6: (u, v) = arc length about the axis, x. Normals point inwards.
 Point on_tunnel(double u, double v) { return {v, -2.0 * std::sin(u / 2.0), -2.0 * std::cos(u / 2.0)}; }
 const ConstraintCylinder k_tunnel({0, 0, 0}, {1, 0, 0}, 2.0);
 
-/// Quads of the map cut in two; with `is_closed` the last column is joined to the first. Counter-clockwise in (u, v).
+/// Splits the quads of the map in two; with `is_closed` the last column is joined to the first. Counter-clockwise in (u, v).
 TriMesh grid(const Map& map, double u0, double u1, int n_u, double v0, double v1, int n_v, bool is_closed) {
   TriMesh mesh;
   const int columns = is_closed ? n_u : n_u + 1;
@@ -34,7 +34,7 @@ TriMesh grid(const Map& map, double u0, double u1, int n_u, double v0, double v1
   return mesh;
 }
 
-/// All border half-edges of the mesh become edges of the region.
+/// Adds all border half-edges of the mesh as edges of the region.
 void add_border(EndRegion& region, const TriMesh& mesh) {
   std::map<std::array<std::uint32_t, 2>, int> half;
   for (const TriangleVertices& t : mesh.triangles)
@@ -58,7 +58,7 @@ TEST(CurvedEnd, QuarterOfACylinderInItsProjection) {
   const EndFacts facts = expect_sound(region, result, 1e-12);
   EXPECT_EQ(result.n_kept, 0);
   EXPECT_GT(facts.least_angle, 24.0);
-  // Triangles are in chords: a little less than the cylinder's area.
+  // Triangles lie on chords: a little less than the area of the cylinder.
   EXPECT_NEAR(facts.area, 3.14 * 6.0 - 0.09 * k_pi, 0.02 * 18.8);
 }
 
@@ -76,7 +76,8 @@ TEST(CurvedEnd, WholeTunnelKeepsWhatIsAwayFromTheFootprint) {
 }
 
 TEST(CurvedEnd, CoarseTunnelWithLargeFootprintIsCutNearIt) {
-  // The footprint spans 70 degrees, its edges 12: with three of its lengths around it there is no projection, with less there is.
+  // The footprint spans 70 degrees, its edges 12. If re-meshing extends by three edge lengths around the footprint there is no projection; with a smaller
+  // extent there is one.
   const TriMesh original = grid(on_tunnel, 0, 4 * k_pi, 48, 0, 6, 22, true);
   EndRegion region{.surface = &k_tunnel, .original = &original, .name = "tunnel"};
   add_border(region, original);
@@ -100,20 +101,20 @@ TEST(CurvedEnd, TheOriginalAsTriangles) {
 }
 
 TEST(CurvedEnd, RimUnderTheLayerIsDropped) {
-  // The patch was cut along the body (a square hole); the layer's footprint lies around that.
+  // The patch was cut along the body (a square hole); the footprint of the layer surrounds that hole.
   TriMesh original = grid(on_tunnel, 0, 4 * k_pi, 96, 0, 6, 48, true);
   TriMesh cut = original;
   cut.triangles = Column<TriangleId, TriangleVertices>();
   for (const TriangleVertices& t : original.triangles) {
     const Point centre = (original.points[t[0]] + original.points[t[1]] + original.points[t[2]]) / 3.0;
-    if (centre.z < 0.0 && std::abs(centre.y) < 0.26 && std::abs(centre.x - 3.0) < 0.5) continue;  // its edges are no edges of the region
+    if (centre.z < 0.0 && std::abs(centre.y) < 0.26 && std::abs(centre.x - 3.0) < 0.5) continue;  // its edges are not edges of the region
     cut.triangles.push_back(t);
   }
   cut.triangle_patch.assign(cut.n_triangles(), PatchId(0u));
   EndRegion region{.surface = &k_tunnel, .original = &cut, .name = "tunnel"};
   EndRegion whole = region;
   add_border(region, original);
-  // A thick layer, so that whole rings of triangles are under it; fine and coarse.
+  // A thick layer that covers whole rings of triangles; fine and coarse.
   for (const int n : {300, 40}) {
     EndRegion with = region;
     add_loop(with, circle(on_tunnel, 0.0, 3.0, -1.5, n));
@@ -149,7 +150,7 @@ TEST(CurvedEnd, SphericalCapAndWholeSphere) {
     const ConstraintTriangles surface(*original, k_context);
     EndRegion region{.surface = &surface, .original = original, .name = "far"};
     add_border(region, *original);
-    // Seen from inside against the normal the sense turns: counter-clockwise about +z is a hole.
+    // Seen from inside, against the normal, the orientation is reversed: counter-clockwise about +z is a hole.
     std::vector<Point> footprint;
     for (int i = 0; i < 50; ++i) footprint.push_back(surface.closest({0.1 + 0.2 * std::cos(2 * k_pi * i / 50), 0.2 * std::sin(2 * k_pi * i / 50), 0.95}));
     add_loop(region, footprint);
@@ -177,7 +178,7 @@ TEST(CurvedEnd, BoxTunnelAsOnePatchKeepsItsSharpEdges) {
   EXPECT_EQ(result.n_kept, 3 * 8 * 24 * 2);
   EXPECT_GT(facts.least_angle, 20.0);
   EXPECT_NEAR(facts.area, 48.0 - 0.5 * 60 * 0.16 * std::sin(2 * k_pi / 60), 1e-9);
-  // A footprint over the edge of two walls.
+  // A footprint across the edge between two walls.
   std::vector<Point> over = circle(wall, 2.0, 3.0, -0.4, 60);
   add_loop(across, over);
   const ErrorInfo info = failure(across);
@@ -188,7 +189,7 @@ TEST(CurvedEnd, BoxTunnelAsOnePatchKeepsItsSharpEdges) {
 }
 
 TEST(CurvedEnd, FootprintAroundTheTunnelHasNoProjection) {
-  // A layer on the inlet's ring, say: a footprint all around the cylinder, in a patch that is too coarse to cut it open.
+  // For example a layer on the inlet's ring: a footprint all around the cylinder, in a patch that is too coarse to be cut open.
   const TriMesh original = grid(on_tunnel, 0, 4 * k_pi, 48, 0, 6, 4, true);
   EndRegion region{.surface = &k_tunnel, .original = &original, .name = "tunnel"};
   add_border(region, original);

@@ -1,4 +1,4 @@
-// End surfaces for tests: loops, regions, and what must hold of their triangles, counted without the code under test.
+// Adjacent patches for tests: loops, regions, and required properties of their triangles, counted without the code under test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using Map = std::function<Point(double, double)>;
 
 inline Point on_xz(double u, double v) { return {v, 0.0, u}; }  // u = z, v = x: counter-clockwise about +y
 
-/// The error of a region; a failure of the test where there is none.
+/// Returns the error of a region; the test fails if there is none.
 inline ErrorInfo failure(const EndRegion& region) {
   return test::error_info_of([&] { triangulate_end(region, {}, RunContext({.threads = 2})); });
 }
@@ -34,14 +34,14 @@ inline void add_loop(EndRegion& region, const std::vector<Point>& points) {
   for (std::uint32_t i = 0; i < n; ++i) region.edges.push_back({first + i, first + (i + 1) % n});
 }
 
-/// Circle; counter-clockwise for n > 0 points of positive radius, clockwise (a hole) for a negative one.
+/// Returns the points of a circle: counter-clockwise for a positive radius, clockwise (a hole) for a negative one; n > 0.
 inline std::vector<Point> circle(const Map& map, double u, double v, double radius, int n) {
   std::vector<Point> points;
   for (int i = 0; i < n; ++i) points.push_back(map(u + std::abs(radius) * std::cos(2 * k_pi * i / n), v + radius * std::sin(2 * k_pi * i / n)));
   return points;
 }
 
-/// Rectangle, counter-clockwise, sides cut into n_u and n_v.
+/// Returns the points of a rectangle, counter-clockwise, with sides divided into n_u and n_v.
 inline std::vector<Point> rectangle(const Map& map, double u0, double v0, double u1, double v1, int n_u, int n_v) {
   std::vector<Point> points;
   for (int i = 0; i < n_u; ++i) points.push_back(map(u0 + (u1 - u0) * i / n_u, v0));
@@ -59,7 +59,8 @@ struct EndFacts {
   double greatest_jump = 1.0;   ///< ratio of the longest edges of neighbouring triangles
 };
 
-/// Border edges are the region's, once each, in their sense; normals along the surface's; new points on it.
+/// Checks that border edges are those of the region, once each, in their orientation, that normals agree with those of the surface, and that new points lie on
+/// it.
 inline EndFacts expect_sound(const EndRegion& region, const EndTriangles& result, double tolerance) {
   EndFacts facts;
   std::vector<Point> points(region.points);

@@ -1,4 +1,4 @@
-// End surfaces in planes: sizes from 1e-3 to 100 m, slits, islands, tilted planes.
+// Plane adjacent patches: sizes from 1e-3 to 100 m, slits, islands, tilted planes.
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
@@ -14,13 +14,14 @@ using namespace test_ends;
 using test::k_context;
 const ConstraintPlane k_symmetry({0, 0, 0}, {0, 1, 0});
 
-/// Symmetrical aerofoil with a sharp trailing edge at (v = 1, u = 0), as a hole (clockwise in (u, v)), its leading edge finer; `n` points a side.
+/// Returns a symmetrical aerofoil with a sharp trailing edge at (v = 1, u = 0), as a hole (clockwise in (u, v)), finer at the leading edge; `n` points per
+/// side.
 std::vector<Point> aerofoil_hole(const Map& map, double thickness, int n) {
   const auto half = [&](double x) {
     return 5.0 * thickness * (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
   };
   const auto at = [&](int i) { return 0.5 * (1.0 - std::cos(k_pi * i / n)); };
-  // u is z, v is x: clockwise in (u, v) is leading edge, upper side (u > 0) first ... seen from +y with z to the right and x up.
+  // u is z, v is x. Clockwise in (u, v) means leading edge, then upper side (u > 0) ..., seen from +y with z to the right and x up.
   std::vector<Point> points;
   for (int i = 0; i < n; ++i) points.push_back(map(i == 0 ? 0.0 : -half(at(i)), at(i)));
   for (int i = n; i > 0; --i) points.push_back(map(i == n ? 0.0 : half(at(i)), at(i)));
@@ -93,7 +94,7 @@ TEST(PlaneEnd, IslandsInHolesAndManyHoles) {
   add_loop(region, circle(on_xz, 0, 0, -0.45, 60));
   add_loop(region, circle(on_xz, 0, 0, 0.3, 40));
   add_loop(region, circle(on_xz, 0.05, 0, -0.1, 12));
-  // A second region beside the first.
+  // A second region outside the first.
   add_loop(region, circle(on_xz, 10, 0, 1.0, 20));
   const EndFacts facts = expect_sound(region, triangulate_end(region, {}, k_context), 0.0);
   EXPECT_GT(facts.least_angle, 20.0);
@@ -117,7 +118,7 @@ TEST(PlaneEnd, LoopsThatTouchInASharedPoint) {
 TEST(PlaneEnd, NarrowGapsAndLongEdges) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, rectangle(on_xz, -5, -5, 5, 5, 10, 10));
-  // Edges of 0.2 with a gap of 1e-3 between two bodies, and one of 0.01 to a third.
+  // Edges of 0.2 with a gap of 1e-3 between two bodies, and a gap of 0.01 to a third body.
   std::vector<Point> left = rectangle(on_xz, -1, 0, -0.0005, 1, 5, 5), right = rectangle(on_xz, 0.0005, 0, 1, 1, 5, 5),
                      low = rectangle(on_xz, -1, -1, 1, -0.01, 10, 5);
   for (std::vector<Point>* loop : {&left, &right, &low}) {
@@ -139,7 +140,7 @@ TEST(PlaneEnd, SizesOfTheCallerHold) {
   expect_sound(region, fine, 0.0);
   std::size_t n_in = 0;
   for (const Point& p : fine.new_points) n_in += p.x > 0.3 ? 1 : 0;
-  // 1.4 m^2 of triangles with sides of 0.05: a point for each 0.00217 m^2; near the coarse border fewer.
+  // 1.4 m^2 of triangles with sides of 0.05: one point per 0.00217 m^2, fewer near the coarse border.
   EXPECT_GT(n_in, 350u);
   region.size = [](const Point&) { return -1.0; };
   test::expect_error(ErrorCode::bad_argument, "the wanted edge length is -1.000000 m; it has to be positive",

@@ -110,7 +110,7 @@ TriMesh read_welded(const std::filesystem::path& path) {
 void expect_tiling(const Domain& domain, const volmesh::TetraResult& result) {
   std::vector<Vec3> points = domain.points;
   points.insert(points.end(), result.new_points.begin(), result.new_points.end());
-  // Oriented faces, turned so that the lowest node comes first; each must meet its reverse once.
+  // Oriented faces, rotated so that the lowest node comes first; each must occur with its reverse exactly once.
   std::map<std::array<std::uint32_t, 3>, int> count;
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     while (a > b || a > c) std::tie(a, b, c) = std::tuple(b, c, a);
@@ -133,7 +133,7 @@ void expect_tiling(const Domain& domain, const volmesh::TetraResult& result) {
     n_bad += n != 1 || reverse == count.end() || reverse->second != 1;
   }
   EXPECT_EQ(n_bad, 0u);
-  // Sum of rounding errors of the tets; far from cancelling, since all volumes are positive.
+  // The tolerance covers the sum of the rounding errors of the tets; there is no cancellation, since all volumes are positive.
   EXPECT_NEAR(volume.value() / domain.volume(), 1.0, 1e-11);
 }
 

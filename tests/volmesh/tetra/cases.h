@@ -1,4 +1,4 @@
-// Boundaries for the tests of the tetrahedra, and an independent check of what fills them.
+// Boundaries for the tests of the tetrahedra, and an independent check of their fillings.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace sterna::test {
 
-/// Owns what a TetraBoundary refers to.
+/// Owns the data to which a TetraBoundary refers.
 struct Domain {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -24,23 +24,23 @@ struct Domain {
   double volume() const;
 };
 
-/// The wall (inner boundary as it is) in its farfield sphere, cavities found automatically.
+/// Returns the domain between the unchanged wall and its farfield sphere; cavities are found automatically.
 Domain domain_around(const TriMesh& wall, double farfield_radius = k_automatic);
 
-/// Both meshes as one, patches joined.
+/// Returns both meshes as one, with joined patches.
 TriMesh both(TriMesh a, const TriMesh& b);
 TriMesh transformed(TriMesh mesh, double scale, const Vec3& shift);
 TriMesh inside_out(TriMesh mesh);
 /// Box [lo, hi] with 12 triangles, normals outward.
 TriMesh box(const Vec3& lo, const Vec3& hi);
 
-/// OFF or ASCII STL, vertices with equal coordinates welded, triangles with equal corners dropped; so that these tests need no reader of io.
+/// Reads OFF or ASCII STL, welds vertices with equal coordinates, and drops triangles with equal corners, so that these tests need no reader of io.
 TriMesh read_welded(const std::filesystem::path& path);
 
-/// Fails the test unless the result tiles the domain: faces counted by a map, volumes summed; nothing of verify.cpp is used.
+/// Fails the test unless the result tiles the domain. Counts faces in a map and sums volumes, without using verify.cpp.
 void expect_tiling(const Domain& domain, const volmesh::TetraResult& result);
 
-/// No child of this process is left, running or dead.
+/// Returns true if this process has no child left, running or dead.
 bool has_no_children();
 
 }  // namespace sterna::test

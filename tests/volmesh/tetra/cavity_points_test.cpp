@@ -17,7 +17,7 @@ using test::transformed;
 
 std::vector<Point> find(const TriMesh& wall) { return find_cavity_points(wall, RunContext{}); }
 
-/// Winding number by solid angles (van Oosterom and Strackee 1983), independent of the rays of the code.
+/// Winding number by solid angles (van Oosterom and Strackee 1983), independent of the rays used in the code.
 double winding(const TriMesh& mesh, const Point& p) {
   double sum = 0.0;
   for (const TriangleId t : mesh.triangles.ids()) {
@@ -41,7 +41,7 @@ TEST(FindCavityPoints, InsideOfSimpleBodies) {
 TEST(FindCavityPoints, WithRoomAroundThem) {
   const auto points = find(box({0, 0, 0}, {3, 2, 0.1}));
   ASSERT_EQ(points.size(), 1u);
-  EXPECT_NEAR(points[0].z, 0.05, 1e-12);  // as far from top and bottom as can be, and not nearer to the sides
+  EXPECT_NEAR(points[0].z, 0.05, 1e-12);  // halfway between top and bottom, and not nearer to the sides
   EXPECT_NEAR(points[0].x, 1.5, 1.45);
   EXPECT_NEAR(points[0].y, 1.0, 0.95);
 }
@@ -68,11 +68,11 @@ TEST(FindCavityPoints, InRazorThinBodies) {
   for (const double thickness : {1e-3, 1e-6, 1e-9}) {
     for (const double shift : {0.0, 1e3}) {
       TriMesh wall = test::cube(7);
-      // Bent and oblique, so that no coordinate is simple.
+      // Bent and oblique, so that no coordinate has a simple value.
       for (Point& p : wall.points) p = {p.x - 0.3 * p.y + shift, p.y + 0.2 * p.x, shift + 0.3 * p.x * p.x + 0.1 * p.y + thickness * p.z};
       const auto points = find(wall);
       ASSERT_EQ(points.size(), 1u);
-      // Between top and bottom there: interpolation of the bent surface is off by its sagitta, so go by the triangles' own heights.
+      // The point lies between top and bottom; interpolation of the bent surface is off by its sagitta, so use the heights of the triangles themselves.
       EXPECT_NEAR(winding(wall, points[0]), 1.0, 1e-3);
     }
   }
@@ -83,7 +83,7 @@ TEST(FindCavityPoints, OncePerSolidRegion) {
   ASSERT_EQ(find(hollow).size(), 1u);
   EXPECT_NEAR(winding(hollow, find(hollow)[0]), 1.0, 1e-9);
   EXPECT_GT(norm(find(hollow)[0]), 0.55);
-  // A body in the hole of the body, and two holes.
+  // A body in the cavity of another body, and two cavities.
   const TriMesh russian = both(hollow, transformed(test::cube(2), 0.3, {-0.1, -0.1, -0.1}));
   const auto points = find(russian);
   ASSERT_EQ(points.size(), 2u);

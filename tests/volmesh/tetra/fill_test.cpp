@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 TetraResult fill(const Domain& domain, const TetraOptions& options = {}) { return fill(domain.boundary(), nullptr, options, RunContext{}); }
 
-/// What each engine must do.
+/// Requirements for each engine.
 class FillWith : public testing::TestWithParam<std::string> {
  protected:
   TetraOptions options() const { return {.engine = GetParam()}; }
@@ -54,7 +54,7 @@ TEST_P(FillWith, FillsTheHoleInsideAHollowBody) {
 }
 
 TEST_P(FillWith, FillsAroundRazorThinBodies) {
-  // TetGen merges points closer than 1e-8 of the box, and dies of it, unless told not to.
+  // TetGen merges points closer than 1e-8 of the box, and crashes then, unless merging is disabled.
   for (const double thickness : {1e-3, 1e-6, 1e-9, 1e-12}) {
     SCOPED_TRACE(thickness);
     TriMesh wall = test::cube(3);
@@ -131,7 +131,7 @@ TEST(Fill, RefusesAnUnknownEngine) {
 }
 
 TEST(Fill, TwoRegionsOneInsideTheOther) {
-  // A hollow body with a body in its hole: the domain has two parts, and a body of each must find its own.
+  // A hollow body with another body in its cavity: the domain has two parts, and each part must use the hole point of its own body.
   const TriMesh wall = both(both(test::sphere(5), inside_out(transformed(test::sphere(4), 0.5, {}))), transformed(test::cube(2), 0.1, {}));
   const Domain domain = domain_around(both(wall, transformed(test::cube(1), 0.3, {4, 0, 0})), 40.0);
   for (const char* engine : {"tetgen", "hxt"}) expect_tiling(domain, fill(domain, {.engine = engine}));
@@ -223,7 +223,7 @@ TEST(Fill, TellsWhereTheBoundaryCrossesItself) {
     EXPECT_GT(error.n_places, 10);
     EXPECT_FALSE(error.geometry.triangles.empty());
     EXPECT_LT(norm(error.places[0].position), 1.2);
-    // An engine that gets it all the same dies of some of these, and answers others with triangles missing; no harm is done.
+    // An engine that receives such input without a check crashes in some of these cases and returns incomplete triangles in others; neither does harm.
     TetraBoundary boundary = domain.boundary();
     boundary.is_clear = true;
     const ErrorCode code = error_info_of([&] { volmesh::fill(boundary, nullptr, {}, RunContext{}); }).code;
@@ -239,7 +239,7 @@ TEST(Fill, RejectsTouchingBodies) {
 }
 
 TEST(FillWithTetgen, RejectsWrongHolePoints) {
-  const TetraOptions alone = {.engine = "tetgen", .try_other_engine = false};  // HXT has no use for hole points
+  const TetraOptions alone = {.engine = "tetgen", .try_other_engine = false};  // HXT does not use hole points
   Domain domain = domain_around(test::cube(2));
   domain.holes.clear();
   EXPECT_EQ(error_info_of([&] { fill(domain, alone); }).code, ErrorCode::tetra_result_invalid);

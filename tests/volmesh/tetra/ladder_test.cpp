@@ -1,4 +1,4 @@
-// What follows when an engine fails: which failures another engine may answer for, and what is said about it.
+// Steps after the failure of an engine: failures that another engine may resolve, and the messages about them.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -27,7 +27,7 @@ constexpr const char* k_crash = "kill -SEGV $$";
 
 class Ladder : public testing::Test {
  protected:
-  /// A folder where TetGen's helper is a shell script, and HXT's is the real one or a script too.
+  /// Returns a folder where TetGen's helper is a shell script, and HXT's is the real one or also a script.
   std::string folder(const std::string& name, const std::string& tetgen, const std::string& hxt = {}) {
     const std::filesystem::path folder = test::scratch() / name;
     std::filesystem::remove_all(folder);
@@ -117,7 +117,7 @@ TEST_F(Ladder, AFailureWithoutAPlaceNamesWhatIsHardForEngines) {
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   ASSERT_FALSE(error.places.empty());
   EXPECT_THAT(error.places.front().what, HasSubstr("hard for engines"));
-  EXPECT_FALSE(error.geometry.triangles.empty());  // drawn in the VTU
+  EXPECT_FALSE(error.geometry.triangles.empty());  // drawn in the VTU file
 }
 
 TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
@@ -128,17 +128,17 @@ TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
   EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("trying"))));
 }
 
-/// A helper's answer that its processor time was over.
+/// A helper's reply that its CPU time limit was reached.
 constexpr const char* k_out_of_time = "printf 'STETREP3\\005\\0\\0\\0' >&4; head -c 44 /dev/zero >&4; exit 1";
 
 TEST_F(Ladder, AnEngineWithoutEndIsStoppedAndTheLadderEnds) {
-  // The other engine may still know the answer; which one gave it was decided by a clock.
+  // Another engine may succeed; the choice of the engine then depended on a clock.
   const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("no_end", k_out_of_time)});
   expect_tiling(domain_, result);
   EXPECT_EQ(result.engine, "hxt");
   EXPECT_FALSE(result.is_reproducible);
   EXPECT_THAT(result.failures, ElementsAre(HasSubstr("processor time")));
-  // None does: no splits are tried, the error says what became of each, where it is hard, and what to do.
+  // No engine succeeds: no splits are tried, and the error gives the result of each engine, the difficult locations, and a remedy.
   TriMesh plate = test::cube(1);
   for (Point& p : plate.points) p.z *= 1e-4;
   const Domain domain = domain_around(plate, 10.0);
@@ -153,7 +153,7 @@ TEST_F(Ladder, AnEngineWithoutEndIsStoppedAndTheLadderEnds) {
 }
 
 TEST_F(Ladder, EngineHelpersCountProcessorTime) {
-  // The real engines under a limit of a second, which they take over from whoever starts them, with work for several.
+  // The real engines under a CPU limit of one second, inherited from the parent process, with work for several seconds.
   const std::string limited = "ulimit -S -t 1; exec ";
   const Domain domain = domain_around(test::sphere(70));
   const std::string helpers = folder("limited", limited + find_helper("sterna-tet-tetgen", {}), limited + find_helper("sterna-tet-hxt", {}));
@@ -166,7 +166,7 @@ TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {
   EXPECT_THAT(error_info_of([&] { fill(domain_, {.engine = "tetgen", .time_limit = 0.2, .helper_folder = folder("endless", "sleep 100")}); }).problem,
               HasSubstr("time limit"));
   EXPECT_THAT(log_, testing::SizeIs(1));
-  // Killed from outside: as the system does it for lack of memory.
+  // Killed from outside, as the system does when memory is short.
   TetraOptions options = {.engine = "tetgen", .helper_folder = folder("killed", "kill -KILL $$")};
   EXPECT_THAT(error_info_of([&] { fill(domain_, options); }).problem, HasSubstr("signal 9"));
   options.fall_back_on_limits = true;
@@ -183,7 +183,7 @@ TEST_F(Ladder, AnEngineThatIsNotBuiltInIsNamed) {
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_missing);
   EXPECT_THAT(error.attempted, HasSubstr("sterna-tet-tetgen"));
   EXPECT_THAT(error.problem, HasSubstr("not built in"));
-  const TetraResult result = fill(domain_, {.helper_folder = only_hxt});  // automatic: whatever there is
+  const TetraResult result = fill(domain_, {.helper_folder = only_hxt});  // automatic: any available engine
   EXPECT_EQ(result.engine, "hxt");
   EXPECT_TRUE(result.is_reproducible);
 }

@@ -1,4 +1,4 @@
-// engine = "sterna": recovery and refinement of our own, and what follows when one fails.
+// engine = "sterna": our own recovery and refinement, and the steps after a failure of either.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -34,7 +34,7 @@ class OwnEngine : public testing::Test {
     const SizeField sizes = build_size_field(domain.boundary(), sources, {}, context);
     return volmesh::fill(domain.boundary(), &sizes, options, context);
   }
-  /// A folder of helpers of which some are scripts that crash; the others are the real ones.
+  /// Returns a folder of helpers in which the given ones are scripts that crash and the others are the real ones.
   static std::string folder_where_crashes(const std::vector<std::string>& which) {
     const std::filesystem::path folder = test::scratch();
     for (const std::string name : {"sterna-tet-hxt", "sterna-tet-tetgen"}) {
@@ -72,7 +72,7 @@ TEST_F(OwnEngine, FollowsSources) {
   const TetraResult result = fill(domain, {}, sources);
   expect_tiling(domain, result);
   const auto n_near = std::ranges::count_if(result.new_points, [](const Vec3& p) { return distance(p, {4, 0, 0}) < 1.0; });
-  // A volume of 4/3 pi with a point for each 0.8 to 1.2 of the cube of 0.15.
+  // A volume of 4/3 pi with one point per 0.8 to 1.2 times the volume of a cube of side 0.15.
   EXPECT_GT(n_near, 1000);
   EXPECT_LT(n_near, 2000);
 }
@@ -99,7 +99,7 @@ TEST_F(OwnEngine, NeedsNoHelper) {
 }
 
 TEST_F(OwnEngine, NoRecoveryIsAnErrorOfAllWhoTried) {
-  // Said to be clear, but two balls cross: nobody can recover that.
+  // Declared free of crossings, but two balls cross: no engine can recover such a boundary.
   Domain crossing;
   crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));
   crossing.add(inside_out(transformed(test::cube(2), 10.0, {-5, -5, -5})));
@@ -147,7 +147,7 @@ TEST_F(OwnEngine, IsAutomaticWhereFewTrianglesAreNeedles) {
   };
   EXPECT_EQ(chosen(test::sphere(5)), "sterna");
   TriMesh plate = test::cube(4);
-  for (Point& p : plate.points) p.z *= 0.02;  // four of six sides are needles
+  for (Point& p : plate.points) p.z *= 0.02;  // four of six sides consist of needles
   EXPECT_EQ(chosen(plate), "hxt");
   EXPECT_EQ(chosen(plate, folder_where_crashes({"sterna-tet-hxt"})), "tetgen");
   EXPECT_EQ(chosen(plate, folder_where_crashes({"sterna-tet-hxt", "sterna-tet-tetgen"})), "sterna");

@@ -31,7 +31,7 @@ PreflightReport report_of(const Domain& domain, const PreflightLimits& limits = 
   for (std::size_t i = 0; i < one.findings.size(); ++i) EXPECT_EQ(one.findings[i].triangles, many.findings[i].triangles);
   return one;
 }
-/// Only this kind of trouble, this often.
+/// Expects only this kind of defect, with this count.
 void expect_only(const PreflightReport& report, Trouble trouble, std::int64_t n) {
   for (const Trouble kind : {Trouble::crossing, Trouble::duplicate, Trouble::folded, Trouble::sliver, Trouble::gap})
     EXPECT_EQ(report.count(kind), kind == trouble ? n : 0) << to_string(kind);
@@ -71,7 +71,7 @@ TEST(Preflight, TouchingIsCrossing) {
 }
 
 TEST(Preflight, GapsAreMeasured) {
-  // Two boxes one above the other: the triangles of the facing squares see each other over the gap, which is `gap` over their mean edge.
+  // Two boxes one above the other: the triangles of the facing squares are opposite each other across the gap, which is `gap` over their mean edge.
   const double mean_edge = (2.0 + std::sqrt(2.0)) / 3.0;
   for (const double scale : {1e-6, 1.0, 1e6}) {
     for (const double gap : {0.02, 0.005, 1e-6}) {
@@ -88,7 +88,7 @@ TEST(Preflight, GapsAreMeasured) {
 }
 
 TEST(Preflight, GapsBetweenEdgesAndPoints) {
-  // A box whose corner, and one whose edge, comes near the face of another.
+  // A corner of one box, and an edge of another, close to the face of a box.
   const TriMesh base = box({-1, -1, -1}, {1, 1, 0});
   for (const auto& [tilt, name] : {std::pair{1, "edge"}, std::pair{2, "corner"}}) {
     SCOPED_TRACE(name);

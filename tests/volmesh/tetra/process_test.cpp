@@ -1,4 +1,4 @@
-// The helper's death, in all its forms, is an error; the parent is unharmed and no zombie stays.
+// Any kind of crash of the helper becomes an error; the parent is unharmed and no zombie remains.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -23,7 +23,7 @@ using test::error_info_of;
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-constexpr double k_prompt_seconds = 5.0;  ///< an event must have become an error within this time
+constexpr double k_prompt_seconds = 5.0;  ///< an event must become an error within this time
 
 /// A case that keeps TetGen busy for seconds.
 const Domain& slow_case() {
@@ -40,7 +40,7 @@ class HelperProcess : public testing::Test {
     EXPECT_TRUE(test::has_no_children());
     return error;
   }
-  /// A folder where the helper of TetGen is a file with this text.
+  /// Returns a folder where TetGen's helper is a file with this content.
   std::string folder_with(const std::string& name, const std::string& text) {
     const std::filesystem::path folder = test::scratch() / name;
     std::filesystem::create_directories(folder);
@@ -49,7 +49,7 @@ class HelperProcess : public testing::Test {
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return folder.string();
   }
-  /// The same with a shell script.
+  /// Returns the same with a shell script.
   std::string script(const std::string& name, const std::string& text) { return folder_with(name, "#!/bin/sh\n" + text + "\n"); }
   double seconds_ = 0.0;
 };
@@ -94,7 +94,7 @@ TEST_F(HelperProcess, GarbageIsNoAnswer) {
 }
 
 TEST_F(HelperProcess, ACutAnswerIsInvalid) {
-  // The header of a good reply (56 bytes: magic, ok, no points, one tetrahedron) without what it announces.
+  // The header of a valid reply (56 bytes: magic, ok, no points, one tetrahedron) without the announced data.
   const ErrorInfo error =
       run(domain_around(test::cube(1)),
           {.engine = "tetgen",
@@ -113,7 +113,7 @@ TEST_F(HelperProcess, ACrashIsNamed) {
   EXPECT_THAT(error.hint, HasSubstr("does not cross itself"));
 }
 
-/// What holds for the helper of each engine.
+/// Requirements for the helper of each engine.
 class EngineProcess : public HelperProcess, public testing::WithParamInterface<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Engine, EngineProcess, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
 
@@ -143,7 +143,7 @@ TEST_P(EngineProcess, TimeLimit) {
 }
 
 TEST_P(EngineProcess, MemoryLimit) {
-  // libgmsh alone takes 120 MB of addresses.
+  // libgmsh alone takes 120 MB of address space.
   const double limit = GetParam() == "hxt" ? 1.6e8 : 3e7;
   const ErrorInfo error = run(slow_case(), {.engine = GetParam(), .memory_limit = limit});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
@@ -153,7 +153,7 @@ TEST_P(EngineProcess, MemoryLimit) {
 }
 
 TEST_F(HelperProcess, HardlyAnyMemory) {
-  // Not even the request fits.
+  // The memory limit is too small even for the request.
   EXPECT_EQ(run(slow_case(), {.engine = "tetgen", .memory_limit = 1e6}).code, ErrorCode::tetra_engine_failed);
 }
 

@@ -15,7 +15,7 @@ using test::Domain;
 using test::domain_around;
 using testing::HasSubstr;
 
-/// A flat sheet of n x n squares with the given corner and sides, both sides of it; nodes of its border are shared.
+/// Adds both sides of a flat baffle of n x n squares with the given corner and side vectors; the nodes of its border are shared.
 void add_sheet(Domain& domain, const Vec3& corner, const Vec3& u, const Vec3& v, unsigned n) {
   std::vector<std::array<std::uint32_t, 2>> nodes;
   for (unsigned i = 0; i <= n; ++i)
@@ -31,12 +31,12 @@ void add_sheet(Domain& domain, const Vec3& corner, const Vec3& u, const Vec3& v,
   for (unsigned i = 0; i < n; ++i)
     for (unsigned j = 0; j < n; ++j) {
       const unsigned a = i * (n + 1) + j, b = a + n + 1, c = b + 1, d = a + 1;
-      // The diagonal through an inner node, so that no triangle has all corners on the rim.
+      // The diagonal goes through an inner node, so that no triangle has all corners on the rim.
       const bool is_other = (i == 0 && j == 0) || (i + 1 == n && j + 1 == n) ? false : (i == 0 && j + 1 == n) || (i + 1 == n && j == 0);
       if (is_other) squares.insert(squares.end(), {{a, b, d}, {b, c, d}});
       else squares.insert(squares.end(), {{a, b, c}, {a, c, d}});
     }
-  // Corner squares: the diagonal that starts at the outer corner goes to an inner node.
+  // Corner squares: the diagonal from the outer corner goes to an inner node.
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
     for (const auto& t : squares) {
       if (side == 0) domain.triangles.push_back({nodes[t[0]][0], nodes[t[1]][0], nodes[t[2]][0]});

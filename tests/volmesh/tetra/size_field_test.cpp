@@ -11,7 +11,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// A unit sphere within a farfield of radius 30; points only, as the size field sees them.
+/// A unit sphere within a farfield of radius 30; only points, as in the input of the size field.
 struct Shells {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -30,7 +30,7 @@ Shells sphere_in_sphere(int f = 20) {
   return shells;
 }
 
-/// Geometric mean of the edges at each vertex, straight from its definition.
+/// Returns the geometric mean of the edges at each vertex, directly from its definition.
 std::vector<double> vertex_sizes(const Shells& shells) {
   std::vector<double> logs(shells.points.size(), 0.0), counts(shells.points.size(), 0.0);
   for (const auto& t : shells.triangles)
@@ -46,7 +46,7 @@ std::vector<Vec3> random_points(std::size_t n, double radius) {
   std::mt19937_64 random(7);
   std::vector<Vec3> points(n);
   const auto unit = [&] { return 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0; };
-  // As many points in each shell of a doubled radius, so that all sizes are visited.
+  // Equal numbers of points in each shell of doubled radius, so that all sizes occur.
   for (Vec3& p : points) p = radius * std::exp2(-5.0 * std::abs(unit())) * normalized(Vec3{unit(), unit(), unit()});
   return points;
 }
@@ -66,7 +66,7 @@ TEST(SizeField, is_the_boundary_size_grown_with_the_distance) {
     sum += error;
     ++n;
   }
-  // A leaf is at most twice its size long: between its corners the field bends by at most slope * sqrt(3)/2 * 2 = 0.52 sizes, along a smooth wall by far less.
+  // A leaf is at most twice its size long. Between its corners the field bends by at most slope * sqrt(3)/2 * 2 = 0.52 sizes, along a smooth wall by far less.
   EXPECT_LT(worst, 0.3);
   EXPECT_LT(sum / n, 0.03);
 }
@@ -76,7 +76,7 @@ TEST(SizeField, growth_limits_the_gradient) {
   const SizeField field = build_size_field(shells.boundary(), {}, {.size_growth = 1.2}, RunContext());
   const std::vector<Vec3> points = random_points(4000, 29.0);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    // Exact at corners, interpolated between: the error of the test above on both ends.
+    // Exact at corners, interpolated between them: both ends have the error of the test above.
     const double step = distance(points[i], points[i + 1]);
     EXPECT_LE(field(points[i + 1]), 1.12 * (field(points[i]) + 0.2 * step));
   }
@@ -102,7 +102,7 @@ TEST(SizeField, sources_are_met_inside_and_grow_outside) {
   expect_size({0.9, 0.0, 11.9}, 0.1);
   expect_size({3.0, 0.0, 11.0}, 0.7);
   expect_size({0.0, 0.0, -13.0}, 0.31);
-  // The tip of the cone, within a leaf of at most twice its size: never missed, never below the source.
+  // The tip of the cone lies within a leaf of at most twice its size: it is never missed, and the field is never below the source.
   EXPECT_LT(field({0.0, 12.0, 0.0}), 4e-4);
   EXPECT_GE(field({0.0, 12.0, 0.0}), 1e-4);
   expect_size({0.0, 12.1, 0.0}, 0.0301);
@@ -115,7 +115,7 @@ TEST(SizeField, a_wake_follows_its_edge_and_grows_downstream) {
   const SizeField field = build_size_field(shells.boundary(), std::span(&wake, 1), {}, RunContext());
   EXPECT_NEAR(field({4.5, 0.1, 0.0}), 0.11, 0.02);
   EXPECT_NEAR(field({14.0, 0.5, 0.0}), 0.295, 0.02);
-  EXPECT_NEAR(field({14.0, 0.5, 1.0}), 0.295, 0.03);  // half the height is 0.2 + 0.1 * 9.75 there
+  EXPECT_NEAR(field({14.0, 0.5, 1.0}), 0.295, 0.03);  // half the height of the source is 0.2 + 0.1 * 9.75 there
   EXPECT_NEAR(field({6.0, 3.9, 0.0}), 0.1, 0.02);
   EXPECT_GT(field({4.5, 3.9, 0.0}), 0.3);  // upstream of the swept edge
 }

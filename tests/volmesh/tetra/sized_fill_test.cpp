@@ -27,7 +27,7 @@ class SizedFill : public testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Engine, SizedFill, testing::Values("tetgen", "hxt", "sterna"), [](const auto& test) { return test.param; });
 
-/// Edge lengths over the wanted ones at their midpoints: geometric mean over the edges whose midpoints lie in a ball.
+/// Ratio of edge lengths to the target sizes at their midpoints: geometric mean over the edges whose midpoints lie in a ball.
 double mean_edge_ratio(const Domain& domain, const TetraResult& result, const SizeField& sizes, const Vec3& center, double radius) {
   const auto point = [&](std::uint32_t v) { return v < domain.points.size() ? domain.points[v] : result.new_points[v - domain.points.size()]; };
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -52,7 +52,7 @@ TEST_P(SizedFill, MakesEdgesOfTheWantedLength) {
   const SizeField sizes = field({{.kind = SourceKind::sphere, .from = {4, 0, 0}, .radius = 1.0, .size = 0.15}});
   const TetraResult result = fill(sizes);
   expect_tiling(domain, result);
-  // 5 %: the size varies over the ball by the octree's interpolation alone. Away from it sizes double within a few edges, which favours the longer ones.
+  // 5 %: over the ball the size varies only by the octree's interpolation. Elsewhere sizes double within a few edges, which favours the longer edges.
   EXPECT_NEAR(mean_edge_ratio(domain, result, sizes, {4, 0, 0}, 0.9), 1.0, 0.05);
   EXPECT_NEAR(mean_edge_ratio(domain, result, sizes, {0, 4, 0}, 2.5), 1.1, 0.2);
 }
@@ -67,7 +67,7 @@ TEST_P(SizedFill, IsDeterministic) {
 }
 
 TEST_P(SizedFill, MeasuresInMetresWhateverTheUnit) {
-  // The same domain in units of 2^-20: the same mesh, since coordinates reach the engine scaled by a power of two.
+  // The same domain in units of 2^-20 gives the same mesh, since coordinates are passed to the engine scaled by a power of two.
   const TetraResult large = fill(field({}));
   for (Vec3& p : domain.points) p *= 0x1p-20;
   for (Vec3& p : domain.holes) p *= 0x1p-20;

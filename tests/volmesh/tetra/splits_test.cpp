@@ -1,4 +1,4 @@
-// Splits of boundary triangles: what is read from an engine's answer, and how fill() hands it over.
+// Splits of boundary triangles: their extraction from an engine's reply, and their transfer by fill().
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -19,12 +19,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A tetrahedron's surface whose edge 0-1 is split at a quarter, and whose triangle 1 2 3 has a point inside.
+/// The surface of a tetrahedron whose edge 0-1 is split at a quarter, and whose triangle 1 2 3 has a point inside.
 struct Example {
   std::vector<Vec3> old_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<Triangle> old_triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
   std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.25, 0, 0}, {0.5, 0.25, 0.25}};
-  /// Parents in no order, senses mixed.
+  /// Parents in arbitrary order, with mixed orientations.
   std::vector<Triangle> triangles = {{5, 1, 3}, {0, 2, 4}, {4, 1, 2}, {0, 2, 3}, {5, 3, 2}, {0, 3, 4}, {4, 1, 3}, {2, 5, 1}};
   std::vector<std::uint32_t> parents = {3, 0, 0, 2, 3, 1, 1, 3};
   BoundarySplits find() const { return find_splits({.points = old_points, .triangles = old_triangles, .hole_points = {}}, points, triangles, parents); }
@@ -38,7 +38,7 @@ TEST(BoundarySplits, OriginsSensesAndOrder) {
   EXPECT_THAT(splits.origins[0].weights, ElementsAre(0.75, 0.25, 0.0));
   EXPECT_EQ(splits.origins[1].triangle, 3u);
   EXPECT_THAT(splits.origins[1].weights, ElementsAre(testing::DoubleEq(0.5), testing::DoubleEq(0.25), testing::DoubleEq(0.25)));
-  // Senses: the parts' normals are those of their parents.
+  // Orientation: the normals of the parts equal those of their parents.
   const Example e;
   for (std::size_t i = 0; i < splits.triangles.size(); ++i) {
     const auto normal = [](const std::vector<Vec3>& p, const Triangle& t) { return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]); };
@@ -66,7 +66,7 @@ TEST(BoundarySplits, RejectWhatIsNoSubdivision) {
   EXPECT_THAT(problem([](Example& e) { e.points.push_back({0, 0, 0}); }), HasSubstr("has no triangle"));
 }
 
-/// A folder where TetGen's helper crashes unless it may split, and HXT's always does.
+/// Returns a folder where TetGen's helper crashes unless splits are allowed, and HXT's always crashes.
 std::string folder_that_needs_splits() {
   const std::filesystem::path folder = test::scratch() / "helpers";
   std::filesystem::create_directories(folder);
@@ -79,7 +79,7 @@ std::string folder_that_needs_splits() {
   return folder.string();
 }
 
-/// The domain with its splits made, for expect_tiling().
+/// Returns the domain with its splits made, for expect_tiling().
 Domain as_split(const Domain& domain, const BoundarySplits& splits) {
   Domain split = domain;
   split.points.insert(split.points.end(), splits.points.begin(), splits.points.end());
@@ -89,7 +89,8 @@ Domain as_split(const Domain& domain, const BoundarySplits& splits) {
 
 class FillWithSplits : public testing::Test {
  protected:
-  /// Climbs until `taker`, which throws what it cannot follow, takes a result with splits; without one nothing may be split.
+  /// Tries the engines in turn until `taker` accepts a result with splits; `taker` throws for splits that it cannot handle. Without a `taker` no splits are
+  /// allowed.
   TetraResult fill(const TetraOptions& options, const std::function<void(TetraResult&)>& taker) {
     TetraBoundary boundary = domain_.boundary();
     boundary.may_split = taker != nullptr;
@@ -128,7 +129,7 @@ TEST_F(FillWithSplits, AreTheLastStepOfTheLadder) {
   EXPECT_EQ(result.failures.size(), 2u);
   EXPECT_TRUE(result.is_reproducible);
   expect_tiling(as_split(domain_, result.splits), result);
-  // Forbidden, or nothing there that could take them.
+  // Splits are forbidden, or there is no `taker` for them.
   TetraOptions never = options;
   never.boundary_splits = "never";
   EXPECT_THAT(error_info_of([&] { fill(never, [](TetraResult&) {}); }).problem, HasSubstr("signal 11"));

@@ -1,4 +1,4 @@
-// A coarse mesh that gives the sizes of the mesh itself.
+// A coarse mesh that provides the sizes for the final mesh.
 #include "volmesh/tetra/two_pass.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ std::array<Vec3, 4> corners_of(const Domain& domain, const TetraResult& result, 
 
 double volume_of(const std::array<Vec3, 4>& p) { return dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0])) / 6.0; }
 
-/// Share of the faces between tetrahedra over which the volume changes more than four times (G15).
+/// Returns the share of the faces between tetrahedra across which the volume changes by more than a factor of four (G15).
 double share_of_jumps(const Domain& domain, const TetraResult& result) {
   std::map<std::array<std::uint32_t, 3>, double> open;
   double n = 0.0, n_jumps = 0.0;
@@ -84,7 +84,7 @@ TEST(TwoPass, SizesOfTheFieldAreObeyedToo) {
       for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, distance(p[i], p[j]));
   }
   EXPECT_GT(n, 1000);           // 2.1 m^3 in tetrahedra of 0.2 m edges, 9.4e-4 m^3 each
-  EXPECT_LT(longest, 2 * 0.2);  // the wanted length is a mean
+  EXPECT_LT(longest, 2 * 0.2);  // the target length is a mean
 }
 
 TEST(TwoPass, NodalSizesAreSmoothAndKeepTheBoundarys) {

@@ -12,7 +12,7 @@ using test::Domain;
 using test::error_info_of;
 using testing::HasSubstr;
 
-/// Each damage to a good mesh must be seen, whatever the number of threads.
+/// Each damage to a good mesh must be detected, for any number of threads.
 class VerifyTetrahedra : public testing::Test {
  protected:
   VerifyTetrahedra() : domain(test::domain_around(test::cube(3), 10.0)), good(fill(domain.boundary(), nullptr, {}, RunContext{})), result(good) {}
@@ -76,7 +76,7 @@ TEST_F(VerifyTetrahedra, PointsThatNobodyUsesOrNan) {
 }
 
 TEST_F(VerifyTetrahedra, ABoundaryThatIsNotThere) {
-  // The diagonal of one quad of the cube the other way round: same points, other faces.
+  // The diagonal of one quad of the cube is flipped: same points, other faces.
   const TriMesh other = [] {
     TriMesh cube = test::cube(3);
     auto& a = cube.triangles[TriangleId(0)];
