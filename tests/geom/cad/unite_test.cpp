@@ -31,8 +31,7 @@ TEST(Unite, CylindersThatOverlapAreOneBodyOfKnownVolume) {
       EXPECT_EQ(face.surface, parts[0].faces[FaceId(0)].surface);
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{"thick side", "thick top", "thick bottom", "thin side",
-                                          "thin top"}));  // the bottom of the thin cylinder is inside the thick one
+  EXPECT_EQ(names, (std::set<std::string>{"thick side", "thick top", "thick bottom", "thin side", "thin top"}));  // the thin bottom is inside
   EXPECT_EQ(components, (std::set<std::string>{"thick", "thin"}));
 }
 

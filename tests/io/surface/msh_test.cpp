@@ -76,8 +76,7 @@ TEST(SurfaceMsh, WhatIsNotReadIsNamed) {
 
 TEST(SurfaceMsh, MistakesAreToldWithTheirLine) {
   refused_msh("solid wing\n", {"line 1", "\"solid\"", "$MeshFormat"});
-  refused_msh(replaced(k_v2, "10 1 0 0", "10 1 0"),
-              {"line 15", "\"$EndNodes\"", "a coordinate of a node"});  // line ends count as blanks: the error is detected at the end
+  refused_msh(replaced(k_v2, "10 1 0 0", "10 1 0"), {"line 15", "\"$EndNodes\"", "a coordinate of a node"});  // line ends count as blanks
   refused_msh(replaced(k_v2, "10 1 0 0", "900 1 0 0"), {"line 11", "node 900 occurs twice"});
   refused_msh(replaced(k_v2, "900 10 40", "900 10 41"), {"line 19", "node 41"});
   refused_msh(replaced(k_v4, "2 900 10 40", "2 900 10 41"), {"node 41", "$Nodes does not list"});

@@ -85,9 +85,8 @@ TEST(Samples, EveryFormatGivesTheSameSurface) {
       EXPECT_EQ(triangles_by_patch(soup), sample.names == Names::named      ? body.triangles
                                           : sample.names == Names::numbered ? body.numbered
                                                                             : (std::map<std::string, int>{{"", body.n_triangles}}));
-      std::erase_if(warnings, [](const std::string& text) {
-        return text.find("points in regions") != std::string::npos;
-      });  // a warning of TetGen files about data that surfaces cannot store
+      // A warning for TetGen files about data that surfaces do not have.
+      std::erase_if(warnings, [](const std::string& text) { return text.find("points in regions") != std::string::npos; });
       EXPECT_TRUE(warnings.empty()) << warnings.front();
       EXPECT_EQ(soup.source, (shared_data() / "formats" / file).string());
     }

@@ -198,8 +198,7 @@ TEST(CgnsRead, ConditionsListElementsOrNodesInManyWays) {
   EXPECT_EQ(tetrahedron_with(condition("BCSymmetryPlane", {points("ElementRange", {2, 5}), lid})).patches.raw(),
             (std::vector<Patch>{{"lid", PatchKind::symmetry}}));
   std::vector<std::string> warnings;
-  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(),
-            inflow);  // face numbers that do not count the preceding cells
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(), inflow);  // numbers that exclude the cells
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {9})}), &warnings).patches.raw(), (std::vector<Patch>{{"faces", PatchKind::wall}}));
   EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("lists volume cells"), testing::HasSubstr("lists no boundary face")));
   test::expect_error(ErrorCode::file_malformed, "/Base/Zone/ZoneBC/bc/PointList: found the node 5, expected 1 to 4",

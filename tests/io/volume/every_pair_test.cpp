@@ -255,15 +255,14 @@ TEST(EveryVolumeFormat, VolumesInDoublePrecisionArePositiveAfterReading) {
 
 TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
   HybridMesh mesh = test::six_patch_mesh();
-  const std::array<std::string, 6> names = {
-      "wing of the left side, with its flap and slat tracks",  // longer than 32 bytes, blanks
-      "wing of the left side, with its flap and slat rails",   // identical in the first 32 bytes
-      "Fl\xC3\xBC"
-      "gel-\xE7\xBF\xBC",  // UTF-8
-      "Fl\xC3\xBCgel \xC3\xBC"
-      "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8 that is truncated inside a character or between characters
-      "2nd \"wall\"; (a=b){%}",
-      "Wall/of\\paths#1"};
+  const std::array<std::string, 6> names = {"wing of the left side, with its flap and slat tracks",  // longer than 32 bytes, blanks
+                                            "wing of the left side, with its flap and slat rails",   // identical in the first 32 bytes
+                                            "Fl\xC3\xBC"
+                                            "gel-\xE7\xBF\xBC",  // UTF-8
+                                            "Fl\xC3\xBCgel \xC3\xBC"
+                                            "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8, truncated
+                                            "2nd \"wall\"; (a=b){%}",
+                                            "Wall/of\\paths#1"};
   for (std::size_t i = 0; i < names.size(); ++i) mesh.patches[PatchId(static_cast<std::uint64_t>(i))].name = names[i];
   const Content content(mesh);
   for (const Variant& variant : variants()) {
