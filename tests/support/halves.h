@@ -1,4 +1,4 @@
-// Halves of surfaces, and the bodies restored from halves.
+// Halves of surfaces, and the bodies that they are halves of.
 #pragma once
 
 #include "geom/mesh/tri_mesh.h"

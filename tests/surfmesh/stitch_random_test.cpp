@@ -60,7 +60,7 @@ SurfaceSoup with_flat_facets(const TriMesh& mesh, std::mt19937& random, int n) {
     const Vec3 r = 0.5 * (p + q);  // exact: coordinates are few bits
     facets[t] = {p, r, apex};
     facets.push_back({r, q, apex});
-    facets.push_back({q, r, p});  // fills the slit between p-r-q and the neighbour's edge q-p
+    facets.push_back({q, r, p});  // fills the gap between p-r-q and the neighbour's edge q-p
   }
   SurfaceSoup soup;
   soup.patch_names = {""};

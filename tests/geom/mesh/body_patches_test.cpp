@@ -1,4 +1,4 @@
-// Which patches a picture of bodies shows.
+// Selection of the patches that a picture of bodies shows.
 #include "geom/mesh/body_patches.h"
 
 #include <gtest/gtest.h>

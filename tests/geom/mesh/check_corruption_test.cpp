@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-constexpr std::uint32_t k_column = 40;  // of sphere(4)
+constexpr std::uint32_t k_column = 40;  // a wall triangle of sphere(4)
 constexpr int k_layers = 3;
 constexpr std::size_t k_prism = k_column * k_layers;  // the column's first-layer prism in explicit form
 
@@ -371,7 +371,7 @@ TEST(CheckCorruption, CrossingBoundariesOfTwoValidMeshes) {
 TEST(CheckCorruption, AMeshInsideAnotherOneIsNoTiling) {
   const CheckReport report = checked(joined(base_cells(), base_cells(), 0.1, {2.2, 0, 0}));  // in the tets, between 1.4 and 3
   expect_only(report, {Violation::overlapping_parts});
-  EXPECT_EQ(report.count(Violation::overlapping_parts), 2) << to_text(report);  // its wall and its outer boundary are both covered once too often
+  EXPECT_EQ(report.count(Violation::overlapping_parts), 2) << to_text(report);  // its wall and its outer boundary are each covered one time too many
   EXPECT_LT(distance_to_first(report, Violation::overlapping_parts, {2.2, 0, 0}), 0.4);
   // Inside the body, the second part is a domain of its own.
   const CheckReport apart = checked(joined(base_cells(), base_cells(), 0.1, {}));
@@ -386,7 +386,7 @@ TEST(CheckCorruption, RandomDamageNeverThrowsAndBothFormsAgree) {
   const std::vector<std::function<void(HybridMesh&)>> damages = {
       [&](HybridMesh& m) { m.points[node()] = m.points[node()]; },                             // coincident points, flat cells
       [&](HybridMesh& m) { m.points[node()] = 0.5 * (m.points[node()] + m.points[node()]); },  // collinear points
-      [&](HybridMesh& m) { m.points[node()] = -1.0 * m.points[node()]; },                      // far across
+      [&](HybridMesh& m) { m.points[node()] = -1.0 * m.points[node()]; },                      // on the opposite side
       [&](HybridMesh& m) { m.tetrahedra[any(m.tetrahedra.size())][any(4)] = node(); },         // possibly a repeated node
       [&](HybridMesh& m) { m.boundary_triangles[any(m.boundary_triangles.size())].nodes[any(3)] = node(); },
       [&](HybridMesh& m) {

@@ -63,7 +63,7 @@ TEST(CheckHalves, WhatIsCheckedAheadChangesNothing) {
   }
 }
 
-/// Each fault of one quad at the layer boundary edge is found, identically in both forms.
+/// Each fault of one boundary quad of the layer is found, identically in both forms.
 TEST(CheckHalves, FaultsOfQuadsAreFoundInBothForms) {
   const HybridMesh good = half_shell_of_all_kinds(5, {.shell = {.n_layers = 4}, .has_collapsed_rim = true});
   const auto expect = [&](Violation violation, std::int64_t n, const char* what, const auto& damage) {

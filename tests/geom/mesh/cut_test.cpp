@@ -73,7 +73,7 @@ std::vector<Case> cases() {
   add("plate, along the layers", plate_block(4), {0, 0, 0.2}, {0, 0, 1}, 1.0);
   add("plate, along the envelope", plate_block(4, {.layer_height = 0.5}), {0, 0, 0.5}, {0, 0, 1}, 1.0);
   add("plate with collapsed lines", plate_block(4, {.collapsed = {6, 7, 12, 13, 18}}), {0.4, 0.5, 0}, {1, 0.3, 0.1}, 0.0);
-  all.back().area = std::nan("");  // compared with the mesh without collapsed lines
+  all.back().area = std::nan("");  // compared with the mesh without collapsed growth lines
   add("cube in a cube", cube_shell(3), {0, 0, 0.5}, {0, 0, -1}, 8.0);
   add("cube in a cube, along its side", cube_shell(3), {0, 0, 1.0}, {0, 0, 1}, 8.0);
   add("cube in a cube, outside it", cube_shell(3), {0, 0, 1.0}, {0, 0, -1}, 9.0);

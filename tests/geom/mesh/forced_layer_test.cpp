@@ -50,7 +50,7 @@ TEST(ForcedLayer, WeightsAndVolumesOfUnequalWallTriangles) {
   for (const Measure measure : {Measure::face_weight, Measure::volume_ratio}) {
     const GateResult& gate = thin.gate(measure);
     EXPECT_GT(gate.n_forced, 0) << to_text(gate);
-    EXPECT_EQ(n_of_sides(gate), 0) << to_text(gate);  // in columns all sides are forced by the input surface
+    EXPECT_EQ(n_of_sides(gate), 0) << to_text(gate);  // all column sides beyond the limit are forced by the input surface
     ASSERT_FALSE(gate.forced.empty());
     EXPECT_NE(gate.forced.front().forcing.remedy.find("remesh the wall"), std::string::npos);
   }
@@ -65,7 +65,7 @@ TEST(ForcedLayer, WeightsAndVolumesOfUnequalWallTriangles) {
   EXPECT_EQ(thick.gate(Measure::volume_ratio).n_forced, 0);
 }
 
-/// Defects permitted by a request: 4 layers that grow by 1.25.
+/// Returns a plate with 4 layers that grow by 1.25, whose request permits the given growth.
 HybridMesh low_plate(double asked_growth) {
   HybridMesh mesh = plate_block(4, {.n_layers = 4, .layer_height = 0.01, .ratio = 1.25, .outer_height = 0.2});
   mesh.request.first_height = 0.01 / 5.765625;

@@ -76,7 +76,7 @@ TEST(Airfoil, GeneratedSectionsAgreeWithPublishedCoordinates) {
     double nine_of_ten, all;  // limits of the distances of the file's points from the generated airfoil: for 90 % of the points, and the largest
   };
   for (const Case& c :
-       {// Formulas: what is left is our polyline's sagitta (3e-6 at the nose, with 400 points a side) and the files' last digit (5e-6 in the second two).
+       {// Formulas: the difference is the polyline's sagitta (3e-6 at the nose, with 400 points a side) and the files' last digit (5e-6 in the last two).
         Case{"n0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0006.dat", "NACA 0006", 5e-6, 6e-6},
         Case{"naca23012.dat", "naca23012", 8e-6, 1e-5},
         // Mapping: the tables of 1945, calculated by hand, against the functions of 1974. The largest 10 %: the nose of 63A210 (1.3e-4); for 66(3)-218 the

@@ -213,7 +213,7 @@ TEST(Components, winglets_join_round) {
     EXPECT_NEAR(solid_measures(model, SolidId(0)).area, straight, 0.02 * straight) << name;
   }
   const Wing plain = read_smx(test::shared_data() / "smx/delta.smx", RunContext()).aircraft.wings.at(0);
-  EXPECT_EQ(wing_rows(plain).rows.size(), 2 * plain.sections.size() - 1);  // a winglet may be searched for, but this wing has none
+  EXPECT_EQ(wing_rows(plain).rows.size(), 2 * plain.sections.size() - 1);  // this wing has no winglet
 }
 
 TEST(Components, a_section_with_only_a_naca_designation_is_made) {

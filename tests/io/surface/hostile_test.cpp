@@ -21,7 +21,7 @@ class MemoryFolder {
     std::filesystem::create_directories(path_);
   }
   ~MemoryFolder() {
-    std::error_code ignored;  // a destructor must not throw; what may remain is a few kB in memory
+    std::error_code ignored;  // a destructor must not throw; a few kB may remain in memory
     std::filesystem::remove_all(path_, ignored);
   }
   MemoryFolder(const MemoryFolder&) = delete;

@@ -107,7 +107,7 @@ TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0), small(-8.0, -1.0);
   for (int i = 0; i < 300; ++i) {
-    // Points near the surface, mainly near its edges, at all distances.
+    // Points near the surface, mainly near its edges, at distances of 1e-8 to 0.1.
     const double angle = std::numbers::pi * any(random), scale = std::pow(10.0, small(random));
     const double r = (i % 3 == 0 ? std::abs(any(random)) : 1.0) + scale * any(random),
                  x = (i % 2 == 0 ? 2.0 : 2.0 * std::abs(any(random))) + scale * any(random);

@@ -353,7 +353,7 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
   const TriMesh fine = test::sphere(24);
   test::expect_error(ErrorCode::geometry_failed, "of the area is turned by more than 10 degrees",
                      [&] { remesh_surface(fine, {.max_edge = 0.7, .min_edge = 0.7, .curvature_angle = 1.0}, {}, {}, {.more_turned = 0.005}, k_context); });
-  // A blunt edge of two corners 1e-4 apart: corners are kept, so the needles beside them remain.
+  // A blunt edge of two corners 1e-4 apart: corners are kept, so the slivers beside them remain.
   TriMesh wedge = test::cube(1);
   for (Point& p : wedge.points)
     if (p.x == 1.0) p.z = 1e-4 * p.z;
