@@ -19,13 +19,13 @@ void add_wall_triangle(TriMesh& mesh, VertexId a, VertexId b, VertexId c) {
   mesh.triangle_patch.push_back(PatchId(0));
 }
 
-/// Half thickness of a 20 % symmetric section of the NACA four-digit family, closed, plus a wedge that opens the trailing edge.
+/// Returns the half thickness of a closed 20 % symmetric section of the NACA four-digit family, plus a wedge that opens the trailing edge.
 double half_thickness(double x, double trailing) {
   const double closed = 0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x;
   return x == 0.0 ? 0.0 : x == 1.0 ? 0.5 * trailing : closed + 0.5 * trailing * x;
 }
 
-/// Surface of the union of unit boxes, each square as two triangles, outward.
+/// Returns the surface of the union of unit boxes, each square as two triangles, normals outward.
 TriMesh boxes(const std::set<std::tuple<int, int, int>>& filled) {
   TriMesh mesh;
   mesh.patches.push_back({"boxes", PatchKind::wall});
@@ -62,7 +62,7 @@ TriMesh boxes(const std::set<std::tuple<int, int, int>>& filled) {
 TriMesh straight_wing(double thickness) {
   TriMesh mesh;
   mesh.patches.push_back({"wing", PatchKind::wall});
-  // The section from the trailing edge over the upper side to the nose and back below; a sharp edge has one point, a blunt one two.
+  // The section runs from the trailing edge over the upper side to the nose and back below; a sharp edge has one point, a blunt edge two.
   std::vector<Point> section;
   const auto x_of = [](int i) { return 0.5 * (1.0 + std::cos(std::numbers::pi * i / k_wing_points)); };
   for (int i = 0; i <= k_wing_points; ++i) {
@@ -85,7 +85,7 @@ TriMesh straight_wing(double thickness) {
       add_wall_triangle(mesh, at(s, i), at(s + 1, i + 1), at(s, i + 1));
       add_wall_triangle(mesh, at(s, i), at(s + 1, i), at(s + 1, i + 1));
     }
-  // Flat ends: strips between the upper side's point i and the lower side's.
+  // Flat ends: strips between point i of the upper side and the point below it on the lower side.
   const auto below = [&](int i) { return 2 * k_wing_points - i; };
   for (const int s : {0, k_wing_sections}) {
     const auto cap = [&](int i, int j, int k) {
@@ -116,7 +116,7 @@ TriMesh creased_disk() {
   constexpr int n = 24;
   const double slope = std::tan(std::numbers::pi / 6.0);
   const VertexId centre = mesh.points.push_back({0, 0, 0});
-  for (const double r : {0.5, 1.0, -1.0})  // two rings of the top, then the bottom's
+  for (const double r : {0.5, 1.0, -1.0})  // two rings of the top, then the ring of the bottom
     for (int i = 0; i < n; ++i) {
       const double phi = 2.0 * std::numbers::pi * i / n;
       const double s = i % (n / 2) == 0 ? 0.0 : std::sin(phi);

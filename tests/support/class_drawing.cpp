@@ -8,7 +8,7 @@
 namespace sterna::test {
 namespace {
 
-constexpr double k_width = 480.0, k_margin = 30.0;  ///< of the picture, in its units
+constexpr double k_width = 480.0, k_margin = 30.0;  ///< in units of the picture
 
 std::string_view colour_of(const volmesh::VertexClass& flags) {
   if (flags.is_smooth()) return "#b0b0b0";

@@ -1,4 +1,4 @@
-// What nearly every file of tests needs, so that none defines it again.
+// Constants shared by nearly all test files.
 #pragma once
 
 #include <numbers>
@@ -7,7 +7,7 @@
 
 namespace sterna::test {
 
-/// Two threads: loops are shared out on every machine; what is computed does not depend on the number.
+/// Two threads: loops are split on every machine; results do not depend on the number of threads.
 inline const RunContext k_context({.threads = 2});
 inline constexpr double k_pi = std::numbers::pi;
 inline constexpr double k_degree = k_pi / 180.0;  ///< in radians

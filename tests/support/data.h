@@ -1,4 +1,4 @@
-// Where test inputs live: small cases in tests/data; real ones, which are packed in tests/data/shared, where the build unpacks them.
+// Locations of test inputs: small cases in tests/data; real cases packed in tests/data/shared, in the folder where the build unpacks them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,26 +7,27 @@
 
 namespace sterna::test {
 
-/// The top folder of the repository.
+/// Returns the top folder of the repository.
 std::filesystem::path source_folder();
-/// The folder of the build, which has the programs.
+/// Returns the build folder, which contains the programs.
 std::filesystem::path build_folder();
-/// tests/data of the repository.
+/// Returns tests/data of the repository.
 std::filesystem::path corpus();
-/// The real inputs (unpacked tests/data/shared), by their paths in the archives.
+/// Returns the folder of the real inputs (unpacked tests/data/shared), with the paths of the archives.
 std::filesystem::path shared_data();
-/// False where the build could not unpack the real inputs.
+/// Returns false if the build could not unpack the real inputs.
 bool has_shared_data();
-/// A fresh empty folder for the running test.
+/// Returns a new empty folder for the running test.
 std::filesystem::path scratch();
 
-/// STERNA_REQUIRE_DATA=1: nothing that a test needs may be absent, so no test may be skipped.
+/// Returns true if STERNA_REQUIRE_DATA=1: all requirements of tests must be present, so no test may be skipped.
 bool is_all_required();
 
 }  // namespace sterna::test
 
-/// For what not every machine has (data, programs and modules of other packages): skips the test where `is_there` is false, fails it where is_all_required().
-/// \param what what is missing
+/// Marks requirements that some machines lack (data, programs and modules of other packages). If `is_there` is false, the test is skipped, or fails if
+/// is_all_required().
+/// \param what the missing requirement
 #define STERNA_NEEDS(is_there, what)                                                                        \
   do {                                                                                                      \
     if (!(is_there)) {                                                                                      \

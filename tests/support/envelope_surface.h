@@ -1,4 +1,4 @@
-// The envelope as triangles of its own, for tests of what it meets.
+// The envelope as a separate triangle surface, for tests of its intersections.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The error that something throws, for tests of what it says.
+// Errors thrown by a function, for tests of their code and text.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace sterna::test {
 
-/// What `run` threw; a failure of the test when it threw nothing.
+/// Returns the error that `run` throws; fails the test if `run` throws nothing.
 template <class Run>
 Error error_of(const Run& run) {
   try {
@@ -21,13 +21,13 @@ Error error_of(const Run& run) {
   return Error({.code = ErrorCode::internal, .attempted = "no error was thrown"});
 }
 
-/// The same, taken apart.
+/// Returns the error that `run` throws as ErrorInfo.
 template <class Run>
 ErrorInfo error_info_of(const Run& run) {
   return error_of(run).info();
 }
 
-/// What the error says; "" when nothing was thrown.
+/// Returns the text of the error that `run` throws; "" if nothing is thrown.
 template <class Run>
 std::string message_of(const Run& run) {
   try {
@@ -38,7 +38,7 @@ std::string message_of(const Run& run) {
   return "";
 }
 
-/// Runs f, which must throw an Error of that code whose text contains `text`.
+/// Runs f, which must throw an Error with this code whose text contains `text`.
 template <class F>
 void expect_error(ErrorCode code, const std::string& text, const F& f) {
   try {

@@ -12,8 +12,8 @@
 namespace sterna::test {
 namespace {
 
-/// t in `to` = t.from + length * ((s + e)^power - e^power) / ((1 + e)^power - e^power), s in [0, 1] the share of the way in `from`; e keeps speeds finite for
-/// powers below one.
+/// t in `to` = t.from + length * ((s + e)^power - e^power) / ((1 + e)^power - e^power), where s in [0, 1] is the relative position in `from`. e keeps
+/// derivatives finite for powers below one.
 class PowerSurface final : public Surface {
  public:
   PowerSurface(SurfacePtr surface, const ParameterBox& box, double power_u, double power_v)
@@ -59,7 +59,7 @@ SurfacePtr bump() {
   return spline_surface(grid, {}, {});
 }
 
-/// Upper and lower side of NACA 0012 from trailing edge around the nose, tapered and twisted along the span.
+/// Returns the upper and lower side of NACA 0012 from the trailing edge around the nose, tapered and twisted along the span.
 SurfacePtr wing() {
   constexpr std::size_t n = 41, n_sections = 7;
   PointGrid grid{n, n_sections, {}};
@@ -70,7 +70,7 @@ SurfacePtr wing() {
       const double angle = 2.0 * k_pi * static_cast<double>(i) / (n - 1);
       const double x = i == 0 || i + 1 == n ? 1.0 : 0.5 * (1.0 + std::cos(angle));
       const double t = 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1015 * x * x * x * x);
-      // Both sides meet at the trailing edge to the bit, whatever the cosine of a full turn is.
+      // Both sides meet exactly at the trailing edge, independent of the rounding of cos of a full turn.
       const double z = i == 0 || i + 1 == n ? 0.0 : angle < k_pi ? t : -t;
       grid.points[i * n_sections + j] = {0.3 * y + chord * (x * std::cos(twist) + z * std::sin(twist)), y, chord * (z * std::cos(twist) - x * std::sin(twist))};
     }
@@ -78,7 +78,7 @@ SurfacePtr wing() {
   return spline_surface(grid, {}, {});
 }
 
-/// A body's blunt nose, a whole turn of bicubic spline whose first row is one point; along it the parameter is slow at the nose.
+/// Returns a body's blunt nose: a full turn of bicubic spline whose first row is one point. The lengthwise parameter is slow at the nose.
 SurfacePtr nose() {
   constexpr std::size_t n_x = 15, n_turn = 25;
   PointGrid grid{n_x, n_turn, {}};
@@ -93,7 +93,7 @@ SurfacePtr nose() {
   return spline_surface(grid, {}, around);
 }
 
-/// Parameters at a small angle to each other: x = u + shear v.
+/// Returns a plane with parameters at a small angle to each other: x = u + shear v.
 SurfacePtr sheared() {
   Frame frame;
   frame.y = normalized(Vec3{10.0, 1.0, 0.0});
@@ -104,7 +104,7 @@ struct Edge {
   Uv from, to;
 };
 
-/// Parameters in [0, 1) along the edge that cut it into pieces of the wanted lengths; one piece when it has no length.
+/// Returns parameters in [0, 1) along the edge that split it into pieces of the target lengths; one piece if the edge has no length.
 std::vector<double> cut(const Surface& surface, const surfmesh::CurvatureSizes& curvature, const Edge& edge, double size, bool& is_pole) {
   constexpr int k_samples = 4000;
   double metres = 0.0;
@@ -141,11 +141,11 @@ surfmesh::FaceBorder box_border(const Surface& surface, const ParameterBox& box,
   const Uv a{box.u.from, box.v.from}, b{box.u.to, box.v.from}, c{box.u.to, box.v.to}, d{box.u.from, box.v.to};
   const bool is_closed_u = distance(surface.point(a), surface.point(b)) + distance(surface.point(0.5 * (a + d)), surface.point(0.5 * (b + c))) < 1e-12;
   const bool is_closed_v = distance(surface.point(a), surface.point(d)) + distance(surface.point(0.5 * (a + b)), surface.point(0.5 * (c + d))) < 1e-12;
-  // Both sides of a seam take their points from the first of them.
+  // Both sides of a seam use the points of the first side.
   const auto point = [&](Uv at) {
     return surface.point({is_closed_u && at.u == box.u.to ? box.u.from : at.u, is_closed_v && at.v == box.v.to ? box.v.from : at.v});
   };
-  // Opposite edges are cut in the same sense, so that the sides of a seam match.
+  // Opposite edges are split in the same direction, so that the sides of a seam match.
   struct Side {
     Edge edge;
     bool is_reversed;
@@ -164,7 +164,7 @@ surfmesh::FaceBorder box_border(const Surface& surface, const ParameterBox& box,
     }
     for (std::size_t k = 0; k < at.size(); ++k) {
       const Uv uv = at[k] == 0.0 ? side.edge.from : at[k] == 1.0 ? side.edge.to : side.edge.from + at[k] * (side.edge.to - side.edge.from);
-      // The corner after a pole is the pole, to the bit.
+      // The corner after a pole is identical to the pole.
       loop.push_back({uv, k == 0 && was_pole ? loop.back().point : point(uv)});
     }
     was_pole = is_pole;

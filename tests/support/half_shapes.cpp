@@ -9,7 +9,7 @@
 namespace sterna::test {
 namespace {
 
-/// Vertices of the rim in the order of their angle about y.
+/// Returns the vertices of the open boundary, ordered by their angle about y.
 std::vector<std::uint32_t> rim_of(const TriMesh& wall) {
   std::vector<std::uint32_t> rim;
   for (const VertexId v : wall.points.ids())
@@ -68,7 +68,7 @@ HybridMesh half_shell_of_all_kinds(int f, const HalfShellOptions& options) {
 }
 
 HybridMesh turned(HybridMesh mesh, const Vec3& offset) {
-  // Rodrigues, about (1, 2, 3) by 2.2 rad.
+  // Rodrigues' rotation formula, about (1, 2, 3) by 2.2 rad.
   const Vec3 axis = normalized(Vec3{1.0, 2.0, 3.0});
   const double c = std::cos(2.2), s = std::sin(2.2);
   for (Point& p : mesh.points) p = c * p + s * cross(axis, p) + (1.0 - c) * dot(axis, p) * axis + offset;

@@ -8,18 +8,19 @@ namespace sterna::test {
 
 struct HalfShellOptions {
   ShellOptions shell;
-  bool has_collapsed_rim = false;  ///< a line of the rim, another with its neighbour along the rim, and another with one inside have no height
+  bool has_collapsed_rim = false;  ///< zero height: a growth line on the boundary, another with its neighbour on the boundary, another with an inner neighbour
 };
 
-/// The half y >= 0 of sphere_shell(f): patches "sphere" (wall), "farfield", and "symmetry" at y = 0 exactly.
+/// Returns the half y >= 0 of sphere_shell(f): patches "sphere" (wall), "farfield", and "symmetry" at exactly y = 0.
 /// \pre f >= 4
 HybridMesh half_sphere_shell(int f, const HalfShellOptions& options = {});
 
-/// The same with a patch of each kind: the plane y = 0 is parted by quadrants into "symmetry", "slip_wall", "inflow", "outflow", and "disc" (interface) is a
-/// fan of faces between two of them. All of these have quads, and with a collapsed rim triangles beside collapsed lines, too.
+/// Returns half_sphere_shell() with a patch of each kind. The plane y = 0 is split by quadrants into "symmetry", "slip_wall", "inflow", "outflow"; "disc"
+/// (interface) is a fan of faces between two of them. All of these patches have quads, and with a collapsed boundary also triangles beside collapsed growth
+/// lines.
 HybridMesh half_shell_of_all_kinds(int f, const HalfShellOptions& options = {});
 
-/// Turned about the origin by a third of a full turn and a bit about an axis that is none of the coordinates', then moved.
+/// Returns the mesh rotated about the origin by slightly more than a third of a turn, about an axis oblique to the coordinate axes, then translated.
 HybridMesh turned(HybridMesh mesh, const Vec3& offset = {});
 
 }  // namespace sterna::test

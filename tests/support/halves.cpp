@@ -10,7 +10,7 @@ namespace {
 
 constexpr double k_snap_share = 1.0 / 3.0;
 
-/// Drops vertices that no triangle uses.
+/// Removes vertices that no triangle uses.
 TriMesh compacted(const TriMesh& mesh) {
   TriMesh result;
   result.patches = mesh.patches;

@@ -9,13 +9,13 @@
 namespace sterna::test {
 namespace {
 
-/// Share of the total height at layer j of n with a constant growth ratio.
+/// Returns the fraction of the total height at layer j of n with a constant growth ratio.
 double height_share(int j, int n, double ratio) {
   if (ratio == 1.0) return static_cast<double>(j) / n;
   return (std::pow(ratio, j) - 1.0) / (std::pow(ratio, n) - 1.0);
 }
 
-/// Cuts the prism (a, b, c) -> (d, e, f) of three lines into tets; the diagonal of each side starts at the lower line number below, so that neighbours agree.
+/// Splits the prism (a, b, c) -> (d, e, f) of three growth lines into tets. Each side's diagonal starts below at the lower line number: neighbours agree.
 void split_prism(HybridMesh& mesh, const std::array<std::uint32_t, 3>& lines, const std::array<NodeId, 3>& bottom, const std::array<NodeId, 3>& top) {
   std::array<std::size_t, 3> order = {0, 1, 2};
   bool is_odd = false;
@@ -38,7 +38,7 @@ void split_prism(HybridMesh& mesh, const std::array<std::uint32_t, 3>& lines, co
 void add_triangle(HybridMesh& mesh, NodeId a, NodeId b, NodeId c, PatchId patch) { mesh.boundary_triangles.push_back({{a, b, c}, patch}); }
 void add_quad(HybridMesh& mesh, NodeId a, NodeId b, NodeId c, NodeId d, PatchId patch) { mesh.boundary_quads.push_back({{a, b, c, d}, patch}); }
 
-/// The layer's side above a boundary edge u -> v of the wall: quads, triangles where one of the lines has ended.
+/// Adds the layer's side above a boundary edge u -> v of the wall: quads, and triangles where one of the growth lines has ended.
 void close_layer_side(HybridMesh& mesh, std::uint32_t u, std::uint32_t v, PatchId patch) {
   const LayerBlock& layers = mesh.layers;
   for (int j = 0; j < std::max(layers.n_steps(u), layers.n_steps(v)); ++j) {
@@ -206,7 +206,7 @@ HybridMesh hexahedron_with_roof() {
   const NodeId apex = mesh.points.push_back({0.5, 0.5, 1.5});
   const auto v = mesh.hexahedra.front();
   mesh.pyramids.push_back({v[4], v[5], v[6], v[7], apex});
-  mesh.boundary_quads.pop_back();  // the hexahedron's top, the last local face, is inside now
+  mesh.boundary_quads.pop_back();  // the hexahedron's top, the last local face, is now an inner face
   for (std::size_t k = 0; k < 4; ++k) add_triangle(mesh, v[4 + k], v[4 + (k + 1) % 4], apex, roof);
   return mesh;
 }

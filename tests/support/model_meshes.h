@@ -1,4 +1,4 @@
-// Models and what the meshes of any model have to be, for the tests of surfmesh/model.
+// Models, and the requirements for meshes of any model, for the tests of surfmesh/model.
 #pragma once
 
 #include "geom/model/model.h"
@@ -6,13 +6,13 @@
 
 namespace sterna::test {
 
-/// A whole sphere about the origin: one face "ball", a seam and two poles.
+/// Returns a whole sphere about the origin: one face "ball", a seam and two poles.
 Model make_ball(double radius);
 
-/// No edge with more than two triangles or two of the same sense; edges with one only where the model is open.
+/// Checks that no edge has more than two triangles or two of the same direction, and that edges have one triangle only where the model is open.
 void expect_joined(const Model& model, const surfmesh::SurfaceMesh& surface);
 
-/// What every mesh has to be that was accepted: joined, no crossings, vertices on the faces and edges that they are said to be on, patches by face.
+/// Checks the requirements for every accepted mesh: joined, no crossings, vertices on their stored faces and edges, patches by face.
 void expect_sound(const Model& model, const surfmesh::SurfaceMesh& surface);
 
 }  // namespace sterna::test

@@ -25,7 +25,7 @@ void make_foam_case(const std::filesystem::path& folder) {
 std::optional<std::string> run_openfoam(const std::string& tool, const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
   const std::filesystem::path program = "/usr/bin/" + tool;
   if (!std::filesystem::exists(program)) return std::nullopt;
-  ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 1);  // its tools find their settings by it
+  ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 1);  // OpenFOAM's tools find their settings through this variable
   const ProcessResult result = run_process(program, arguments, folder);
   EXPECT_EQ(result.status, 0) << tool << ":\n" << result.output << result.errors;
   return result.output + result.errors;

@@ -24,7 +24,7 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A name for stdout and stderr that stands outside of the folder, whose contents tests look at.
+/// Returns a name for stdout and stderr outside of the folder, because tests check the folder's contents.
 std::filesystem::path temporary_file() {
   std::string name = (std::filesystem::temp_directory_path() / "sterna_test_XXXXXX").string();
   const int descriptor = mkstemp(name.data());
@@ -33,7 +33,7 @@ std::filesystem::path temporary_file() {
   return name;
 }
 
-/// Whether the process catches SIGINT, or blocks it to wait for it, by now; before that Ctrl-C just ends it.
+/// Returns true if the process now catches SIGINT, or blocks SIGINT to wait for it; before that, Ctrl-C ends the process.
 bool takes_interrupt(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string word, value; status >> word;) {
@@ -121,7 +121,7 @@ int StartedProcess::wait() {
 
 std::vector<pid_t> children_of(pid_t process) {
   std::vector<pid_t> pids;
-  std::error_code ended;  // it may end any time
+  std::error_code ended;  // the process may end at any time
   for (std::filesystem::directory_iterator it("/proc/" + std::to_string(process) + "/task", ended), end; !ended && it != end; it.increment(ended)) {
     std::ifstream children(it->path() / "children");
     for (pid_t pid = 0; children >> pid;) pids.push_back(pid);

@@ -1,4 +1,4 @@
-// Runs a program of the build as its user would.
+// Runs a program of the build as a user would.
 #pragma once
 
 #include <sys/types.h>
@@ -14,14 +14,14 @@ struct ProcessResult {
   std::string output;  ///< stdout
   std::string errors;  ///< stderr
   double seconds = 0.0;
-  double seconds_after_interrupt = 0.0;  ///< all of them without one
+  double seconds_after_interrupt = 0.0;  ///< total time if not interrupted
 };
 
-/// Runs `program` in `folder` and waits. With interrupt_after >= 0 it gets SIGINT so many seconds after it began to wait for one.
+/// Runs `program` in `folder` and waits. With interrupt_after >= 0, the program receives SIGINT this many seconds after it starts to catch SIGINT.
 ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                           double interrupt_after = -1.0);
 
-/// A program that runs while the test goes on; killed and reaped at the latest when the object goes. Its output is dropped.
+/// A program that runs in parallel to the test; killed and reaped at the latest when the object is destroyed. Its output is discarded.
 class StartedProcess {
  public:
   StartedProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder);
@@ -32,7 +32,7 @@ class StartedProcess {
   pid_t pid() const { return pid_; }
   bool has_ended();
   void signal(int number) const;
-  /// Waits for its end; exit status as in ProcessResult.
+  /// Waits for the end of the program; returns the exit status as in ProcessResult.
   int wait();
 
  private:
@@ -40,13 +40,13 @@ class StartedProcess {
   int status_ = 0;
 };
 
-/// What a process has started and still runs.
+/// Returns the running child processes of a process.
 std::vector<pid_t> children_of(pid_t process);
 
-/// build/.../sterna
+/// Returns the path build/.../sterna.
 std::filesystem::path sterna_program();
 
-/// A process that this one has started and that still runs; 0 when there is none.
+/// Returns a running child of this process; 0 if there is none.
 pid_t first_child();
 
 }  // namespace sterna::test

@@ -12,8 +12,9 @@ bool has_number_behind(const std::string& text, std::string_view word) {
   return false;
 }
 
-/// Of containers: the path of a group, dataset or attribute; a variable or an attribute by its name or, where that cannot be read, its number. Where the
-/// library cannot even open the file, its head; where it dies or what it hands over makes no sense as a whole, it is named.
+/// Returns true if the error of a container file names a location: the path of a group, dataset or attribute, or a variable or attribute by name. The number is
+/// given if the name cannot be read. If the library cannot open the file, the head of the file is named. If the library crashes, or its output as a whole is
+/// invalid, the file is named.
 bool names_node(std::string_view problem) {
   constexpr std::string_view k_head = "the head of the file: ";
   if (problem.starts_with(k_head)) return problem.find("library says: ") != std::string_view::npos || problem.find("ends before") != std::string_view::npos;

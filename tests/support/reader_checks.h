@@ -1,4 +1,4 @@
-// What every reader owes whatever the bytes: a sound result, or a refusal that says where. For the tests of damaged files and the fuzz target.
+// Requirement for every reader and any input: a sound result, or an error with its location. For the tests of damaged files and the fuzz target.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace sterna::test {
 
-/// What is wrong with indices and numbers of the result; empty = it can be used without further checks.
+/// Returns the first invalid index or number of the result; empty = usable without further checks.
 std::string flaw_of(const SurfaceSoup& soup);
 std::string flaw_of(const HybridMesh& mesh);
 
-/// Whether the text of a refusal says where in the file: at which line or byte, in which cell (formats that store faces), or, for containers that describe
-/// themselves (CGNS, TAU, VTKHDF), in which group, dataset, variable or attribute.
+/// Returns true if the error text states the location in the file: line or byte, cell (formats that store faces), or, for self-describing containers (CGNS,
+/// TAU, VTKHDF), group, dataset, variable or attribute.
 bool says_where(const Error& error, bool is_container);
 
 }  // namespace sterna::test

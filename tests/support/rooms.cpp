@@ -13,7 +13,7 @@ namespace {
 
 using Place = std::array<int, 3>;
 
-/// Vertices by their place on a grid, patches by name.
+/// Builds a mesh from vertices at grid positions and patches by name.
 class Builder {
  public:
   TriMesh mesh;
@@ -29,7 +29,7 @@ class Builder {
     mesh.triangles.push_back({a, b, c});
     mesh.triangle_patch.push_back(found->second);
   }
-  /// Counter-clockwise seen from the fluid; the diagonal alternates.
+  /// Adds a square, counter-clockwise seen from the fluid; the diagonal alternates.
   void square(const std::array<VertexId, 4>& v, bool is_odd, const std::string& patch) {
     const std::size_t first = is_odd ? 0 : 1;
     triangle(v[first], v[first + 1], v[first + 2], patch);
@@ -51,7 +51,7 @@ TriMesh cube_room(int n) {
       });
 }
 
-// Places of the triangle's grid: i steps along the lower side, j along the upper one, i + j <= n; k along y.
+// Grid of the triangle: i steps along the lower side, j along the upper side, i + j <= n; k along y.
 TriMesh wedge_room(double angle, int n, double length) {
   Builder builder;
   const int m = std::max(1, static_cast<int>(std::lround(n * length)));
@@ -59,7 +59,7 @@ TriMesh wedge_room(double angle, int n, double length) {
   const auto at = [&](int i, int j, int k) {
     return builder.vertex({i, j, k}, static_cast<double>(i) * lower + static_cast<double>(j) * upper + static_cast<double>(k) * along);
   };
-  // y points away from someone who sees x to the right and z up.
+  // y points away from a viewer who sees x to the right and z up.
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j) {
       const bool has_second = i + j + 2 <= n;

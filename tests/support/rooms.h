@@ -5,11 +5,11 @@
 
 namespace sterna::test {
 
-/// A cube [0, 1]^3 of fluid, n squares along each edge; patches x0, x1, y0, y1, z0, z1.
+/// Returns a cube [0, 1]^3 of fluid, n squares along each edge; patches x0, x1, y0, y1, z0, z1.
 TriMesh cube_room(int n);
 
-/// A room over an isosceles triangle: two sides of length 1 that meet at `angle` (radians) in the origin, from y = 0 to y = length. Patches lower, upper (the
-/// two sides), back, left, right (the triangles). Edges are about 1/n long.
+/// Returns a room over an isosceles triangle: two sides of length 1 that meet at `angle` (radians) at the origin, from y = 0 to y = length. Patches: lower,
+/// upper (the two sides), back, left, right (the triangles). Edges are about 1/n long.
 TriMesh wedge_room(double angle, int n, double length = 1.0);
 
 }  // namespace sterna::test

@@ -8,13 +8,13 @@
 
 namespace sterna::test {
 
-/// 4 x 1 x 2 m, around the x axis from x = -1.
+/// Returns a duct of 4 x 1 x 2 m around the x axis, starting at x = -1.
 Model duct();
 
-/// The fluid in it around the bodies. \p kind: of the duct's side walls
+/// Returns the fluid in the duct around the bodies. \p kind: patch kind of the duct's side walls
 Model through_duct(std::span<const Model> bodies, PatchKind kind = PatchKind::wall);
 
-/// A wing of constant section across the duct: chord 0.8 m, cut off at both ends, base of that thickness (m; 0: sharp), twist in rad.
+/// Returns a wing of constant section across the duct: chord 0.8 m, cut off at both ends, trailing edge of the given thickness (m; 0: sharp), twist in rad.
 Model blade(double trailing_edge, const std::string& naca_digits, double twist);
 
 }  // namespace sterna::test

@@ -1,4 +1,4 @@
-// Programs that are built with a sanitizer take many times the time and memory: limits of either are not for them.
+// Programs built with a sanitizer need a multiple of the time and memory: time and memory limits do not apply to them.
 #pragma once
 
 namespace sterna::test {

@@ -6,7 +6,7 @@
 namespace sterna::test {
 namespace {
 
-/// In [0, 1); std::uniform_real_distribution differs between libraries.
+/// Returns a random number in [0, 1); std::uniform_real_distribution differs between libraries.
 double share(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 }  // namespace

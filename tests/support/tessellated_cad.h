@@ -1,4 +1,4 @@
-// Walls as CAD programs tessellate them: few points on plane faces, many around holes, so that most triangles are needles.
+// Walls as CAD programs tessellate them: few points on plane faces, many around holes, so that most triangles are slivers (needles).
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace sterna::test {
 
-/// A plate of n_x x n_y unit squares with a through hole in each. The hole's circle has `n_around` points; its wall is one strip of triangles from top to
-/// bottom, and on top and bottom each point is joined with the nearest corner of its square. n_around is a multiple of 4.
+/// Returns a plate of n_x x n_y unit squares with a through hole in each. The hole's circle has `n_around` points; its wall is one strip of triangles from top
+/// to bottom. On top and bottom each point of the circle is joined to the nearest corner of its square. n_around is a multiple of 4.
 inline TriMesh drilled_plate(std::uint32_t n_x, std::uint32_t n_y, std::uint32_t n_around, double thickness, double radius) {
   TriMesh mesh;
   mesh.patches = {{"plate"}};

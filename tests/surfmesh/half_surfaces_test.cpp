@@ -1,4 +1,4 @@
-// Halves of real full models: geom/mesh/half.h on what files hold.
+// Halves of real full models: geom/mesh/half.h on surfaces from files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,9 +25,9 @@ TriMesh read(const char* file) {
 
 struct Sizes {
   double area = 0.0, volume = 0.0;
-  double least_height = 1e300;  ///< of a triangle, over its longest edge
+  double least_height = 1e300;  ///< smallest triangle height over the triangle's longest edge
 };
-/// Volume as flux of the distance from the plane, to which the plane adds nothing.
+/// Computes the volume as flux of the distance from the plane, to which the plane contributes nothing.
 Sizes sizes_of(const TriMesh& mesh, double at) {
   Sizes sizes;
   for (const TriangleId t : mesh.triangles.ids()) {
@@ -68,7 +68,7 @@ constexpr std::array k_full_models = {"dlr_f6_184k.stl",
                                       "meshpy_ka6d_ka-6d.ply",
                                       "pygeo_bwb.stl"};
 
-/// What both sides of a plane have together, over what the whole has, less one.
+/// Sum of both sides of a plane, relative to the whole, minus one.
 struct Missing {
   double area = 0.0, volume = 0.0;
 };
@@ -95,7 +95,7 @@ TEST(HalfOfRealSurfaces, HaveTheWholeTogether) {
   for (const char* file : k_full_models) {
     SCOPED_TRACE(file);
     const TriMesh full = read(file);
-    for (const double share : {0.0, 0.0137}) {  // of the longest side: the plane of most of the models, and one through their triangles
+    for (const double share : {0.0, 0.0137}) {  // of the longest side: the symmetry plane of most models, and a plane through triangles
       const double at = share * bounding_box(full).longest_side();
       const Missing exact = cut_in_two(full, {.at = at, .snap = 0.0});
       EXPECT_NEAR(exact.area, 0.0, 1e-9);

@@ -1,4 +1,4 @@
-// Triangle soups for the tests of stitching, and what a stitched surface must fulfil.
+// Triangle soups for the tests of stitching, and the requirements for stitched surfaces.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace sterna::test {
 
-/// Each facet with three vertices of its own, as in an STL file.
+/// Returns a soup in which each facet has three vertices of its own, as in an STL file.
 inline SurfaceSoup soup_of(const TriMesh& mesh, const std::string& source = "shape.stl") {
   SurfaceSoup soup;
   soup.source = source;
@@ -26,7 +26,7 @@ inline SurfaceSoup soup_of(const TriMesh& mesh, const std::string& source = "sha
   return soup;
 }
 
-/// One facet from its corners.
+/// Adds one facet from its corners.
 inline void add_facet(SurfaceSoup& soup, const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto n = static_cast<std::uint32_t>(soup.points.size());
   soup.points.insert(soup.points.end(), {a, b, c});
@@ -61,13 +61,13 @@ inline surfmesh::StitchResult stitch(const std::vector<SurfaceSoup>& soups, cons
   return surfmesh::stitch_surface(soups, options, quiet(threads));
 }
 
-/// The error of a surface that must not be accepted; a bug shows as code internal.
+/// Returns the error of a surface that must be refused; a bug shows as code internal.
 inline ErrorInfo stitch_error(const std::vector<SurfaceSoup>& soups, const surfmesh::StitchOptions& options = {}) {
   try {
     stitch(soups, options);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
-    info.attempted = error.what();  // the whole text, for tests of the wording
+    info.attempted = error.what();  // the whole message, for tests of the wording
     info.n_places = error.n_places();
     return info;
   }
@@ -94,8 +94,7 @@ inline double area(const TriMesh& mesh) {
   return sum;
 }
 
-/// The contract's
-/// \post for a closed surface.
+/// Checks the postconditions of the contract for a closed surface.
 inline void expect_stitched(const TriMesh& mesh) {
   const RunContext context = quiet();
   const Topology topology(mesh, context);  // throws when not manifold or not consistently oriented

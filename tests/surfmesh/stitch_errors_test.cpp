@@ -1,4 +1,4 @@
-// Surfaces that must be refused: code, number of places, coordinates, wording, geometry.
+// Surfaces that must be refused: code, number of locations, coordinates, wording, geometry.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(StitchErrors, CubesThatShareAnEdge) {
 }
 
 TEST(StitchErrors, CubesThatTouchInAVertexCross) {
-  // Each is a closed body of its own: no vertex is to blame, but they touch.
+  // Each is a closed body of its own and no single vertex is faulty, but the bodies touch.
   const ErrorInfo info = stitch_error({soup_of(cube()), shifted(soup_of(cube()), {1, 1, 1})});
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_THAT(info.attempted, HasSubstr("all between different bodies"));
@@ -100,7 +100,7 @@ TEST(StitchErrors, CubesThatTouchInAVertexCross) {
 }
 
 TEST(StitchErrors, VertexWithTwoFans) {
-  // A cube with its corner (1,1,1) pulled to (0,0,0) from inside: two fans of one component meet there.
+  // A cube with its corner (1,1,1) moved to (0,0,0) from inside: two triangle fans of one component meet there.
   SurfaceSoup soup = soup_of(cube(2));
   for (Vec3& p : soup.points)
     if (p == Vec3{0.5, 0.5, 1.0}) p = {0.5, 0.5, 0.0};
@@ -118,7 +118,7 @@ TEST(StitchErrors, MoebiusStrip) {
   soup.source = "strip.stl";
   const int n = 24;
   const auto at = [&](int i, double side) {
-    // After one turn the two sides have changed places, exactly.
+    // After one turn the two sides have changed positions, exactly.
     if (i == n) {
       i = 0;
       side = -side;
@@ -157,7 +157,7 @@ TEST(StitchErrors, FlatFacetThatCannotBeFlipped) {
   soup.patch_names = {""};
   soup.source = "pocket.stl";
   const Vec3 p{0, 0, 0}, q{2, 0, 0}, r{1, 0, 0}, d{1, 1, 0};
-  // Closed: flat (p, r, q), and the triangle (p, q, d) twice over: once whole, once split at r.
+  // Closing facets: flat (p, r, q), and the triangle (p, q, d) twice: once whole, once split at r.
   add_facet(soup, p, q, r);
   add_facet(soup, q, p, d);
   add_facet(soup, p, r, d);

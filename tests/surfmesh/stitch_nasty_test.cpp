@@ -1,4 +1,4 @@
-// Every real surface: the nasty ones get the verdict of tests/data/nasty_surfaces.tsv, the clean ones are accepted with the triangles they came with.
+// Every real surface: defective files get the verdict of tests/data/nasty_surfaces.tsv; clean files are accepted with their triangles unchanged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::vector<Expected> expectations() {
   return rows;
 }
 
-/// One row of the closing table, to the test's own output.
+/// Prints one row of the final table to the test's output.
 void print_row(const std::string& file, const std::string& verdict, std::int64_t n_places, double seconds, const surfmesh::StitchResult& result) {
   std::cout << "| " << file << " | " << verdict << " | " << n_places << " | " << result.mesh.n_triangles() << " | " << result.mesh.n_vertices() << " | "
             << result.report.n_components << " | " << result.report.n_flipped << " | " << seconds << " |\n";

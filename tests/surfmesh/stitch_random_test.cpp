@@ -1,4 +1,4 @@
-// Random damage: whatever comes in, either a surface that fulfils the contract or an Error with a place comes out.
+// Random damage: the result is either a surface that fulfils the contract or an Error with a location.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -9,7 +9,7 @@
 namespace sterna::test {
 namespace {
 
-/// Stitches; returns the verdict, checks the contract either way.
+/// Stitches and returns the verdict; checks the contract in either case.
 std::string verdict_of(const std::vector<SurfaceSoup>& soups, const surfmesh::StitchOptions& options = {}) {
   try {
     const auto result = stitch(soups, options, 1);
@@ -27,7 +27,7 @@ std::string verdict_of(const std::vector<SurfaceSoup>& soups, const surfmesh::St
 }
 
 TEST(StitchRandom, FacetsOnALatticeOfFewPoints) {
-  // Nearly everything degenerates: repeated vertices, copies, collinear and coplanar facets, crowded edges.
+  // Nearly every configuration is degenerate: repeated vertices, copies, collinear and coplanar facets, edges with many facets.
   std::map<std::string, int> verdicts;
   for (unsigned seed = 0; seed < 3000; ++seed) {
     std::mt19937 random(seed);
@@ -60,7 +60,7 @@ SurfaceSoup with_flat_facets(const TriMesh& mesh, std::mt19937& random, int n) {
     const Vec3 r = 0.5 * (p + q);  // exact: coordinates are few bits
     facets[t] = {p, r, apex};
     facets.push_back({r, q, apex});
-    facets.push_back({q, r, p});  // fills the slit between p-r-q and the neighbour's edge q-p
+    facets.push_back({q, r, p});  // fills the gap between p-r-q and the neighbour's edge q-p
   }
   SurfaceSoup soup;
   soup.patch_names = {""};
@@ -81,10 +81,10 @@ TEST(StitchRandom, SlitsFilledByFlatFacetsCloseWithoutMovingTheSurface) {
       expect_stitched(result);
       EXPECT_NEAR(volume(result), 1.0, 1e-14);
       EXPECT_NEAR(area(result), 6.0, 1e-13);
-      EXPECT_LE(result.n_triangles(), soup.triangles.size());  // slits on both sides of an edge are copies of each other and go
+      EXPECT_LE(result.n_triangles(), soup.triangles.size());  // flat facets on both sides of an edge are copies of each other and are removed
       ++n_valid;
     } catch (const Error& error) {
-      // A slit in a slit can fold: then two of its facets are copies or the same vertex is met twice, which has its own verdict.
+      // A flat facet in a flat facet can fold: two of its facets are then copies, or a vertex is visited twice, which has a verdict of its own.
       EXPECT_TRUE(error.code() == ErrorCode::non_manifold_surface || error.code() == ErrorCode::self_intersection) << error.what();
     }
   }

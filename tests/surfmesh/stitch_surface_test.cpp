@@ -1,4 +1,4 @@
-// Stitching of small shapes made by hand: repairs, orientation, names, determinism.
+// Stitching of small hand-made shapes: repairs, orientation, names, determinism.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -148,7 +148,7 @@ TEST(Stitch, DisjointAndNestedBodies) {
   const double v = volume(sphere(4, 1.0));
   {
     const auto [mesh, report] = stitch({outer, shifted(inner, {5, 0, 0})});
-    EXPECT_NEAR(volume(mesh), 9.0 * v, 1e-12);  // both outward
+    EXPECT_NEAR(volume(mesh), 9.0 * v, 1e-12);  // both bodies outward
     EXPECT_EQ(report.n_components, 2);
   }
   for (const bool inner_first : {false, true})
@@ -157,7 +157,7 @@ TEST(Stitch, DisjointAndNestedBodies) {
         SurfaceSoup o = is_outer_turned ? inside_out(outer) : outer, i = is_inner_turned ? inside_out(inner) : inner;
         const auto [mesh, report] = inner_first ? stitch({i, o}) : stitch({o, i});
         expect_stitched(mesh);
-        EXPECT_NEAR(volume(mesh), 7.0 * v, 1e-12);  // a cavity whatever the file's sense
+        EXPECT_NEAR(volume(mesh), 7.0 * v, 1e-12);  // a cavity, for either orientation in the file
         EXPECT_THAT(report.messages, Contains(HasSubstr("a cavity in it")));
       }
   EXPECT_NEAR(volume(stitch({outer, core, inner}).mesh), 7.125 * v, 1e-12);  // a body in the cavity
@@ -176,7 +176,7 @@ TEST(Stitch, CopiesOfFacetsAreRemoved) {
     EXPECT_THAT(report.messages, Contains("removed 3 copies of facets"));
   }
   {
-    const auto [mesh, report] = stitch({joined(soup, inside_out(soup))});  // a skin with two sides
+    const auto [mesh, report] = stitch({joined(soup, inside_out(soup))});  // a surface with two sides
     expect_stitched(mesh);
     EXPECT_EQ(mesh.n_triangles(), 48u);
     EXPECT_EQ(report.n_duplicate_removed, 48);
@@ -184,7 +184,7 @@ TEST(Stitch, CopiesOfFacetsAreRemoved) {
 }
 
 TEST(Stitch, DoubledMembraneAndFinWithoutThicknessAreRemoved) {
-  // Two unit cubes that share a face, the face written by both.
+  // Two unit cubes that share a face; both write the face.
   const SurfaceSoup two = joined(soup_of(cube(2)), shifted(soup_of(cube(2)), {1, 0, 0}));
   const auto [mesh, report] = stitch({two});
   expect_stitched(mesh);
@@ -210,7 +210,7 @@ TEST(Stitch, FacetsWithRepeatedVertexAreRemoved) {
   EXPECT_THAT(report.messages, Contains("removed 2 facets with a repeated vertex"));
 }
 
-/// A cube whose edge (0,0,0)-(1,0,0) has `n` extra vertices on one side only, filled by flat facets as a fan at the origin or as a strip.
+/// Returns a cube whose edge (0,0,0)-(1,0,0) has `n` extra vertices on one side only; flat facets fill the gap, as a fan at the origin or as a strip.
 SurfaceSoup cube_with_flat_facets(int n, bool as_fan) {
   SurfaceSoup soup;
   soup.patch_names = {""};
@@ -264,7 +264,7 @@ TEST(Stitch, FlatFacetsAreFlippedAway) {
 }
 
 TEST(Stitch, NearVerticesAreWeldedWhereThatCloses) {
-  // Rounding noise of 1e-12 on a sphere: closed only by the automatic tolerance.
+  // Rounding noise of 1e-12 on a sphere: only the automatic tolerance closes the surface.
   std::mt19937 random(3);
   const auto noise = [&] { return 1e-12 * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
   SurfaceSoup soup = soup_of(sphere(5));
@@ -300,8 +300,7 @@ TEST(Stitch, SmallFeaturesSurviveAutomaticWelding) {
   EXPECT_EQ(report.n_welded_near, 0);
 }
 
-/// Four facets of 5e-16 m^2 in all, like those that cutting had left beside an airliner (afem_777 of the shared data): no engine could fill what is around
-/// them.
+/// Four facets of 5e-16 m^2 in total, like those left after cutting an airliner (afem_777 of the shared data): no engine could fill the region around them.
 TEST(Stitch, ClosedPartsAsThinAsALineAreDropped) {
   const Point a{22.4296329915802, -4.474867651151561, -1.4976376603496493}, b{22.531284837491143, -4.620135054854733, -1.4720450933317415},
       c{22.497628296598837, -4.572037568092529, -1.4805186952684144}, d{22.564713814461207, -4.667907337289712, -1.4636287844513693};

@@ -63,7 +63,7 @@ TEST(Alongside, IsStoppedWhenItIsNotWanted) {
     });
     while (!has_started) std::this_thread::yield();
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // it would never end
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // without cancellation the loop would never end
 }
 
 }  // namespace

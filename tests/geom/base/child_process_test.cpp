@@ -1,4 +1,4 @@
-// Starting programs: words, descriptors, output, current folder, end and kill of the whole group.
+// Child processes: arguments, descriptors, output, working directory, exit status, and killing the whole process group.
 #include "geom/base/child_process.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(ChildProcess, WhatAChildHasStartedIsGoneWithTheObject) {
     EXPECT_EQ(text, "begun\n");
     EXPECT_FALSE(child.ended());
   }
-  // The pipe ends only when the last of the group has gone; the test's time limit is shorter than the sleep.
+  // The pipe closes only when the last process of the group has ended; the test's time limit is shorter than the sleep.
   const auto begin = std::chrono::steady_clock::now();
   std::string rest;
   while (read_some(pipe.read_end.value, rest)) {

@@ -1,4 +1,4 @@
-// Sets by joins against a brute-force labelling.
+// Disjoint sets built by joins, compared with a brute-force labelling.
 #include "geom/base/disjoint_sets.h"
 
 #include <gtest/gtest.h>

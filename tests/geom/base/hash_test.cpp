@@ -12,7 +12,7 @@ namespace {
 TEST(HashFile, MatchesXxhsumAndSeesEveryByte) {
   const auto path = test::scratch() / "file";
   std::ofstream(path) << "";
-  EXPECT_EQ(hash_file(path), "99aa06d3014798d86001c324468d497f");  // XXH3-128 of nothing, from the library's own specification
+  EXPECT_EQ(hash_file(path), "99aa06d3014798d86001c324468d497f");  // XXH3-128 of empty input, from the library's specification
   std::string text(3'000'000, 'x');
   std::ofstream(path) << text;
   const std::string before = hash_file(path);
@@ -27,14 +27,14 @@ TEST(HashFile, OfSeveralFilesIsThatOfTheListOfTheirs) {
   std::ofstream(folder / "a") << "";
   std::ofstream(folder / "b") << "";
   const std::string empty = "99aa06d3014798d86001c324468d497f";
-  std::ofstream(folder / "list") << empty << "  a\n" << empty << "  b\n";  // what `xxhsum -H2 a b` prints
+  std::ofstream(folder / "list") << empty << "  a\n" << empty << "  b\n";  // the output of `xxhsum -H2 a b`
   const std::vector<std::filesystem::path> files{folder / "a", folder / "b"}, turned{folder / "b", folder / "a"};
   EXPECT_EQ(hash_files(files), hash_file(folder / "list"));
   EXPECT_NE(hash_files(turned), hash_files(files));
 }
 
 TEST(HashBytes, MatchesXxhsum) {
-  EXPECT_EQ(hash_bytes(""), 0x2d06800538d394c2u);  // XXH3-64 of nothing, from the library's own specification
+  EXPECT_EQ(hash_bytes(""), 0x2d06800538d394c2u);  // XXH3-64 of empty input, from the library's specification
   EXPECT_NE(hash_bytes("a"), hash_bytes("b"));
 }
 
@@ -53,7 +53,7 @@ TEST(HashFile, AMissingFileIsAnError) {
 }
 
 TEST(HashFile, AFileThatCannotBeReadGivesTheReason) {
-  // Opens like a file and fails to be read at its start.
+  // This file opens normally, but reading its start fails.
   test::expect_error(ErrorCode::file_malformed, "/proc/self/mem: reading failed half-way: Input/output error", [&] { (void)hash_file("/proc/self/mem"); });
 }
 

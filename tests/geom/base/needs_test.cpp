@@ -1,4 +1,4 @@
-// STERNA_NEEDS itself: what is absent skips a test, or fails it where nothing may be absent.
+// STERNA_NEEDS itself: an absent requirement skips the test, or fails the test where every requirement must be present.
 #include <gtest/gtest-spi.h>
 
 #include <cstdlib>

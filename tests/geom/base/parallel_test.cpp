@@ -24,7 +24,7 @@ TEST(Parallel, EveryIndexOnceForAnyThreadCount) {
   }
 }
 
-/// Different threads that took part in a loop whose chunks wait until `wanted` threads are inside it, or 20 s are over.
+/// Number of different threads in a loop whose chunks wait until `wanted` threads are inside the loop or 20 s have passed.
 std::size_t threads_inside(const RunContext& context, std::size_t wanted) {
   std::mutex mutex;
   std::condition_variable arrival;
@@ -138,7 +138,7 @@ TEST(CompensatedSum, KeepsSmallTermsBesideLargeOnes) {
   EXPECT_EQ(sum.value(), 1000.0);
 }
 
-/// A stage's record has the processor's seconds of the whole process; of two threads one that works is half.
+/// A stage's record holds the CPU seconds of the whole process; if one of two threads works, the threads are half busy.
 TEST(StageTimer, TellsHowBusyTheThreadsWere) {
   const RunContext context({.threads = 2});
   {

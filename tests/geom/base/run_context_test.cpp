@@ -1,4 +1,4 @@
-// What a run says while it takes long.
+// Reports of a run during long steps.
 #include "geom/base/run_context.h"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ TEST(RunContext, StepsThatTakeLongSaySoEachTimeTheyHaveTakenTwiceAsLong) {
   work_for(step, 0.3);
   EXPECT_GT(warnings.size(), n);
   EXPECT_LE(warnings.size(), 4u);  // at 0.05, 0.1, 0.2, 0.4 s; fewer on a busy machine
-  // The next step speaks for itself, however long the one before was silent.
+  // The next step reports on its own, however long the previous step was silent.
   warnings.clear();
   work_for(context.part("improve", 0.0, 1.0), 0.07);
   ASSERT_EQ(warnings.size(), 1u);

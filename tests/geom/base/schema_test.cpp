@@ -32,7 +32,7 @@ TEST(Schema, WholeNumbersMayBeAutomatic) {
   set_option_from_text(layers, "automatic");
   EXPECT_TRUE(is_automatic(options.layers));
   EXPECT_NE(options_to_json(table).find("\"layers\": \"automatic\""), std::string::npos);
-  // The number that stands for it is none of the user's, and other whole numbers cannot be automatic.
+  // Users cannot enter the number that represents "automatic", and other integer options cannot be automatic.
   EXPECT_EQ(test::error_of([&] { set_option(layers, std::int64_t{k_automatic_count}); }).code(), ErrorCode::bad_argument);
   EXPECT_EQ(test::error_of([&] { set_option_from_text(find_option(table, "height_sweeps", "test"), "automatic"); }).code(), ErrorCode::bad_argument);
 }

@@ -1,4 +1,4 @@
-// Closed bodies for the tests of unions, and what every union must fulfil.
+// Closed bodies for the tests of unions, and the requirements for every union.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ inline TriMesh stretched(TriMesh mesh, const Vec3& scale) {
   return mesh;
 }
 
-/// Turned about z, then about x (rad).
+/// Returns the mesh rotated about z, then about x (rad).
 inline TriMesh turned(TriMesh mesh, double about_z, double about_x) {
   for (Point& p : mesh.points) {
     p = {std::cos(about_z) * p.x - std::sin(about_z) * p.y, std::sin(about_z) * p.x + std::cos(about_z) * p.y, p.z};
@@ -40,7 +40,7 @@ inline TriMesh turned(TriMesh mesh, double about_z, double about_x) {
   return mesh;
 }
 
-/// Along x from 0 to `length`, n facets around, m rings, ends closed by fans.
+/// Returns a cylinder along x from 0 to `length`, with n facets around, m rings, and caps of triangle fans.
 inline TriMesh cylinder(double radius, double length, int n, int m) {
   TriMesh mesh;
   mesh.patches = {Patch{.name = "cylinder"}};
@@ -75,8 +75,7 @@ inline double volume(const TriMesh& mesh) {
 
 inline RunContext quiet(int threads = 2) { return RunContext({.threads = threads}); }
 
-/// The contract's
-/// \post.
+/// Checks the postconditions of the contract.
 inline void expect_wall(const TriMesh& mesh) {
   const RunContext context = quiet();
   const Topology topology(mesh, context);  // throws when not manifold or not consistently oriented
@@ -110,7 +109,7 @@ inline ErrorInfo union_error(const std::vector<TriMesh>& bodies) {
     unite(bodies);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
-    info.attempted = error.what();  // the whole text, for tests of the wording
+    info.attempted = error.what();  // the whole message, for tests of the wording
     return info;
   }
   ADD_FAILURE() << "the union was made";

@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Cuts and flips of plane faces move vertices by rounding only.
+/// Cutting and flipping plane faces moves vertices by rounding only.
 constexpr double k_rounding = 1e-12;
 
 TEST(UniteMeshes, CubesThatOverlapHaveTheVolumeOfBothMinusTheCommon) {
@@ -89,7 +89,7 @@ TEST(UniteMeshes, ScaleAndPlaceDoNotMatter) {
   for (const double scale : {1e-6, 1e3})
     for (const Vec3& by : {Vec3{}, Vec3{1e3 * scale, -2e3 * scale, 500 * scale}}) {
       const UnionResult result = unite({shifted(a, by, scale), shifted(b, by, scale)});
-      // Remeshing decides by rounded lengths and may choose otherwise; it stays within its deviation.
+      // Remeshing decides by rounded lengths and may choose otherwise; the result stays within the permitted deviation.
       EXPECT_NEAR(volume(result.mesh) / (scale * scale * scale), v, 0.01 * v);
       EXPECT_LT(result.report.after.n_slivers, result.report.before.n_slivers + 1);
     }
@@ -113,11 +113,11 @@ TEST(UniteMeshes, AStingKeepsPatchesAndTheSurfaceAwayFromTheCurve) {
   ASSERT_EQ(result.mesh.patches.size(), 2u);
   EXPECT_EQ(result.mesh.patches.raw()[0].name, "body");
   EXPECT_EQ(result.mesh.patches.raw()[1].name, "sting");
-  // Where the curve itself has a short edge with a bend in it, a thin triangle may stay.
+  // A thin triangle may remain where the intersection curve itself has a short edge with a kink.
   EXPECT_GT(result.report.before.n_slivers, 20);
   EXPECT_LE(result.report.after.n_slivers, 2);
   EXPECT_GT(result.report.after.min_angle, 0.03);
-  // Far from the curve (near x = 1.9) every triangle is one of the input.
+  // Far from the intersection curve (near x = 1.9) every triangle is a triangle of the input.
   std::set<std::array<double, 3>> input;
   for (const TriMesh& mesh : {body, sting})
     for (const Point& p : mesh.points) input.insert({p.x, p.y, p.z});
@@ -138,7 +138,7 @@ TEST(UniteMeshes, AStingKeepsPatchesAndTheSurfaceAwayFromTheCurve) {
 }
 
 TEST(UniteMeshes, LengthsAreGradedFromASmallBodyToALargeFace) {
-  // Half sunk: some of the rod's vertices lie in the floor's plane, and others 6e-18 beside it.
+  // Half-sunk rod: some vertices of the rod lie in the floor's plane, others 6e-18 beside the plane.
   const UnionResult result = unite({named(shifted(cube(1), {-0.5, -0.5, -1}), "floor"), named(cylinder(0.05, 0.5, 16, 8), "rod")});
   const UnionResult stands = unite({named(shifted(cube(1), {-0.9, -0.45, -0.55}), "floor"), named(cylinder(0.05, 0.5, 16, 8), "rod")});
   for (const UnionResult* r : {&result, &stands}) {
@@ -147,7 +147,7 @@ TEST(UniteMeshes, LengthsAreGradedFromASmallBodyToALargeFace) {
   }
 }
 
-/// Strips of coarse pipes lose 1 % of the volume within the permitted distance.
+/// Remeshed strips along coarse pipes lose 1 % of the volume within the permitted distance.
 TEST(UniteMeshes, StripsThatChangeTheGeometryAreAWarning) {
   const TriMesh main_pipe = named(cylinder(0.2, 2.0, 48, 4), "main"),
                 branch = named(shifted(turned(cylinder(0.12, 1.0, 48, 4), 1.57, 0.0), {1.0, 0, 0}), "branch");

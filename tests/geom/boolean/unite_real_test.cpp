@@ -1,4 +1,4 @@
-// Real surfaces whose parts cross: each ends in a wall that is meshed with layers to a VALID mesh, or in an error with its place.
+// Real surfaces whose parts cross. Each union is either a wall that is meshed with layers to a VALID mesh, or an error with its location.
 #include <gmock/gmock.h>
 
 #include "io/file/surface_file.h"
@@ -58,7 +58,7 @@ TEST(UniteReal, HubAndBladesOfAPropellerBecomeOneWall) {
   expect_valid_mesh(united.mesh, 20, 1e-5);
 }
 
-/// Of its 19 shells the body tube crosses itself where the nose joins it, at x = 933; nothing that is not a solid can be united.
+/// The surface has 19 shells. The shell of the body tube crosses itself where the nose joins it, at x = 933; only solids can be united.
 TEST(UniteReal, Martlet2NamesTheShellThatCrossesItself) {
   STERNA_NEEDS_SHARED_DATA();
   const ErrorInfo info = nasty_error("martlet_rocket_Martlet2.stl");

@@ -1,5 +1,5 @@
-// Faces on closed surfaces with holes: read from STEP files of other programs, written and read again, halved along their seams. Files of tests/data/cad, made
-// with gmsh; expected are measures of the BREP files that it wrote of the same shapes, where OpenCASCADE has no borders to guess.
+// Faces on closed surfaces with holes: read from STEP files of other programs, written and read again, halved along their seams. The files are those of
+// tests/data/cad, made with gmsh. Expected values are measures of the BREP files that gmsh wrote of the same shapes: there OpenCASCADE has no borders to guess.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -89,7 +89,7 @@ TEST(Sheets, SketchesBesideASolidAreLeftOutAndNamed) {
   EXPECT_EQ(read_closed("nacelle_sketches.brep.gz", named).report.n_faces, 16u);
 }
 
-// The solid of the box is the fluid: its normals point into it, those of the sphere away from the sphere's middle.
+// The solid of the box is the fluid: the box's normals point into the fluid, and the sphere's normals away from the sphere's centre.
 TEST(FluidInside, TurnsTheBoundaryOfTheSolid) {
   const double volume = 3.0 - 4.0 / 3.0 * std::numbers::pi * std::pow(0.2, 3);
   ReadCadOptions inside;

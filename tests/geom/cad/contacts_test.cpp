@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A round body along x with a blunt front and a domed end.
+/// Returns a body of revolution along x with a blunt front and a domed end.
 Model tube(const std::string& name, double radius, const Placement& placement = {}) {
   Body body{.name = name, .placement = placement};
   for (const double x : {0.0, 1.0, 2.5, 4.0}) body.frames.push_back({.name = "f", .center = {x, 0, 0}, .height = 2 * radius, .width = 2 * radius});
@@ -40,7 +40,7 @@ TEST(Contacts, PartsThatCrossAtRightAnglesRaiseNoDoubt) {
 }
 
 TEST(Contacts, ANearlyTangentJoinIsToldWithItsPlaceAndAngle) {
-  // Parallel tubes whose axes are 0.998 diameters apart: their skins cross at 2 acos(0.998) = 7.25 degrees.
+  // Parallel tubes whose axes are 0.998 diameters apart: their surfaces cross at 2 acos(0.998) = 7.25 degrees.
   const std::vector<Model> parts = {tube("low", 0.5), tube("high", 0.5, {.origin = {0.3, 0, 0.998}})};
   const PartContact contact = only_contact(parts);
   EXPECT_EQ(contact.kind, ContactKind::crossing);
@@ -91,7 +91,7 @@ TEST(Contacts, ArePartOfTheReportAndOfTheLogBeforeTheUnion) {
   EXPECT_NE(warnings.front().find("\"high\" and \"low\" are apart by 0.25 m"), std::string::npos) << warnings.front();
 }
 
-/// Two pods that almost coincide: their skins cross at angles of 1e-4 all along, which takes OpenCASCADE minutes.
+/// Two pods that almost coincide: their surfaces cross at angles of 1e-4 along the whole curve, which takes OpenCASCADE minutes.
 std::vector<Model> twins() { return {tube("pod", 0.5), tube("twin", 0.5, {.origin = {}, .rotation = {0.3, 1e-4, 0}})}; }
 
 double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
@@ -107,7 +107,7 @@ TEST(Unite, EndsWithinItsTimeLimit) {
     EXPECT_NE(text.find("\"pod\", \"twin\""), std::string::npos) << text;
     EXPECT_NE(text.find("took longer than the limit of 1 s"), std::string::npos) << text;
   }
-  EXPECT_LT(seconds_since(start), 10.0);  // a busy machine; alone it is 2
+  EXPECT_LT(seconds_since(start), 10.0);  // limit for a busy machine; 2 s on an idle machine
 }
 
 TEST(Unite, StopsSoonAfterItIsAskedTo) {
@@ -125,11 +125,11 @@ TEST(Unite, StopsSoonAfterItIsAskedTo) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::cancelled);
   }
-  EXPECT_LT(seconds_since(asked), 5.0);  // a busy machine; alone it is below 1
+  EXPECT_LT(seconds_since(asked), 5.0);  // limit for a busy machine; below 1 s on an idle machine
 }
 
 TEST(Unite, APairThatDoesNotUniteIsNamed) {
-  // With a tolerance beyond the wire's radius nothing is left of it that could be closed.
+  // With a tolerance above the wire's radius, nothing of the wire remains that could be closed.
   const std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "drum"), test::cylinder(0.5, 2.0, {0, 0, 1}, "pipe"),
                                     test::cylinder(0.02, 2.0, {0.8, 0, 1}, "wire")};
   try {

@@ -1,4 +1,4 @@
-// A closed cylinder made by hand of our own curves and surfaces: seam, two circles, two caps.
+// A closed cylinder built from sterna's own curves and surfaces: seam, two circles, two caps.
 #pragma once
 
 #include <memory>

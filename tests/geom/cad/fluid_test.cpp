@@ -30,7 +30,7 @@ double volume_of(const Model& model) {
   return volume;
 }
 
-/// Every edge is used twice, once in each direction: closed, and neighbours agree.
+/// Checks that the model is closed and consistently oriented: every edge is used twice, once in each direction.
 void expect_closed(const Model& model) {
   EXPECT_TRUE(free_edges(model).empty());
   std::map<EdgeId, int> sense;
@@ -58,7 +58,7 @@ TEST(FluidDomain, AStingThroughTheOutflowWallIsCutOffThere) {
     const std::vector<Model> bodies = {sting};
     const FluidDomain fluid = cad::fluid_domain(tunnel(), bodies, {}, RunContext());
     expect_closed(fluid.model);
-    // What is cut off at a slant is as long as the axis.
+    // A cylinder cut at a slant has the volume of a straight cylinder of its axis length.
     EXPECT_NEAR(fluid.report.volume, 16.0 - 0.01 * pi * 2.0 / std::cos(pitch), 1e-4) << pitch;
     EXPECT_NEAR(volume_of(fluid.model), -fluid.report.volume, 1e-9);
     EXPECT_EQ(fluid.report.cut, std::vector<std::string>{"sting"});
@@ -96,7 +96,7 @@ TEST(FluidDomain, AStrutStandsOnTheFloorOrPassesThroughIt) {
     EXPECT_NEAR(fluid.report.volume, 16.0 - 0.01 * pi, 1e-4) << foot;
     std::size_t n_holes = 0;
     for (const ModelFace& face : fluid.model.faces) n_holes += face.borders.size() - 1;
-    EXPECT_EQ(n_holes, 1u);  // the foot is no face of the fluid, the floor has a hole
+    EXPECT_EQ(n_holes, 1u);  // the base of the body is no face of the fluid; the floor has a hole
   }
 }
 
@@ -114,7 +114,7 @@ TEST(FluidDomain, AWingOnASideWallLosesItsOtherHalf) {
   wing.sections = {section(0.9, 0.4), section(0.0, 0.6)};
   const Model span = make_wing(wing);
   const double whole = volume_of(span);
-  // Its plane of symmetry is the wall.
+  // The wall is the body's plane of symmetry.
   const std::vector<Model> bodies = {transformed(span, translation({0, -1, 0}))};
   const FluidDomain fluid = cad::fluid_domain(tunnel(), bodies, {}, RunContext());
   expect_closed(fluid.model);

@@ -26,7 +26,7 @@ double area_of(const Model& model) {
   return area;
 }
 
-/// Free edges are there, and exactly in the plane, with their ends; the rest is on one side.
+/// Checks that free edges exist and lie exactly in the plane with their end points, and that all other points are on one side.
 void expect_half(const Model& model, std::size_t axis = 1, double at = 0.0) {
   const std::vector<EdgeId> rim = free_edges(model);
   EXPECT_FALSE(rim.empty());
@@ -42,7 +42,7 @@ void expect_half(const Model& model, std::size_t axis = 1, double at = 0.0) {
 }
 
 TEST(HalfModel, ABodyAcrossThePlaneIsCut) {
-  const Model rod = make_cylinder("rod", {0, -1, 0.5}, {0, 2, 0.5}, 0.25);  // its mantle crosses y = 0
+  const Model rod = make_cylinder("rod", {0, -1, 0.5}, {0, 2, 0.5}, 0.25);  // its lateral surface crosses y = 0
   const HalfModel half = cad::half_model(rod, {}, RunContext());
   expect_half(half.model);
   EXPECT_EQ(half.report.n_faces_cut, 2u);
@@ -67,7 +67,7 @@ TEST(HalfModel, AlongOtherPlanes) {
 TEST(HalfModel, EdgesInThePlaneNeedNoCut) {
   const Model ball = test::cylinder(0.5, 2.0, {0, 0, 0}, "post");
   const Model box = make_box("box", {0, 0, 0}, {1, 1, 1});
-  // Two boxes that share the plane, as symmetric components do.
+  // Two boxes that share the symmetry plane, as symmetric components do.
   const std::vector<Model> halves = {box, transformed(box, translation({0, -1, 0}))};
   Model both = halves[0];
   append(both, halves[1]);
@@ -88,7 +88,7 @@ TEST(HalfModel, AHalfModelIsTakenAsItIs) {
   EXPECT_TRUE(open.report.was_half);
   expect_half(open.model);
   EXPECT_EQ(open.model.faces.size(), closed.model.faces.size());
-  // A little off: into the plane.
+  // A closing face slightly off the plane is moved into the plane.
   const HalfModel near = cad::half_model(transformed(closed.model, translation({0, 5e-7, 0})), {}, RunContext());
   expect_half(near.model);
   EXPECT_NEAR(near.report.largest_shift, 5e-7, 1e-12);

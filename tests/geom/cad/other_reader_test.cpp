@@ -1,4 +1,4 @@
-// What we write, read by another program: gmsh's own import with its own settings.
+// CAD files written by sterna, read by another program: gmsh's own import with its own settings.
 #include <gmock/gmock.h>
 
 #include <sys/wait.h>
@@ -17,10 +17,10 @@
 namespace sterna {
 namespace {
 
-/// A line of read_with_gmsh.py; nothing without that Python module.
+/// Returns a line of read_with_gmsh.py, or nothing if that Python module is missing.
 std::optional<std::string> read_with_gmsh(const std::filesystem::path& file) {
   const std::string command = "/usr/bin/python3 '" + test::source_folder().string() + "/tests/geom/cad/read_with_gmsh.py' '" + file.string() +
-                              "' 2>&1";  // Debian's own: another on PATH lacks gmsh
+                              "' 2>&1";  // Debian's own Python: another one on PATH lacks gmsh
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   std::string output;
   char piece[4096];
@@ -47,7 +47,7 @@ TEST(OtherReader, GmshReadsTheSolidWithItsMeasuresAndNames) {
     const std::size_t at = output->find("result ");
     ASSERT_NE(at, std::string::npos) << *output;
     std::istringstream line(output->substr(at + std::string("result ").size()));
-    const double unit = std::string(extension) == "brep" ? 1.0 : 1e-3;  // gmsh reads what has a unit in millimetres
+    const double unit = std::string(extension) == "brep" ? 1.0 : 1e-3;  // gmsh reads files with a length unit in millimetres
     std::size_t n_solids = 0, n_faces = 0;
     double volume = 0.0, area = 0.0;
     std::string names;
@@ -59,7 +59,7 @@ TEST(OtherReader, GmshReadsTheSolidWithItsMeasuresAndNames) {
     EXPECT_NEAR(area * unit * unit, 2.0 * std::numbers::pi * r * (h + r), 1e-6);
     if (std::string(extension) != "step") continue;
     EXPECT_THAT(names, testing::HasSubstr("can"));
-    // gmsh 4.8 shows names of solids alone; those of faces stand in the file itself.
+    // gmsh 4.8 reports names of solids only; names of faces are in the file itself.
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
     for (const char* name : {"can side", "can top", "can bottom"}) EXPECT_THAT(text.str(), testing::HasSubstr("ADVANCED_FACE('" + std::string(name) + "'"));

@@ -11,7 +11,7 @@ namespace {
 
 CadFile read(const std::string& name, const ReadCadOptions& options = {}) { return io::read_cad(test::shared_data() / "cad" / name, options, RunContext()); }
 
-/// Borders run head to tail, and the curves of an edge in space and in its faces meet, within the edge's own tolerance.
+/// Checks that borders run head to tail, and that an edge's curves in space and in its faces agree within the edge's tolerance.
 void expect_consistent(const Model& model) {
   for (const FaceId f : model.faces.ids()) {
     const ModelFace& face = model.faces[f];
@@ -28,7 +28,7 @@ void expect_consistent(const Model& model) {
         for (const double share : {0.0, 0.31, 1.0}) {
           const double t = edge.range.from + share * edge.range.length();
           EXPECT_LE(distance(edge.curve->point(t), face.surface->point(use.parameter->point(t))),
-                    1.5 * edge.tolerance + 1e-7)  // between the places where it was measured it may be a little more
+                    1.5 * edge.tolerance + 1e-7)  // between the sampled points the deviation may be slightly larger
 
               << "face " << f.index() << " (" << face.surface->kind() << ") edge " << use.edge.index() << " at " << format_point(edge.curve->point(t));
         }

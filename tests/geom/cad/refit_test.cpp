@@ -1,4 +1,4 @@
-// Models without exact form, deformed ones above all: exported by splines to a tolerance that is told, closed and with their names.
+// Models without exact form, mainly deformed models: exported as splines to a reported tolerance, closed and with their names.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace sterna {
 namespace {
 
-/// A wing box tip of 5 m that bends up by 0.4 m and twists.
+/// A map that bends the tip of a 5 m wing box up by 0.4 m and twists the box.
 SpaceMapPtr bending() {
   return std::make_shared<FunctionMap>(
       [](const Point& p) {
@@ -61,7 +61,7 @@ void expect_same_body(const Model& model, const Export& file, double tolerance) 
   EXPECT_EQ(file.again.report.n_closed, model.solids.size());
   const BodyMeasures before = model_measures(model, RunContext()).total, after = model_measures(file.again.model, RunContext()).total;
   EXPECT_NEAR(after.volume, before.volume, tolerance * before.area);
-  // Borders may move by the tolerances of surface and curve all along: their length is about ten times the root of the area.
+  // Borders may move by the tolerances of surface and curve along their whole length, which is about ten times the root of the area.
   EXPECT_NEAR(after.area, before.area, 2.0 * tolerance * 10.0 * std::sqrt(before.area));
 }
 
@@ -78,7 +78,7 @@ TEST(Refit, ABentWingIsExportedClosedWithItsNames) {
     const Export file = exported(bent, cad::CadFormat::step, options);
     EXPECT_THAT(file.log, testing::HasSubstr("have no exact form; splines within"));
     EXPECT_EQ(names_of(file.again.model), names_of(bent));
-    EXPECT_EQ(file.again.model.edges.size(), bent.edges.size());  // what faces share is shared still
+    EXPECT_EQ(file.again.model.edges.size(), bent.edges.size());  // shared edges stay shared
     expect_same_body(bent, file, tolerance);
   }
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_radius = 0.3, k_height = 2.0;
 
-/// Measures are integrated to 1e-8.
+/// Tolerance of measures, which are integrated to 1e-8.
 constexpr double k_measured = 1e-7;
 
 TEST(CadShape, ACylinderOfOurSurfacesIsAValidSolid) {

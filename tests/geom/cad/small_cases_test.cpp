@@ -1,4 +1,4 @@
-// Small CAD files of tests/data/cad, each with one fault or feature (its README says which), and what becomes of them.
+// Small CAD files of tests/data/cad, each with one fault or feature (see the README there), and the result of reading each.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ TEST(SmallCadCases, AGapIsSewn) {
   EXPECT_TRUE(file.report.faults.empty());
   EXPECT_EQ(count(file.report, "edges of two faces joined"), 12u);
   EXPECT_NEAR(volume(file), 1.0, 4e-6);
-  // A tolerance below the gap leaves it, in the open and with its place.
+  // A tolerance below the gap leaves the gap open and reports its location.
   ReadCadOptions options;
   options.sew_tolerance = 1e-6;
   const CadFile open = read_small("box_gap.brep", options);
@@ -81,7 +81,7 @@ TEST(SmallCadCases, EdgesThatShareTheirEndsAreOne) {
   ASSERT_EQ(file.report.openings.size(), 1u);
   EXPECT_TRUE(file.report.openings.front().is_loop);
   EXPECT_FALSE(file.report.openings.front().is_flat);
-  EXPECT_GT(file.report.mended.front().value, 0.003);  // the gap is told
+  EXPECT_GT(file.report.mended.front().value, 0.003);  // the gap width is reported
 }
 
 TEST(SmallCadCases, MillimetresBecomeMetres) {
@@ -91,7 +91,7 @@ TEST(SmallCadCases, MillimetresBecomeMetres) {
   EXPECT_EQ(file.model.components[ComponentId(0)].name, "block 1");  // OpenCASCADE numbers the products that it writes
 }
 
-/// A wedge of chord 1 and the given span that ends in a strip.
+/// Returns a wedge of chord 1 and the given span with a blunt end: a strip of the given height.
 Model wedge(double span, double thickness, double strip) {
   ModelBuilder builder({.name = "wedge"});
   std::array<CornerId, 4> left, right;
@@ -114,7 +114,7 @@ Model wedge(double span, double thickness, double strip) {
 }
 
 TEST(SmallCadCases, MendingKeepsTheVolumeOfAThinWing) {
-  // The strip is 5e-7 of the area, and without it 2e-5 of the volume would be open.
+  // The strip is 5e-7 of the area; removing the strip would leave a gap of 2e-5 of the volume.
   const Model model = wedge(20.0, 0.02, 1e-6);
   const BodyMeasures before = model_measures(model, RunContext()).total;
   const CadFile again =

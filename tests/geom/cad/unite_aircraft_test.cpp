@@ -51,7 +51,7 @@ TEST(SplitSolids, LooseFacesAreRefusedWithTheirPlace) {
 }
 
 TEST(UniteHalves, ThatMeetInThePlaneOfSymmetryAreOneBody) {
-  // A swept wing: an edge along its root remains, no face does.
+  // A swept wing: an edge remains along its root, but no face.
   const auto section = [](double y, double chord, double x) {
     WingSection s{.name = "s", .leading_edge = {x, y, 0.0}, .chord = chord};
     for (int i = 0; i <= 80; ++i) {
@@ -104,7 +104,7 @@ TEST_P(UniteAircraft, IsClosedAndTheSameFromStep) {
   EXPECT_NEAR(after.volume, before.volume, 1e-6 * before.volume);
 }
 
-// The others are in tests/bench/aircraft_union_main.cpp.
+// The other aircraft are in tests/bench/aircraft_union_main.cpp.
 INSTANTIATE_TEST_SUITE_P(Corpus, UniteAircraft,
                          testing::Values(std::pair("smx/torture.smx", 1u), std::pair("smx/underwingnacelle.smx", 1u), std::pair("smx/delta.smx", 1u),
                                          std::pair("cpacs/simpletest.cpacs.xml", 1u), std::pair("cpacs/canards.xml", 1u),

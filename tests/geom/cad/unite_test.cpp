@@ -14,7 +14,7 @@ TEST(Unite, CylindersThatOverlapAreOneBodyOfKnownVolume) {
   std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "thick"), test::cylinder(0.5, 2.0, {0, 0, 1}, "thin")};
   parts[1].faces[FaceId(0)].role = FaceRole::nozzle;
   const UniteResult result = cad::unite(parts, {}, RunContext());
-  const double expected = pi * 2.0 + pi * 0.25;  // the thin one sticks out by 1
+  const double expected = pi * 2.0 + pi * 0.25;  // the thin cylinder sticks out by 1
   EXPECT_NEAR(result.report.volume, expected, 1e-6 * expected);
   EXPECT_EQ(result.report.n_bodies, 1u);
   EXPECT_NEAR(result.report.sum_of_volumes, 2.5 * pi, 1e-5);
@@ -31,7 +31,7 @@ TEST(Unite, CylindersThatOverlapAreOneBodyOfKnownVolume) {
       EXPECT_EQ(face.surface, parts[0].faces[FaceId(0)].surface);
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{"thick side", "thick top", "thick bottom", "thin side", "thin top"}));  // the bottom of the thin one is inside
+  EXPECT_EQ(names, (std::set<std::string>{"thick side", "thick top", "thick bottom", "thin side", "thin top"}));  // the thin bottom is inside
   EXPECT_EQ(components, (std::set<std::string>{"thick", "thin"}));
 }
 

@@ -72,7 +72,7 @@ TEST(InsertionOrder, IsAPermutationThatStaysNear) {
   const std::size_t n = 100000;
   const std::vector<Vec2> points = random_points(n, 21);
   std::vector<std::uint32_t> order = insertion_order(points);
-  // The last round is a half of all points along one curve: the mean step is about the spacing of n / 2 points, 0.0045; a curve with jumps has far more.
+  // The last round is half of all points along one curve. The mean step is about the spacing of n / 2 points, 0.0045; a curve with jumps has a far longer step.
   double way = 0.0;
   for (std::size_t i = n - n / 4; i < n; ++i) way += std::hypot(points[order[i]].x - points[order[i - 1]].x, points[order[i]].y - points[order[i - 1]].y);
   EXPECT_LT(way / static_cast<double>(n / 4), 1.5 * 0.0045);
@@ -96,7 +96,7 @@ TEST(Planar, RandomPointsHaveEmptyCircles) {
 TEST(Planar, StructuredAndCocircularPointsAreHandledExactly) {
   expect_delaunay_of_hull(triangulate_plane(grid_points(60), {}, Extent::hull, k_context));
   expect_delaunay_of_hull(triangulate_plane(circle_points(1000, 1.0), {}, Extent::hull, k_context));
-  // Moved far away, rounding makes the points fall together and line up.
+  // Far from the origin, rounding makes points coincide and become collinear.
   for (const double shift : {1e3, 1e9, 1e14}) {
     std::vector<Vec2> points = random_points(2000, 7);
     for (Vec2& p : points) p = {p.x + shift, p.y + shift};
@@ -135,7 +135,7 @@ TEST(Planar, BordersWithHolesAndIslands) {
   const TriangulationCheck check = check_triangulation(result.mesh);
   EXPECT_TRUE(check.is_valid()) << check.text();
   EXPECT_EQ(check.n_not_delaunay, 0);
-  EXPECT_EQ(check.euler_number(), 0);  // two rings
+  EXPECT_EQ(check.euler_number(), 0);  // two annuli
   EXPECT_EQ(check.n_border_loops, 4);
   EXPECT_EQ(check.n_border_edges, 390);
   EXPECT_EQ(check.n_constrained, 390);
@@ -144,7 +144,7 @@ TEST(Planar, BordersWithHolesAndIslands) {
 }
 
 TEST(Planar, SegmentsThroughRandomPointsAreEdges) {
-  // A comb of segments that cross many edges of the triangulation, from side to side; every point on one splits it.
+  // A comb of segments from side to side that cross many edges of the triangulation; every point on a segment splits the segment.
   std::vector<Vec2> points = random_points(4000, 11);
   std::vector<Segment> segments;
   for (int i = 0; i < 20; ++i) {
@@ -164,7 +164,7 @@ TEST(Planar, SegmentsThroughRandomPointsAreEdges) {
 }
 
 TEST(Planar, SegmentsInRandomDirectionsThatDoNotCross) {
-  // Spokes: every segment goes from the circle to a ring within, past a crowd of points, so that spikes and repeated flips occur.
+  // Spokes: every segment goes from the circle to an inner ring, past a crowd of points, so that spikes and repeated flips occur.
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     std::vector<Vec2> points = random_points(300, seed);
     for (Vec2& p : points) p = {2 * p.x - 1, 2 * p.y - 1};
@@ -198,7 +198,7 @@ TEST(Planar, CrossingSegmentsAreAnErrorWithThePlace) {
 }
 
 TEST(Planar, OverlappingSegmentsAndTwiceTheSameBorder) {
-  // A square whose lower side is given in two overlapping pieces; a border given twice is none.
+  // A square whose lower side is given in two overlapping pieces; a border segment given twice is not a border.
   const std::vector<Vec2> points{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 0}, {2, 0}};
   const std::vector<Segment> square{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   std::vector<Segment> segments = square;

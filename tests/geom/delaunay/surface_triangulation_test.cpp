@@ -20,7 +20,7 @@ namespace {
 using test::k_context;
 using test::k_pi;
 
-/// A wave z = 0.2 sin(3 u) sin(3 v) over the plane, u and v scaled badly: x = u / 1000, y = 1000 v.
+/// A wave z = 0.2 sin(3 u) sin(3 v) over the plane, with badly scaled parameters: x = u / 1000, y = 1000 v.
 SurfaceSample wave(Uv at) {
   const double x = at.u / 1000.0, y = 1000.0 * at.v;
   const Vec3 du = Vec3{1.0, 0.0, 0.6 * std::cos(3 * x) * std::sin(3 * y)} / 1000.0;
@@ -99,7 +99,7 @@ TEST(SurfaceTriangulation, RandomInsertionsStayValid) {
   expect_disc(mesh.surface, 48);
   flip_all(mesh.surface);
   expect_disc(mesh.surface, 48);
-  // No edge is left that wants to be flipped.
+  // No edge remains that must be flipped.
   EXPECT_EQ(flip_all(mesh.surface), 0u);
 }
 
@@ -189,7 +189,7 @@ TEST(SurfaceTriangulation, BordersOnTopOfEachOtherAreAnError) {
 }
 
 TEST(SphereCriterion, IsTheCircleInAPlane) {
-  // On z = 0 both criteria agree; the sphere is decided in rounded arithmetic, so only clear cases.
+  // On z = 0 both criteria agree. The sphere is decided in rounded arithmetic, so only clear cases are compared.
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> uniform;
   Triangulation mesh;
@@ -220,7 +220,7 @@ TEST(SphereCriterion, LeavesTheOtherSideOfAThinPartAlone) {
   EXPECT_TRUE(conflicts());
   frames[VertexId(3u)].normal = {0, 0, -1};
   EXPECT_FALSE(conflicts());
-  // A pole has no normal: nothing is known.
+  // A pole has no normal, so no conflict can be detected.
   frames[VertexId(3u)].normal = {};
   EXPECT_TRUE(conflicts());
 }

@@ -1,4 +1,4 @@
-// Pictures as PNG: known colours at known places, every view and colour, and what is refused.
+// Pictures as PNG: known colours at known locations, every view and colouring, and refused input.
 #include "geom/draw/draw.h"
 
 #include <cairo.h>
@@ -55,7 +55,7 @@ Image decoded(const std::string& png) {
   return image;
 }
 
-/// Without anything beside the picture.
+/// Returns options without title, legend or other annotations.
 DrawOptions bare() {
   DrawOptions options;
   options.width = options.height = 200;
@@ -71,7 +71,7 @@ std::set<std::tuple<int, int, int>> colors_of(const Image& image) {
   return colors;
 }
 
-/// A cube whose sides are patches x_min, x_max, ...
+/// Returns a cube whose sides are patches x_min, x_max, ...
 TriMesh cube_of_patches() {
   TriMesh mesh = cube(2);
   mesh.patches = {{"x_min", PatchKind::wall}, {"x_max", PatchKind::wall}, {"y_min", PatchKind::wall},
@@ -106,11 +106,11 @@ TEST(Draw, ACubeFromEachSideShowsThatSide) {
     options.view = view;
     const Image image = decoded(draw_png(mesh, options, "", {}, k_context));
     const Rgb base = draw::patch_color(patch), middle = image.at(100, 100);
-    // Lit by the same light from every side: the patch's colour, brighter or darker by one factor.
+    // All sides are lit by the same light: the pixel is the patch's colour times one factor.
     EXPECT_NEAR(static_cast<double>(middle.r) / base.r, static_cast<double>(middle.g) / base.g, 0.02) << view;
     EXPECT_NEAR(static_cast<double>(middle.b) / base.b, static_cast<double>(middle.g) / base.g, 0.02) << view;
     EXPECT_EQ(image.at(2, 2), (Rgb{255, 255, 255})) << view;
-    EXPECT_EQ(image.at(20, 20), middle) << view;  // it fills the picture but for its margin
+    EXPECT_EQ(image.at(20, 20), middle) << view;  // the cube fills the picture except for the margin
   }
 }
 
@@ -118,7 +118,7 @@ TEST(Draw, IsoShowsThreeSidesOfACube) {
   DrawOptions options = bare();
   options.patches = "*";
   const Image image = decoded(draw_png(cube_of_patches(), options, "", {}, k_context));
-  // From ahead, left and above: x_min at the left, y_min at the right, z_max at the top.
+  // Seen from ahead, left and above: x_min is at the left, y_min at the right, z_max at the top.
   const auto is_shade_of = [](Rgb pixel, std::size_t patch) {
     const Rgb base = draw::patch_color(patch);
     return std::abs(static_cast<double>(pixel.r) / base.r - static_cast<double>(pixel.g) / base.g) < 0.02 &&
@@ -129,7 +129,7 @@ TEST(Draw, IsoShowsThreeSidesOfACube) {
   EXPECT_TRUE(is_shade_of(image.at(100, 40), 5));
 }
 
-/// A block whose side at y = 0, or at y = 1, is a plane of symmetry.
+/// A block with a symmetry plane at y = 0 or at y = 1.
 TEST(Draw, HalfModelsAreSeenFromTheSideOfTheFluidWhetherIsoIsNamedOrNot) {
   for (const double at : {0.0, 1.0}) {
     HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = 0.5, .ratio = 1.0, .outer_height = 1.0});
@@ -140,7 +140,7 @@ TEST(Draw, HalfModelsAreSeenFromTheSideOfTheFluidWhetherIsoIsNamedOrNot) {
     for (const BoundaryTriangle& t : mesh.boundary_triangles) look(t);
     for (const BoundaryQuad& q : mesh.boundary_quads) look(q);
     ASSERT_TRUE(plane.is_valid());
-    // Of its own, whatever else has the patch's name.
+    // The symmetry plane gets a patch of its own, separate from other faces of its original patch.
     const PatchId symmetry = mesh.patches.push_back({"symmetry", PatchKind::symmetry});
     const auto take = [&](auto& face) {
       if (std::ranges::all_of(face.nodes, [&](NodeId n) { return std::abs(mesh.points[n].y - at) < 1e-12; })) face.patch = symmetry;
@@ -154,7 +154,7 @@ TEST(Draw, HalfModelsAreSeenFromTheSideOfTheFluidWhetherIsoIsNamedOrNot) {
       EXPECT_GT(draw::build_scene(mesh, false, options, k_context).toward.y * inwards, 0.0) << view << ", symmetry at y = " << at;
     }
     DrawOptions options;
-    options.view = at == 0.0 ? "left" : "right";  // who names a side sees that side
+    options.view = at == 0.0 ? "left" : "right";  // a named view is used as given
     EXPECT_LT(draw::build_scene(mesh, false, options, k_context).toward.y * inwards, 0.0);
   }
 }
@@ -168,8 +168,8 @@ TEST(Draw, PatchesThatAreNotNamedAreNotShown) {
   options.view = "top";
   options.patches = "z_min";
   const Image bottom = decoded(draw_png(mesh, options, "", {}, k_context));
-  EXPECT_EQ(colors_of(bottom).size(), 2u);  // one patch, lit one way, and the paper
-  options.patches = "automatic";            // walls: z_max is one, z_min is not
+  EXPECT_EQ(colors_of(bottom).size(), 2u);  // one patch with one shade, and the background
+  options.patches = "automatic";            // walls: z_max is a wall, z_min is not
   options.view = "bottom";
   const Image walls = decoded(draw_png(mesh, options, "", {}, k_context));
   EXPECT_NE(walls.at(100, 100), decoded(draw_png(
@@ -193,7 +193,7 @@ TEST(Draw, ACutOfAPlateShowsPrismsBelowTetrahedra) {
   EXPECT_EQ(image.at(100, 150), prism);
   EXPECT_EQ(image.at(30, 180), prism);
   EXPECT_EQ(image.at(100, 50), tet);
-  EXPECT_EQ(count(image, prism) + count(image, tet) + count(image, {255, 255, 255}), image.pixels.size());  // and nothing else
+  EXPECT_EQ(count(image, prism) + count(image, tet) + count(image, {255, 255, 255}), image.pixels.size());  // and no other colours
 }
 
 TEST(Draw, WallsInFrontOfACutAreCutOff) {
@@ -202,7 +202,7 @@ TEST(Draw, WallsInFrontOfACutAreCutOff) {
   options.cut = "point=0.5,0.5,0.5 normal=0,1,0";
   const Image image = decoded(draw_png(mesh, options, "", {}, k_context));
   EXPECT_EQ(colors_of(image).count({draw::kind_color(CellKind::prism).r, draw::kind_color(CellKind::prism).g, draw::kind_color(CellKind::prism).b}), 1u);
-  // In the middle is the body: the inside of its far wall, lit from the front.
+  // The middle shows the body: the inside of its far wall, lit from the front.
   const Rgb middle = image.at(100, 100);
   EXPECT_LT(middle.r, middle.b);
   EXPECT_LT(middle.b, 190);
@@ -268,7 +268,7 @@ TEST(Draw, LegendTitleAndMarks) {
   EXPECT_GT(in_panel(with), in_panel(without) + 20);
   options.color = "edge_length";
   const Image bar = decoded(draw_png(mesh, options, "", {}, k_context));
-  const auto most_colors_in_a_column = [](const Image& image) {  // of those at the right
+  const auto most_colors_in_a_column = [](const Image& image) {  // of the columns at the right
     std::size_t most = 0;
     for (int x = image.width / 2; x < image.width; ++x) {
       std::set<std::tuple<int, int, int>> colors;
@@ -277,7 +277,7 @@ TEST(Draw, LegendTitleAndMarks) {
     }
     return most;
   };
-  EXPECT_GT(most_colors_in_a_column(bar), most_colors_in_a_column(with) + 20);  // the bar: a colour for each of its rows
+  EXPECT_GT(most_colors_in_a_column(bar), most_colors_in_a_column(with) + 20);  // the bar has a colour for each of its rows
   options.title = "a title";
   EXPECT_NE(decoded(draw_png(mesh, options, "", {}, k_context)).pixels, bar.pixels);
   options.places = true;
@@ -292,7 +292,7 @@ TEST(Draw, TheLegendDoesNotCoverWhatIsDrawn) {
   const TriMesh mesh = cube_of_patches();
   DrawOptions options = bare();
   options.patches = "*";
-  options.view = "front";  // one side fills the picture to its corners: the legend stands beside it
+  options.view = "front";  // one side fills the picture to its corners, so the legend is placed beside the side
   const auto n_shaded = [&](const Image& image) {
     std::size_t n = 0;
     const Rgb base = draw::patch_color(0);
@@ -309,7 +309,7 @@ TEST(Draw, TheLegendDoesNotCoverWhatIsDrawn) {
   const Rgb paper{255, 255, 255}, ink{0, 0, 0};
   Image picture{200, 200, std::vector<Rgb>(40000, paper)};
   EXPECT_TRUE(draw::place_inset(layout, scene, picture, paper));
-  EXPECT_GT(layout.inset_x, 100.0);  // at the right while there is room
+  EXPECT_GT(layout.inset_x, 100.0);  // the inset is at the right while there is room
   picture.pixels[20 * 200 + 190] = ink;
   EXPECT_TRUE(draw::place_inset(layout, scene, picture, paper));
   EXPECT_LT(layout.inset_x, 100.0);
@@ -317,7 +317,7 @@ TEST(Draw, TheLegendDoesNotCoverWhatIsDrawn) {
   EXPECT_FALSE(draw::place_inset(layout, scene, picture, paper));
   const Image beside = decoded(draw_png(mesh, options, "", {}, k_context));
   const int edge = static_cast<int>(200.0 - layout.inset);
-  for (int y = 110; y < 150; ++y) EXPECT_EQ(beside.at(edge + 8, y), paper);  // nothing of the cube below the legend's panel
+  for (int y = 110; y < 150; ++y) EXPECT_EQ(beside.at(edge + 8, y), paper);  // no part of the cube appears below the legend's panel
 }
 
 TEST(Draw, ACutShowsTheLineOfADiscAndItsName) {
@@ -351,7 +351,7 @@ TEST(Draw, MarksAreWhatTheCheckFound) {
   EXPECT_THAT(bad.front().text, HasSubstr("G"));
   std::set<std::string> texts;
   for (const DrawMark& mark : bad) texts.insert(mark.text.substr(0, mark.text.find(':')));
-  EXPECT_EQ(texts.size(), bad.size());  // each kind once
+  EXPECT_EQ(texts.size(), bad.size());  // each kind is listed once
 }
 
 TEST(Draw, WhatIsNotThereIsRefusedWithWhatIs) {

@@ -1,4 +1,4 @@
-// The z-buffer: what is covered, what is hidden, where lines are.
+// The z-buffer: covered pixels, occluded polygons, positions of lines.
 #include "geom/draw/raster.h"
 #include "tests/support/constants.h"
 
@@ -13,7 +13,7 @@ namespace {
 using test::k_context;
 constexpr Rgb k_red{200, 0, 0}, k_blue{0, 0, 200}, k_white{255, 255, 255};
 
-/// Looks from above; (0, 0) is the upper left corner of the picture, a metre is a pixel, y of the picture is -y.
+/// Returns a camera that views from above. (0, 0) is the upper left corner of the picture, a metre is a pixel, y of the picture is -y.
 Camera from_above() {
   Camera camera = camera_towards({0, 0, 1});
   camera.scale = 1.0;
@@ -26,8 +26,8 @@ void add(Polygons& polygons, std::initializer_list<Point> corners, Rgb color, bo
 }
 
 TEST(Raster, TrianglesThatShareEdgesCoverEveryPixelOnce) {
-  // A fan about a sample's middle, and edges along samples: neither gaps, where the background would shine through, nor doubles, where the second would win
-  // were it nearer.
+  // A triangle fan about a sample's middle, and edges along samples. Neither gaps may occur, where the background would show, nor double coverage, where the
+  // second triangle would win if it were nearer.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(4.0, 28.0);
   for (int round = 0; round < 50; ++round) {
@@ -63,7 +63,7 @@ TEST(Raster, TheNearerHidesTheFurtherWhateverTheirOrder) {
 }
 
 TEST(Raster, PolygonsCrossWhereTheyAreEquallyFar) {
-  Polygons polygons;  // one rises to the right, the other is level: the middle decides
+  Polygons polygons;  // one polygon rises to the right, the other is level: the depth at the middle decides
   add(polygons, {{0, 0, -10}, {20, 0, 10}, {20, -20, 10}, {0, -20, -10}}, k_red);
   add(polygons, {{0, 0, 0}, {20, 0, 0}, {20, -20, 0}, {0, -20, 0}}, k_blue);
   const Image image = rasterise(polygons, from_above(), {20, 20, false}, k_context);
@@ -97,7 +97,7 @@ TEST(Raster, PerspectiveIsSmallerFarAwayAndCutsWhatIsBehindTheEye) {
   EXPECT_DOUBLE_EQ(camera.project({4, 0, 0}).x, 36.0);
   EXPECT_DOUBLE_EQ(camera.project({4, 0, -10}).x, 34.0);
   EXPECT_GT(camera.project({0, 0, 1}).depth, camera.project({0, 0, 0}).depth);
-  Polygons polygons;  // from far below to behind the eye
+  Polygons polygons;  // from far below to behind the camera
   add(polygons, {{-1, 1, -30}, {1, 1, -30}, {1, 1, 30}, {-1, 1, 30}}, k_red);
   const Image image = rasterise(polygons, camera, {64, 64, false}, k_context);
   EXPECT_EQ(image.at(32, 5), k_red);

@@ -124,7 +124,7 @@ TEST(TriangleTree, NearestMatchesBruteForce) {
   for (int n = 0; n < 300; ++n) {
     Point p{uniform(random), uniform(random), uniform(random)};
     if (n % 10 == 0) p = mesh.points[VertexId(n % 100)];  // several triangles are equally near
-    // Each triangle by a tree of its own.
+    // The reference builds a tree of each single triangle.
     NearestHit expected;
     for (const TriangleId t : mesh.triangles.ids()) {
       TriMesh single;
@@ -166,7 +166,7 @@ TEST(TriangleTree, RaysLeaveAClosedSurfaceThroughEveryWallTheyCross) {
   for (int n = 0; n < 1000; ++n) {
     const Point p{uniform(random), uniform(random), uniform(random)};
     const Vec3 d{normal(random), normal(random), normal(random)};
-    // Leaves through the nearest of the six planes.
+    // The ray leaves through the nearest of the six planes.
     double expected = 1e300;
     for (std::size_t axis = 0; axis < 3; ++axis) expected = std::min(expected, ((d[axis] > 0 ? 1.0 : 0.0) - p[axis]) / d[axis]);
     const auto hits = tree.ray(p, d);
@@ -174,7 +174,7 @@ TEST(TriangleTree, RaysLeaveAClosedSurfaceThroughEveryWallTheyCross) {
     EXPECT_NEAR(hits.front().t, expected, 1e-12 * expected);  // rounding of a few operations
     EXPECT_NEAR(hits.back().t, expected, 1e-12 * expected);
   }
-  // Through vertices of the grid and along edges: every triangle there, both walls.
+  // Rays through grid vertices and along edges hit every triangle there, on both walls.
   const auto hits = tree.ray({0.2, 0.4, -1.0}, {0, 0, 1});
   ASSERT_EQ(hits.size(), 12u);  // six triangles at each grid vertex
   EXPECT_NEAR(hits.front().t, 1.0, 1e-14);
@@ -187,7 +187,7 @@ TEST(TriangleTree, NoRayPassesBetweenTriangles) {
   for (Point& p : mesh.points) p = Point{0.6 * p.x - 0.8 * p.y, 0.8 * p.x + 0.6 * p.y, 1e-3 * p.z} + Point{31.7, -12.3, 5.1};
   const TriangleTree tree(mesh, with_threads(1));
   const Point inside{31.8, -12.2, 5.1001};
-  // At every vertex and at points of every edge, to the last bit wherever rounding puts them.
+  // Rays to every vertex and to points of every edge hit the surface, wherever rounding puts the points.
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto c = corners(mesh, t);
     for (const double s : {0.0, 0.5, 0.3141592653589793}) {
@@ -215,7 +215,7 @@ TEST(TriangleTree, WindingNumberTellsInsideFromOutside) {
     worst = std::max(worst, std::abs(single.winding_number(p) - (r < 1.0 ? 1.0 : 0.0)));
     worst = std::max(worst, std::abs(nested.winding_number(p) - (r < 0.5 ? 2.0 : r < 1.0 ? 1.0 : 0.0)));
   }
-  EXPECT_LT(worst, 0.1);  // measured 0.047; 0.5 would be undecided
+  EXPECT_LT(worst, 0.1);  // measured 0.047; 0.5 would be ambiguous
   RecordProperty("worst_error", std::to_string(worst));
 }
 
@@ -231,7 +231,7 @@ TEST(TriangleTree, FarFieldAgreesWithTheSumOfSolidAngles) {
     const Point p{8.0 * uniform(random), uniform(random), uniform(random)};
     double expected = 0.0;
     for (const TriangleId t : mesh.triangles.ids()) {
-      // Solid angle as the excess of the spherical triangle's dihedral angles, with the sign of the volume.
+      // Solid angle: the excess of the spherical triangle's dihedral angles, with the sign of the volume.
       const auto c = corners(mesh, t);
       const Vec3 a = c[0] - p, b = c[1] - p, d = c[2] - p;
       const Vec3 ab = cross(a, b), bd = cross(b, d), da = cross(d, a);

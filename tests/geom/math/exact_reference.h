@@ -1,4 +1,4 @@
-// Independent exact arithmetic for the tests: every double is an integer times a common power of two; determinants are those of big integers.
+// Independent exact arithmetic for the tests: every double is an integer times a common power of two, so determinants are computed with big integers.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -12,8 +12,8 @@ namespace sterna::test {
 using BigInt = boost::multiprecision::cpp_int;
 using BigRational = boost::multiprecision::cpp_rational;
 
-/// value * 2^shift.
-/// \pre it is an integer.
+/// Returns value * 2^shift.
+/// \pre The product is an integer.
 inline BigInt scaled_integer(double value, int shift) {
   int exponent = 0;
   const double fraction = std::frexp(value, &exponent);
@@ -22,7 +22,7 @@ inline BigInt scaled_integer(double value, int shift) {
   return total >= 0 ? BigInt(mantissa << static_cast<unsigned>(total)) : BigInt(mantissa / (BigInt(1) << static_cast<unsigned>(-total)));
 }
 
-/// The shift that makes all values integers.
+/// Returns the shift that makes all values integers.
 inline int common_shift(const std::vector<double>& values) {
   int shift = 0;
   for (const double v : values) {
@@ -36,7 +36,7 @@ inline int common_shift(const std::vector<double>& values) {
 
 using IntegerRows = std::vector<std::vector<BigInt>>;
 
-/// Rows of equal length as integers with one common factor 2^shift each.
+/// Returns the rows, of equal length, as integers; each row is scaled by its own factor 2^shift.
 inline IntegerRows integer_rows(const std::vector<std::vector<double>>& rows) {
   std::vector<double> all;
   for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
@@ -49,7 +49,7 @@ inline IntegerRows integer_rows(const std::vector<std::vector<double>>& rows) {
   return result;
 }
 
-/// By cofactors.
+/// Returns the determinant by cofactors.
 inline BigInt determinant(const IntegerRows& m) {
   if (m.size() == 1) return m[0][0];
   BigInt sum = 0;
@@ -68,7 +68,7 @@ inline BigInt determinant(const IntegerRows& m) {
   return sum;
 }
 
-/// Sign of det of the differences to the first point; with_lift: a last column of squared lengths, the first point being the query.
+/// Sign of the determinant of differences to the first point. with_lift appends a column of squared lengths; then the first point is the query point.
 inline int reference_sign(const std::vector<std::vector<double>>& points, bool with_lift) {
   const IntegerRows p = integer_rows(points);
   IntegerRows m;

@@ -44,7 +44,7 @@ bool is_in_triangle(const RationalPoint& p, const RationalTriangle& t) {
   return true;
 }
 
-/// Every extreme point of the intersection is a corner, or where an edge meets the other's plane or one of its edges.
+/// Each extreme point of the intersection is a corner, or a point where an edge meets the other triangle's plane or one of its edges.
 std::vector<RationalPoint> common_extreme_points(const RationalTriangle& a, const RationalTriangle& b) {
   std::vector<RationalPoint> candidates(a.begin(), a.end());
   candidates.insert(candidates.end(), b.begin(), b.end());
@@ -152,7 +152,7 @@ TEST(TrianglesIntersect, HandDerivedCasesInEveryOrder) {
 
 TEST(TrianglesIntersect, HandDerivedCasesMirroredTurnedMovedAndScaled) {
   for (const auto& [name, a, b, expected] : hand_derived_pairs()) {
-    // Two of the cases are off by less than a unit in the last place elsewhere.
+    // At other scales, two of the cases are off by less than a unit in the last place.
     if (std::string(name).find("just") != std::string::npos) continue;
     for (const double scale : {1.0, 1e6, 0x1p-20}) {
       for (const double shift : {0.0, 1e3}) {
@@ -198,7 +198,7 @@ TEST(TrianglesCross, HandDerivedSharedCornersAndEdges) {
 }
 
 TEST(TrianglesCross, MatchesRationalIntersectionOnASmallGrid) {
-  // On a grid of 3^3 or 4^3 points nearly all pairs are degenerate in some way, many triangles have no area.
+  // On a grid of 3^3 or 4^3 points nearly all pairs are degenerate in some way, and many triangles have zero area.
   std::mt19937_64 random(21);
   std::array<std::array<int, 2>, 4> seen{};
   for (int n = 0; n < 6000; ++n) {
@@ -240,7 +240,7 @@ TEST(TrianglesCross, MatchesRationalIntersectionOneUlpFromTouching) {
   for (int n = 0; n < 600; ++n) {
     std::vector<Vec3> points(6);
     for (Vec3& p : points) p = {uniform(random), uniform(random), uniform(random)};
-    // A corner of the second triangle at a rounded combination of the first's corners: on the face, an edge, or a corner, up to rounding.
+    // A corner of the second triangle is a rounded combination of the first triangle's corners: on the face, an edge or a corner, up to rounding.
     double s = uniform(random), t = n % 3 == 0 ? 0.0 : (1.0 - s) * uniform(random);
     if (n % 7 == 0) s = t = 0.0;
     points[3] = points[0] + s * (points[1] - points[0]) + t * (points[2] - points[0]);
@@ -307,7 +307,7 @@ TEST(FindCrossings, MatchesBruteForceForAnyThreadCountAndLimit) {
   }
 }
 
-/// Neighbours that fold over each other, in space and all in one plane: what tells them apart cheaply must never hide a crossing.
+/// Neighbours that fold over each other, in space and in one plane: the cheap test for neighbours must never miss a crossing.
 TEST(FindCrossings, MatchesBruteForceOnCrumpledSurfaces) {
   std::mt19937 random(5);
   for (const bool is_flat : {false, true}) {
@@ -360,7 +360,7 @@ TEST(FindCrossings, RejectsIndicesOutOfRangeAndPointsThatAreNotFinite) {
   std::vector<Vec3> points(4);
   points[2].y = std::nan("");
   EXPECT_EQ(rejection(points, {{0, 1, 3}, {1, 2, 3}}), "looking for crossing triangles: point 2 of triangle 1 is not finite");
-  EXPECT_EQ(rejection(points, {{0, 1, 3}}), "accepted");  // only points in use matter
+  EXPECT_EQ(rejection(points, {{0, 1, 3}}), "accepted");  // only vertices used by triangles are checked
 }
 
 TEST(FindCrossings, StopsWhenCancelled) {

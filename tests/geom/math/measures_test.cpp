@@ -29,11 +29,11 @@ RationalVector blend(const RationalVector& a, const RationalVector& b, const Big
 BigRational determinant(const RationalVector& a, const RationalVector& b, const RationalVector& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
-/// Jacobian of the trilinear map at height z over corner k.
+/// Returns the Jacobian of the trilinear map at height z over corner k.
 BigRational jacobian(const WedgePoints& p, std::size_t k, const BigRational& z) {
   return determinant(blend(vector(p[0], p[1]), vector(p[3], p[4]), z), blend(vector(p[0], p[2]), vector(p[3], p[5]), z), vector(p[k], p[k + 3]));
 }
-/// docs/method/validity.md, "Exact wedge test", literally.
+/// Literal implementation of docs/method/validity.md, "Exact wedge test".
 bool reference_is_valid(const WedgePoints& p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const BigRational b0 = jacobian(p, k, 0), b2 = jacobian(p, k, 1);
@@ -49,7 +49,7 @@ double reference_volume(const WedgePoints& p) {
   return static_cast<double>(BigRational(sum / 36));
 }
 
-/// Orders of the corners that keep the wedge (rotations of the triangle; upside down).
+/// Orders of the corners that keep the wedge: rotations of the triangle, and upside down.
 std::vector<WedgePoints> same_wedges(const WedgePoints& p) {
   return {p, {p[1], p[2], p[0], p[4], p[5], p[3]}, {p[2], p[0], p[1], p[5], p[3], p[4]}, {p[3], p[5], p[4], p[0], p[2], p[1]}};
 }
@@ -62,7 +62,7 @@ std::array<Vec3, N> mapped(const std::array<Vec3, N>& p, const F& f) {
   return result;
 }
 
-/// Top edges a and b turned and stretched against the base's (1, 0), (0, 1).
+/// Returns a wedge with base edges (1, 0), (0, 1) and the given top edges a and b, rotated and stretched against the base.
 WedgePoints with_top(double ax, double ay, double bx, double by, double height) {
   return {Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}, {ax, ay, height}, {bx, by, height}};
 }
@@ -95,7 +95,7 @@ TEST(Wedge, InvertedInsideThoughAllCornerJacobiansArePositive) {
 }
 
 TEST(Wedge, TwistedWedgeIsValidUpToTheHalfTurn) {
-  // b0 = b2 = 1, b1 = cos(angle): positive everywhere below pi; at pi exactly the middle section is a point.
+  // b0 = b2 = 1, b1 = cos(angle): positive everywhere below pi; at exactly pi the middle section is a point.
   for (const double angle_deg : {0.0, 45.0, 90.0, 135.0, 179.9}) {
     const double c = std::cos(angle_deg * std::numbers::pi / 180), s = std::sin(angle_deg * std::numbers::pi / 180);
     for (const WedgePoints& q : same_wedges(with_top(c, s, -s, c, 0.5))) {
@@ -170,7 +170,7 @@ TEST(Wedge, MatchesRationalTestOnIntegersMovedAndScaled) {
 }
 
 TEST(Wedge, MatchesRationalTestNearTheLimit) {
-  // b1^2 = b0 b2 up to rounding: a turned and stretched top with the determinant condition met by scaling.
+  // b1^2 = b0 b2 up to rounding: a rotated and stretched top, scaled to meet the determinant condition.
   std::mt19937_64 random(32);
   std::uniform_real_distribution<double> uniform(0.1, 1.0);
   int n_valid = 0;
@@ -190,7 +190,7 @@ TEST(Wedge, MatchesRationalTestNearTheLimit) {
   EXPECT_LT(n_valid, 3900);
 }
 
-/// A first layer cell: edges of about one, height 1e-6, anywhere within 50 m, in any direction.
+/// Returns a first layer cell: edges of about 1, height 1e-6, anywhere within 50 m, in any direction.
 WedgePoints flat_wedge(std::mt19937_64& random, double height) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const Vec3 corner = 50.0 * Vec3{uniform(random), uniform(random), uniform(random)};
@@ -209,7 +209,7 @@ WedgePoints flat_wedge(std::mt19937_64& random, double height) {
 TEST(Wedge, FlatWedgesFarFromTheOrigin) {
   std::mt19937_64 random(33);
   for (int n = 0; n < 20000; ++n) ASSERT_TRUE(is_wedge_valid(flat_wedge(random, 1e-6))) << n;
-  // Where the height is a few units in the last place of the coordinates, either answer may be right, but it is the exact one.
+  // Where the height is a few units in the last place of the coordinates, either result is possible, but it must be the exact one.
   int n_valid = 0;
   for (int n = 0; n < 2000; ++n) {
     const WedgePoints p = flat_wedge(random, 4e-15);
@@ -227,9 +227,9 @@ TEST(Wedge, VolumeOfFlatAndTwistedWedgesIsAccurate) {
     for (int n = 0; n < 300; ++n) {
       const WedgePoints p = flat_wedge(random, height);
       const double expected = reference_volume(p);
-      // A few dozen roundings of terms of the size of height times edge^2, edge about one.
+      // Error of a few dozen roundings of terms of about height times edge^2, with edges of about 1.
       EXPECT_NEAR(wedge_volume(p), expected, 1e-14 * height);
-      // Another way: the flux through the faces.
+      // Independent check: the flux through the faces.
       const double flux = dot(p[3] - p[0], cross(p[4] - p[3], p[5] - p[3])) / 6.0 + bilinear_flux(p[0], p[0], p[1], p[4], p[3]) +
                           bilinear_flux(p[0], p[1], p[2], p[5], p[4]) + bilinear_flux(p[0], p[2], p[0], p[3], p[5]);
       EXPECT_NEAR(flux, expected, 1e-14 * height);
@@ -251,7 +251,7 @@ TEST(Wedge, QualityIsPositiveForValidWedgesOnly) {
     if (std::abs(quality) > 1e-14) {
       EXPECT_EQ(quality > 0.0, is_valid);
     }
-    // Scaling, moving and turning do not matter.
+    // Scaling, translation and rotation do not change the quality.
     const double other = wedge_quality(mapped(p, [](const Vec3& x) { return 1e-6 * Vec3{x.z, x.x, x.y}; }));
     EXPECT_NEAR(quality, other, 1e-12);
   }
@@ -269,7 +269,7 @@ TEST(Tet, RegularAndRightTetrahedra) {
   EXPECT_FALSE(is_tet_valid({right[1], right[0], right[2], right[3]}));
   EXPECT_FALSE(is_tet_valid({right[0], right[1], right[2], Vec3{0.3, 0.3, 0}}));
   EXPECT_DOUBLE_EQ(tet_volume(right[0], right[1], right[2], right[3]), 1.0 / 6.0);
-  // A sliver: four points around a circle. At a side edge the two faces are 2 h apart at the distance sqrt(2) of the other corner.
+  // A sliver: four points around a circle. At a side edge the two faces are 2 h apart, at distance sqrt(2) from the other corner.
   const auto sliver = tet_dihedral_range({Vec3{1, 0, 1e-8}, {0, 1, 0}, {-1, 0, 1e-8}, {0, -1, 0}});
   EXPECT_NEAR(sliver[0], std::sqrt(2.0) * 1e-8, 1e-14);
   EXPECT_NEAR(sliver[1], std::numbers::pi - 2e-8, 1e-14);
@@ -280,13 +280,13 @@ TEST(Pyramid, VolumeAndValidity) {
   EXPECT_DOUBLE_EQ(pyramid_volume(right), 1.0);
   EXPECT_TRUE(is_pyramid_valid(right));
   EXPECT_FALSE(is_pyramid_valid({right[0], right[3], right[2], right[1], right[4]}));
-  // A base that is not convex has a corner seen from behind.
+  // A non-convex base has a corner where the pyramid is inverted.
   auto dented = right;
   dented[2] = {0.4, 0.4, 0};
   EXPECT_FALSE(is_pyramid_valid(dented));
-  dented[2] = {0.5, 0.5, 0};  // straight there
+  dented[2] = {0.5, 0.5, 0};  // the corner is straight
   EXPECT_FALSE(is_pyramid_valid(dented));
-  // A warped base: mean of the two ways to cut it into tets.
+  // A warped base: mean of the two splits into tets.
   auto warped = right;
   warped[2].z = 0.5;
   const double one = tet_volume(warped[0], warped[1], warped[2], warped[4]) + tet_volume(warped[0], warped[2], warped[3], warped[4]);
@@ -296,7 +296,7 @@ TEST(Pyramid, VolumeAndValidity) {
 
 TEST(BilinearFlux, MatchesQuadrature) {
   const Vec3 a{0.1, 0.2, 0.3}, b{1.2, -0.1, 0.4}, c{1.0, 1.3, 1.1}, d{-0.2, 0.9, -0.3}, origin{0.3, -0.7, 2.0};
-  // Gauss 3 x 3, exact up to degree five; the integrand is of degree three in each coordinate.
+  // Gauss 3 x 3, exact up to degree five; the integrand has degree three in each coordinate.
   const double g = std::sqrt(0.6);
   const double node[3] = {0.5 * (1 - g), 0.5, 0.5 * (1 + g)}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double sum = 0.0;
@@ -317,18 +317,18 @@ TEST(Hexahedron, VolumeAndValidity) {
   EXPECT_DOUBLE_EQ(hexahedron_volume(cube), 1.0);
   EXPECT_TRUE(is_hexahedron_valid(cube));
   EXPECT_FALSE(is_hexahedron_valid({cube[4], cube[5], cube[6], cube[7], cube[0], cube[1], cube[2], cube[3]}));
-  // Extremely flat, turned, far away.
+  // An extremely flat, rotated cell far from the origin.
   EXPECT_TRUE(is_hexahedron_valid(mapped(cube, [](const Vec3& x) { return Vec3{1e-6 * x.z + 0.5 * x.y, 0.7 * x.x, x.y} + Vec3{30, 20, 10}; })));
   auto collapsed = cube;
   collapsed[6] = collapsed[7];
   EXPECT_FALSE(is_hexahedron_valid(collapsed));
   EXPECT_FALSE(is_hexahedron_valid(std::array<Vec3, 8>{}));
-  // Twisted by half a turn: all corner Jacobians positive, the middle is a point.
+  // Twisted by half a turn: all corner Jacobians are positive, but the middle section is a point.
   auto twisted = cube;
   for (std::size_t i = 4; i < 8; ++i) twisted[i] = {1 - cube[i].x, 1 - cube[i].y, 1};
   EXPECT_FALSE(is_hexahedron_valid(twisted));
 
-  // Against sampling: no cell that is called valid has a negative Jacobian, and few valid ones are refused.
+  // Comparison with sampling: no cell reported as valid has a negative Jacobian, and few valid cells are rejected.
   std::mt19937_64 random(36);
   std::uniform_real_distribution<double> uniform(-0.45, 0.45);
   int n_valid = 0, n_refused = 0;
@@ -352,7 +352,7 @@ TEST(Hexahedron, VolumeAndValidity) {
     n_valid += is_valid;
     ASSERT_FALSE(is_valid && smallest < -1e-12) << n;
     n_refused += smallest > 0.05 && !is_valid;
-    // Volume: the same from every corner's point of view.
+    // The volume must not depend on the first corner.
     const auto moved = mapped(p, [](const Vec3& x) { return Vec3{x.z, x.x, x.y} + Vec3{3, 2, 1}; });
     EXPECT_NEAR(hexahedron_volume(p), hexahedron_volume(moved), 1e-13);
   }

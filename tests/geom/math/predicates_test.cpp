@@ -19,7 +19,7 @@ std::vector<double> row(const Vec3& p) { return {p.x, p.y, p.z}; }
 int exact_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) { return test::reference_sign({row(a), row(b), row(c)}, false); }
 int exact_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return test::reference_sign({row(a), row(b), row(c), row(d)}, false); }
 int exact_incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) { return test::reference_sign({row(d), row(a), row(b), row(c)}, true); }
-/// Calls f(order, parity) for every order of N items; parity +1 or -1.
+/// Calls f(order, parity) for every order of N items; the parity is +1 or -1.
 template <std::size_t N, class F>
 void for_all_orders(const F& f) {
   std::array<std::size_t, N> order;
@@ -63,7 +63,7 @@ TEST(Predicates, RepeatedPointsGiveZero) {
 }
 
 TEST(Predicates, Orient2dMatchesBigIntegersOneUlpFromALine) {
-  // Kettner et al. 2008: a grid of neighbouring doubles around a diagonal, where plain doubles are wrong in half of the cases.
+  // Kettner et al. 2008: a grid of neighbouring doubles around a diagonal, where plain double arithmetic is wrong in half of the cases.
   int n_zero = 0;
   for (int i = -16; i <= 16; ++i) {
     for (int j = -16; j <= 16; ++j) {
@@ -82,7 +82,7 @@ TEST(Predicates, Orient3dMatchesBigIntegersOneUlpFromAPlane) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   std::array<int, 3> count{};
   for (int n = 0; n < 3000; ++n) {
-    // d = rounded combination of a, b, c, then nudged: on the plane up to a few units in the last place; far from the origin for odd n.
+    // d is a rounded combination of a, b, c, then nudged: on the plane up to a few units in the last place; far from the origin for odd n.
     const double offset = n % 2 == 0 ? 0.0 : 1000.0;
     std::array<Vec3, 4> p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = {offset + uniform(random), offset + uniform(random), uniform(random)};
@@ -90,7 +90,7 @@ TEST(Predicates, Orient3dMatchesBigIntegersOneUlpFromAPlane) {
     p[3] = p[0] + s * (p[1] - p[0]) + t * (p[2] - p[0]);
     p[3].z = nudge(p[3].z, n % 5 - 2);
     if (n % 7 == 0) {
-      // On the plane exactly: coordinates of few bits.
+      // Exactly on the plane: coordinates of few bits.
       for (std::size_t i = 0; i < 3; ++i) p[i] = {std::round(16 * p[i].x) / 16, std::round(16 * p[i].y) / 16, std::round(16 * p[i].z) / 16};
       p[3] = p[0] + 2.0 * (p[1] - p[0]) - 3.0 * (p[2] - p[0]);
     }
@@ -133,7 +133,7 @@ TEST(Predicates, SignsSurviveExactTransformations) {
         for (const bool is_mirrored : {false, true}) {
           std::array<Vec3, 4> q;
           for (std::size_t i = 0; i < 4; ++i) {
-            // Mirrored and turned by a quarter.
+            // Mirrored, or rotated by 90 degrees.
             q[i] = scale * (is_mirrored ? Vec3{p[i].y, p[i].x, p[i].z} : Vec3{-p[i].y, p[i].x, p[i].z}) + Vec3{shift, shift, -shift};
           }
           const int sense = is_mirrored ? -1 : 1;
@@ -148,7 +148,7 @@ TEST(Predicates, CoordinatesOfVeryDifferentSize) {
   std::mt19937_64 random(15);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int n = 0; n < 2000; ++n) {
-    // Every second time the whole range that the header promises, 1e-80 .. 1e100.
+    // Every second iteration uses the whole range that the header guarantees, 1e-80 .. 1e100.
     std::uniform_int_distribution<int> exponent(n % 2 == 0 ? -100 : -264, n % 2 == 0 ? 100 : 332);
     std::array<Vec3, 4> p;
     for (Vec3& q : p) {
@@ -160,7 +160,7 @@ TEST(Predicates, CoordinatesOfVeryDifferentSize) {
 }
 
 TEST(Predicates, RangeOfTheCircles) {
-  // 1e-42 .. 1e60; on the circle, one unit in the last place beside it.
+  // 1e-42 .. 1e60; points on the circle, and one unit in the last place beside it.
   for (const int exponent : {-138, 0, 198}) {
     for (const int n : {-1, 0, 1}) {
       std::array<Vec3, 5> p = {Vec3{0.7, 0.3, 0.9}, {0.7, 0.9, 0.9}, {0.1, 0.3, 0.9}, {0.1, 0.3, 0.2}, {0.7, 0.9, 0.2}};

@@ -1,4 +1,4 @@
-// Which patches a picture of bodies shows.
+// Selection of the patches that a picture of bodies shows.
 #include "geom/mesh/body_patches.h"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,8 @@ TEST(BodyPatches, are_walls_and_the_openings_in_them) {
   };
   add("body", PatchKind::wall, box({0, -10, -2}, {30, 10, 8}));
   add("fan_face", PatchKind::outflow, box({10, 4, -1}, {10, 6, 1}));
-  add("inlet", PatchKind::inflow, box({-5, -20, -20}, {-5, 20, 20}));  // of the tunnel: beyond the walls
-  add("outlet", PatchKind::outflow, box({30, -10, -2}, {30, 10, 8}));  // within, but as large as they are
+  add("inlet", PatchKind::inflow, box({-5, -20, -20}, {-5, 20, 20}));  // tunnel inlet: outside the bounding box of the walls
+  add("outlet", PatchKind::outflow, box({30, -10, -2}, {30, 10, 8}));  // inside the bounding box, but as large as the walls
   add("farfield", PatchKind::farfield, box({-99, -99, -99}, {99, 99, 99}));
   EXPECT_EQ(patches_of_bodies(patches, boxes), (std::vector<std::uint8_t>{1, 1, 0, 0, 0}));
   Column<PatchId, Patch> no_walls;
@@ -39,7 +39,7 @@ TEST(BodyPatches, are_walls_and_the_openings_in_them) {
   EXPECT_EQ(patches_of_bodies(no_walls, std::vector<Box>{boxes[2]}), (std::vector<std::uint8_t>{1}));
 }
 
-/// A tunnel from -5 to 5 in every direction, flow along x, with a cube [at, at + 1]^3 in it.
+/// Returns a tunnel from -5 to 5 in every direction, flow along x, that contains a cube [at, at + 1]^3.
 HybridMesh tunnel_with_cube(const Point& at) {
   HybridMesh mesh = test::box_of_patches({{"inlet", PatchKind::inflow},
                                           {"outlet", PatchKind::outflow},
@@ -58,7 +58,7 @@ HybridMesh tunnel_with_cube(const Point& at) {
 }
 
 TEST(BodyPatches, walls_of_a_tunnel_are_not_of_the_body) {
-  for (const Point& at : {Point{0, 0, 0}, Point{0, 0, -5}}) {  // in the middle, on the floor
+  for (const Point& at : {Point{0, 0, 0}, Point{0, 0, -5}}) {  // in the middle, then on the floor
     const HybridMesh mesh = tunnel_with_cube(at);
     EXPECT_EQ(outer_walls(mesh), (std::vector<std::uint8_t>{0, 0, 1, 1, 1, 1, 0}));
     EXPECT_EQ(patches_of_bodies(mesh), (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1}));

@@ -1,4 +1,4 @@
-// OpenFOAM's measures against values worked by hand; tests/io/volume/foam_quality_test.cpp compares them with checkMesh on real meshes.
+// OpenFOAM's measures against values calculated by hand; tests/io/volume/foam_quality_test.cpp compares the measures with checkMesh on real meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(CellCentred, CubesAreIdeal) {
   EXPECT_NEAR(worst(report, Measure::cell_aspect_ratio), 1.0, 1e-12);
   EXPECT_LT(worst(report, Measure::cell_openness), 1e-14);
   EXPECT_EQ(report.gate(Measure::non_orthogonality).total, 54.0);  // inner faces of 3^3 cells
-  EXPECT_EQ(report.gate(Measure::skewness).total, 108.0);          // and 54 of the boundary
+  EXPECT_EQ(report.gate(Measure::skewness).total, 108.0);          // plus 54 boundary faces
 }
 
 TEST(CellCentred, ShearedCubesHaveTheAngleOfTheShear) {
@@ -51,8 +51,8 @@ TEST(CellCentred, StretchedCubesHaveTheRatioOfTheirFaces) {
   EXPECT_NEAR(worst(report, Measure::cell_aspect_ratio), 10.0, 1e-11);
 }
 
-/// A cube [0, 1]^3 with a pyramid of height 0.5: centres at z = 0.5 and 1.125. Of a side of the pyramid the middle is (0.5, 1/6, 7/6): its normal from the
-/// centre ends (0, 0.1458, 0.1458) away from that, and the side reaches 0.4714 in this direction.
+/// A cube [0, 1]^3 with a pyramid of height 0.5: centres at z = 0.5 and 1.125. The middle of a side of the pyramid is (0.5, 1/6, 7/6). The side's normal from
+/// the cell centre ends (0, 0.1458, 0.1458) away from this middle, and the side extends 0.4714 in this direction.
 TEST(CellCentred, APyramidOnACube) {
   const CheckReport report = report_of(test::hexahedron_with_roof());
   EXPECT_NEAR(worst(report, Measure::non_orthogonality), 0.0, 1e-7);
@@ -62,7 +62,7 @@ TEST(CellCentred, APyramidOnACube) {
   EXPECT_EQ(report.gate(Measure::skewness).state, GateState::pass);
 }
 
-/// A twisted quadrilateral (0,0,0), (1,0,h), (1,1,0), (0,1,h) over a flat one: area 1 over four triangles of 0.25 sqrt(1 + h^2) around the middle.
+/// A twisted quadrilateral (0,0,0), (1,0,h), (1,1,0), (0,1,h) against a flat one: area 1 over four triangles of 0.25 sqrt(1 + h^2) around the middle.
 TEST(CellCentred, FlatnessOfATwistedQuad) {
   constexpr double h = 0.5;
   const CheckReport report = report_of(moved(test::hexahedra_block(1), [](const Point& p) { return p.z > 0.5 && p.x != p.y ? Point{p.x, p.y, p.z + h} : p; }));

@@ -1,4 +1,4 @@
-// What is checked before the tetrahedra are there must not change what the check says.
+// Checks done before the tetrahedra exist must not change the result of the final check.
 #include <gtest/gtest.h>
 
 #include "geom/mesh/check.h"
@@ -47,7 +47,7 @@ TEST(CheckAhead, TetrahedraThatReachIntoTheColumnsAreNoticed) {
   expect_same_report(mesh);
 }
 
-/// Moves a line's nodes aside, in proportion to their height.
+/// Moves the nodes of a growth line sideways, in proportion to their height.
 void bend(HybridMesh& mesh, std::uint32_t line, double by) {
   const int n = mesh.layers.n_steps(line);
   for (int j = 1; j <= n; ++j) mesh.points[mesh.layers.node(line, j)] += Vec3{0.3, 1.0, -0.5} * (by * j / n);
@@ -55,7 +55,7 @@ void bend(HybridMesh& mesh, std::uint32_t line, double by) {
 
 TEST(CheckAhead, WhatMovedIsCheckedAgain) {
   const RunContext context({.threads = 2});
-  // Some 2000 columns: most chunks are kept. The second line is folded through its neighbours.
+  // About 2000 columns: the results of most chunks are kept. The second growth line is folded through its neighbours.
   for (const auto& [bend_of_7, bend_of_600] : {std::pair(0.002, -0.001), std::pair(0.001, 1.0)}) {
     HybridMesh mesh = sphere_shell(10, {.n_layers = 5, .collapsed = {3}});
     HybridMesh layers = mesh;

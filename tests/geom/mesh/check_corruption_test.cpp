@@ -1,4 +1,4 @@
-// Every corruption is found, as what it is, at its place.
+// Every corruption is found, with the right kind and location.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace {
 
 using namespace test;
 
-constexpr std::uint32_t k_column = 40;  // of sphere(4)
+constexpr std::uint32_t k_column = 40;  // a wall triangle of sphere(4)
 constexpr int k_layers = 3;
-constexpr std::size_t k_prism = k_column * k_layers;  // its first-layer prism, explicit
+constexpr std::size_t k_prism = k_column * k_layers;  // the column's first-layer prism in explicit form
 
 HybridMesh base_mesh() { return sphere_shell(4, {.n_layers = k_layers}); }
 HybridMesh base_cells() { return explicit_cells(base_mesh()); }
 
-/// Largest distance of a finding from the corrupted prism's middle: faces and neighbours of a cell of size 0.3.
+/// Largest distance of a finding from the centre of the corrupted prism: the faces and neighbours of a cell of size 0.3.
 constexpr double k_near = 0.4;
 
 void expect_found(const CheckReport& report, Violation violation, std::int64_t count, const Point& place) {
@@ -117,7 +117,7 @@ TEST(CheckCorruption, MissingAndStrayMarker) {
     missing.boundary_triangles.erase(missing.boundary_triangles.begin() + 2 * k_column);
     expect_found(checked(missing), Violation::unmatched_face, 1, place);
     auto& nodes = mesh.boundary_triangles[2 * k_column].nodes;
-    nodes[2] = NodeId(nodes[2].value() + 1);  // the next node of its line
+    nodes[2] = NodeId(nodes[2].value() + 1);  // the next node of its growth line
     const CheckReport report = checked(mesh);
     expect_found(report, Violation::unmatched_face, 1, place);
     expect_found(report, Violation::stray_boundary_face, 1, place);
@@ -141,7 +141,7 @@ TEST(CheckCorruption, FoldedEnvelopeTriangle) {
     const HybridMesh columns = base_mesh();
     const auto& lines = columns.layers.base[k_column];
     const auto top = [&](std::size_t k) -> Point& { return mesh.points[columns.layers.node(lines[k], k_layers)]; };
-    // Over the opposite edge, to the neighbour's side.
+    // The top node moves over the opposite edge, into the neighbour.
     top(0) = 0.5 * (top(1) + top(2)) + 0.7 * (0.5 * (top(1) + top(2)) - top(0));
     const Point place = top(0);
     const CheckReport report = checked(mesh);
@@ -169,7 +169,7 @@ TEST(CheckCorruption, MovedNodeInvertsPrisms) {
   }
 }
 
-/// Two tetrahedra on one triangle: an upper one of a given height and a lower one of height 1.
+/// Returns two tetrahedra on one triangle: an upper one of the given height and a lower one of height 1.
 HybridMesh two_tets(double height, const Vec3& offset) {
   HybridMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{0, 1, 0}, Point{0.25, 0.25, height}, Point{0.25, 0.25, -1}}) mesh.points.push_back(p + offset);
@@ -185,13 +185,13 @@ HybridMesh two_tets(double height, const Vec3& offset) {
 
 TEST(CheckCorruption, CellsWithinRoundingOfDoublePrecision) {
   EXPECT_TRUE(checked(two_tets(1e-6, {})).is_valid());
-  // Positive by exact signs, but a solver has some 1e-14 of the edges' product for the volume, with an error of 1e-15.
+  // Positive by exact signs, but a solver computes a volume of about 1e-14 of the product of the edges, with an error of 1e-15.
   const CheckReport flat = checked(two_tets(1e-14, {}));
   expect_found(flat, Violation::cell_within_rounding, 1, {0.3, 0.3, 0});
   expect_found(flat, Violation::sub_volume_within_rounding, 1, {0.3, 0.3, 0});
   expect_only(flat, {Violation::cell_within_rounding, Violation::sub_volume_within_rounding});
   EXPECT_NE(to_text(flat).find("in double precision; the limit is 1e-13"), std::string::npos) << to_text(flat);
-  // Far from the origin the volume is fine, and the mean of the nodes is rounded onto the base.
+  // Far from the origin the volume is accurate, but the mean of the nodes is rounded onto the base.
   const double far = 0x1p20, step = 0x1p-32;
   const CheckReport rounded = checked(two_tets(step, {far, far, far}));
   expect_found(rounded, Violation::sub_volume_within_rounding, 1, Point{far, far, far} + Vec3{0.3, 0.3, 0});
@@ -271,14 +271,14 @@ TEST(CheckCorruption, RepeatedNodesPatchesAndPointsOutOfRange) {
 TEST(CheckCorruption, BrokenLine) {
   HybridMesh mesh = base_mesh();
   const Point place = mesh.points[NodeId(mesh.layers.first_node[11])];
-  mesh.layers.first_node[11] -= 1;  // starts on the last node of line 10
+  mesh.layers.first_node[11] -= 1;  // starts at the last node of growth line 10
   const CheckReport report = checked(mesh);
   EXPECT_EQ(report.count(Violation::broken_line), 1) << to_text(report);
   EXPECT_LT(distance_to_first(report, Violation::broken_line, place), 2 * k_near);
   EXPECT_GT(report.count(Violation::unmatched_face), 0);
 }
 
-/// The kinds of violation; a doubled column's faces between its own layers are counted in explicit form only.
+/// Returns the kinds of violation. Faces between the layers of a duplicated column are counted in explicit form only.
 std::vector<Violation> kinds(const CheckReport& report) {
   std::vector<Violation> result;
   for (const auto& [violation, count] : report.counts) result.push_back(violation);
@@ -305,14 +305,14 @@ TEST(CheckCorruption, RemovedReversedAndDoubledColumnsGetTheVerdictOfTheirCells)
 }
 
 TEST(CheckCorruption, WrongCollapseFlagIsSeen) {
-  // A line that stands where its neighbours and the tets believe it collapsed, and the other way round.
+  // A growth line that has layers although its neighbours and the tets treat it as collapsed, and the reverse case.
   HybridMesh mesh = sphere_shell(4, {.n_layers = k_layers, .collapsed = {base_mesh().layers.base[k_column][0]}});
   mesh.layers.is_collapsed[base_mesh().layers.base[k_column][0]] = 0;
   EXPECT_FALSE(checked(mesh).is_valid());
   mesh = base_mesh();
   mesh.layers.is_collapsed[5] = 1;
   const CheckReport report = checked(mesh);
-  EXPECT_EQ(report.count(Violation::unused_node), k_layers - 1);  // the top one is still used by tets
+  EXPECT_EQ(report.count(Violation::unused_node), k_layers - 1);  // the tets still use the top node
   EXPECT_GT(report.count(Violation::unmatched_face), 0);
   EXPECT_EQ(report.counts, checked(explicit_cells(mesh)).counts);
 }
@@ -330,13 +330,13 @@ TEST(CheckCorruption, AQuadIsNotTwoTriangles) {
     expect_found(report, Violation::unmatched_face, 1, place);
     expect_found(report, Violation::stray_boundary_face, 2, place);
 
-    HybridMesh twisted = mesh;  // the same four nodes in another cycle
+    HybridMesh twisted = mesh;  // the same four nodes in another cyclic order
     std::swap(twisted.boundary_quads.back().nodes[1], twisted.boundary_quads.back().nodes[2]);
     const CheckReport bow = checked(twisted);
     expect_found(bow, Violation::unmatched_face, 1, place);
     expect_found(bow, Violation::stray_boundary_face, 1, place);
 
-    HybridMesh turned = mesh;  // the same cycle from another corner is the same face
+    HybridMesh turned = mesh;  // the same cyclic order from another corner is the same face
     std::rotate(turned.boundary_quads.back().nodes.begin(), turned.boundary_quads.back().nodes.begin() + 3, turned.boundary_quads.back().nodes.end());
     EXPECT_TRUE(checked(turned).is_valid());
     std::reverse(turned.boundary_quads.back().nodes.begin(), turned.boundary_quads.back().nodes.end());
@@ -371,9 +371,9 @@ TEST(CheckCorruption, CrossingBoundariesOfTwoValidMeshes) {
 TEST(CheckCorruption, AMeshInsideAnotherOneIsNoTiling) {
   const CheckReport report = checked(joined(base_cells(), base_cells(), 0.1, {2.2, 0, 0}));  // in the tets, between 1.4 and 3
   expect_only(report, {Violation::overlapping_parts});
-  EXPECT_EQ(report.count(Violation::overlapping_parts), 2) << to_text(report);  // its wall and its outer boundary are both covered once too often
+  EXPECT_EQ(report.count(Violation::overlapping_parts), 2) << to_text(report);  // its wall and its outer boundary are each covered one time too many
   EXPECT_LT(distance_to_first(report, Violation::overlapping_parts, {2.2, 0, 0}), 0.4);
-  // Inside the body it is a domain of its own.
+  // Inside the body, the second part is a domain of its own.
   const CheckReport apart = checked(joined(base_cells(), base_cells(), 0.1, {}));
   EXPECT_TRUE(apart.is_valid()) << to_text(apart);
 }
@@ -386,8 +386,8 @@ TEST(CheckCorruption, RandomDamageNeverThrowsAndBothFormsAgree) {
   const std::vector<std::function<void(HybridMesh&)>> damages = {
       [&](HybridMesh& m) { m.points[node()] = m.points[node()]; },                             // coincident points, flat cells
       [&](HybridMesh& m) { m.points[node()] = 0.5 * (m.points[node()] + m.points[node()]); },  // collinear points
-      [&](HybridMesh& m) { m.points[node()] = -1.0 * m.points[node()]; },                      // far across
-      [&](HybridMesh& m) { m.tetrahedra[any(m.tetrahedra.size())][any(4)] = node(); },         // perhaps a repeated node
+      [&](HybridMesh& m) { m.points[node()] = -1.0 * m.points[node()]; },                      // on the opposite side
+      [&](HybridMesh& m) { m.tetrahedra[any(m.tetrahedra.size())][any(4)] = node(); },         // possibly a repeated node
       [&](HybridMesh& m) { m.boundary_triangles[any(m.boundary_triangles.size())].nodes[any(3)] = node(); },
       [&](HybridMesh& m) {
         m.boundary_quads.push_back({{node(), node(), node(), node()}, PatchId(0)});

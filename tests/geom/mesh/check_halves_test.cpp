@@ -1,4 +1,4 @@
-// Layers that end on planes: their boundary quads must be checked as those of explicit cells are, and symmetry planes may lie anyhow.
+// Layers that end on planes: their boundary quads must be checked like those of explicit cells, and symmetry planes may have any orientation.
 #include <gtest/gtest.h>
 
 #include "geom/mesh/check.h"
@@ -21,7 +21,7 @@ std::vector<HybridMesh> halves() {
   return meshes;
 }
 
-/// What both forms of a mesh must agree on: violations by kind, volumes, and the gates that do not need columns.
+/// Checks that both forms of a mesh agree on violations by kind, volumes, and the gates that do not need columns.
 void expect_same_verdicts(const CheckReport& columns, const CheckReport& cells) {
   EXPECT_EQ(columns.counts, cells.counts) << to_text(columns) << to_text(cells);
   EXPECT_EQ(columns.n_boundary_quads, cells.n_boundary_quads);
@@ -30,7 +30,7 @@ void expect_same_verdicts(const CheckReport& columns, const CheckReport& cells) 
   EXPECT_NEAR(columns.dual_volume, cells.dual_volume, 1e-13 * columns.dual_volume);
   std::vector<Measure> measures = {Measure::scaled_jacobian,  Measure::dual_closure,    Measure::orthogonality,
                                    Measure::sub_volume_ratio, Measure::face_area_ratio, Measure::edge_ratio};
-  // Tetrahedra of columns are the layer's there, and tetrahedra like all others here.
+  // Tetrahedra of columns belong to the layer in column form, and are ordinary tetrahedra in explicit form.
   if (columns.cells.pyramids == 0)
     measures.insert(measures.end(), {Measure::min_dihedral, Measure::max_dihedral, Measure::tet_growth, Measure::interface_height, Measure::interface_volume});
   for (const Measure measure : measures) {
@@ -38,7 +38,7 @@ void expect_same_verdicts(const CheckReport& columns, const CheckReport& cells) 
     SCOPED_TRACE(info_of(measure).name);
     EXPECT_EQ(a.state, b.state);
     EXPECT_EQ(a.total, b.total);
-    // Angles inside columns come from a polynomial good to 2e-8; rounding of closures is not the same.
+    // Angles inside columns come from a polynomial accurate to 2e-8; the rounding of closures differs between the two forms.
     EXPECT_NEAR(a.worst, b.worst, measure == Measure::dual_closure ? 1e-15 : 1e-7 * std::max(1.0, std::abs(b.worst)));
   }
 }
@@ -63,7 +63,7 @@ TEST(CheckHalves, WhatIsCheckedAheadChangesNothing) {
   }
 }
 
-/// Each fault of one quad at the rim is found, the same in both forms.
+/// Each fault of one boundary quad of the layer is found, identically in both forms.
 TEST(CheckHalves, FaultsOfQuadsAreFoundInBothForms) {
   const HybridMesh good = half_shell_of_all_kinds(5, {.shell = {.n_layers = 4}, .has_collapsed_rim = true});
   const auto expect = [&](Violation violation, std::int64_t n, const char* what, const auto& damage) {
@@ -90,7 +90,7 @@ TEST(CheckHalves, SymmetryPlanesMayLieAnyhow) {
   for (const Vec3& offset : {Vec3{}, Vec3{10.0, -20.0, 5.0}}) {
     HybridMesh mesh = turned(half_sphere_shell(6), offset);
     EXPECT_TRUE(checked(mesh, {.intersections = false}).is_valid());
-    // One node inside the plane, then one of its rim, moved off it: that one is named, and no other.
+    // A node inside the plane, then a node of its border, is moved off the plane: this node is reported, and no other.
     Vec3 normal;
     std::vector<NodeId> nodes;
     for (const BoundaryQuad& face : mesh.boundary_quads) {

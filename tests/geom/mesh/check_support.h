@@ -1,4 +1,4 @@
-// Shared by the tests of the walker.
+// Shared functions of the tests of check().
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace sterna::test {
 
-/// The report, after checking that 1, 2 and 7 threads give the same text and JSON.
+/// Returns the report, after checking that 1, 2 and 7 threads give the same text and JSON.
 inline CheckReport checked(const HybridMesh& mesh, const CheckOptions& options = {}) {
   CheckReport report = check(mesh, options, RunContext({.threads = 1}));
   for (const int threads : {2, 7}) {

@@ -1,4 +1,4 @@
-// Meshes that are valid by construction must be proved valid, in column form, as explicit cells, moved, scaled and thin.
+// Meshes that are valid by construction must be proved valid: in column form, as explicit cells, moved, scaled and thin.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ TEST(CheckValid, OpenWallsEndOnBoundaryQuads) {
 }
 
 TEST(CheckValid, CollapsedLinesGivePyramidsTetsAndBareWall) {
-  // One line; two neighbours; a whole triangle; on the sphere and, at the rim of a plate, on the side patch.
+  // One growth line; two neighbours; a whole triangle; on the sphere and, at the edge of a plate, on the side patch.
   const TriMesh wall = sphere(4);
   const auto& v = wall.triangles[TriangleId(40)];
   const std::vector<std::vector<std::uint32_t>> cases = {{v[0].value()}, {v[0].value(), v[1].value()}, {v[0].value(), v[1].value(), v[2].value()}};
@@ -115,7 +115,7 @@ TEST(CheckValid, HexahedraAndPyramids) {
 TEST(CheckValid, MovedAndScaled) {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     for (const Vec3& offset : {Vec3{}, Vec3{1e3, -1e3, 500.0}}) {
-      if (scale < 1.0 && norm(offset) > 0.0) continue;  // 1e-6 at 1e3: coordinates would be rounded to 1e-7 of the size
+      if (scale < 1.0 && norm(offset) > 0.0) continue;  // 1e-6 at 1e3: coordinates would be rounded to 1e-7 of the body's size
       HybridMesh mesh = sphere_shell(4, {.n_layers = 5});
       move_points(mesh, scale, scale * offset);
       expect_valid_in_both_forms(mesh);

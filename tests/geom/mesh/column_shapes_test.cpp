@@ -1,4 +1,4 @@
-// Four layers, or four tets, at a time against one cell and one face at a time.
+// Functions for four layers, or four tets, at a time against functions for one cell and one face at a time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double k_angle_rounding = 1e-15;  // two roundings of angles up to pi
 
-/// Layers of a sphere whose lines are shaken, so that no side is plane.
+/// Returns the layers of a sphere with randomly displaced growth lines, so that no side is plane.
 HybridMesh shaken_shell(int n_layers) {
   HybridMesh mesh = test::sphere_shell(3, {.n_layers = n_layers, .layer_height = 0.1});
   std::uint32_t state = 1;
@@ -92,7 +92,7 @@ TEST(ColumnShapes, FacesAreThoseOfEachFace) {
 
 TEST(ColumnShapes, FoldedPrismsAreMeasuredAlike) {
   HybridMesh mesh = shaken_shell(5);
-  mesh.points[mesh.layers.node(7, 3)] = mesh.points[mesh.layers.node(7, 0)] * 0.9;  // tets the wrong way round
+  mesh.points[mesh.layers.node(7, 3)] = mesh.points[mesh.layers.node(7, 0)] * 0.9;  // inverted tets
   const RunContext context({.threads = 1});
   std::vector<std::uint32_t> neighbours;
   find_open_sides(mesh.layers, context, &neighbours);

@@ -1,4 +1,4 @@
-// Each kind of loss is planted in a surface, and the comparison has to name it.
+// Each kind of geometry loss is introduced in a surface, and the comparison must name the kind.
 #include "geom/mesh/compare_geometry.h"
 
 #include <gmock/gmock.h>

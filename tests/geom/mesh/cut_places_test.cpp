@@ -1,4 +1,4 @@
-// Places worth a look: found by the walls' shape, on bodies where they are known.
+// Locations for pictures, found by the shape of the walls, on bodies where the right locations are known.
 #include "geom/mesh/cut_places.h"
 
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ const CutPlace& place_of(const std::vector<CutPlace>& places, const std::string&
   throw std::runtime_error("there is no place " + name);
 }
 
-/// What the header promises: planes through walls, cells of the layer around the focus.
+/// Checks the guarantees of the header: planes pass through walls, and layer cells are visible around the focus.
 void expect_cells_in_sight(const HybridMesh& mesh, const std::vector<CutPlace>& places) {
   EXPECT_GE(places.size(), 3u);
   for (const CutPlace& place : places) {
@@ -84,7 +84,7 @@ TEST(CutPlaces, OfExplicitCellsAreTheSame) {
 
 TEST(CutPlaces, SymmetryPlaneIsAHairInside) {
   HybridMesh mesh = plate_block(4);
-  mesh.patches[PatchId(2)] = {"side", PatchKind::symmetry};  // all four sides; the first one met decides
+  mesh.patches[PatchId(2)] = {"side", PatchKind::symmetry};  // all four sides are symmetry planes; the first one found is used
   const CutPlace place = place_of(automatic_cuts(mesh, k_context), "symmetry plane");
   const Point middle{0.5, 0.5, 0.5};
   EXPECT_LT(dot(middle - place.plane.origin, place.plane.normal), 0.0);
@@ -92,7 +92,7 @@ TEST(CutPlaces, SymmetryPlaneIsAHairInside) {
 }
 
 TEST(CutPlaces, JunctionIsWhereTwoPatchesMeetInAConcaveEdge) {
-  // A step: floor z = 0 for x < 0, riser x = 0, top z = 1; only the edge at x = z = 0 is concave.
+  // A step: floor z = 0 for x < 0, riser x = 0, top z = 1. Only the edge at x = z = 0 is concave.
   HybridMesh mesh;
   for (const char* name : {"floor", "riser"}) mesh.patches.push_back({name, PatchKind::wall});
   const std::array<std::array<double, 2>, 4> profile = {{{-1, 0}, {0, 0}, {0, 1}, {1, 1}}};
@@ -101,7 +101,7 @@ TEST(CutPlaces, JunctionIsWhereTwoPatchesMeetInAConcaveEdge) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 4; ++j) {
       const NodeId a(5 * i + j), b(5 * i + j + 1), c(5 * i + 5 + j + 1), d(5 * i + 5 + j);
-      mesh.boundary_quads.push_back({{a, b, c, d}, PatchId(i == 0 ? 0 : 1)});  // out of the fluid, which is above
+      mesh.boundary_quads.push_back({{a, b, c, d}, PatchId(i == 0 ? 0 : 1)});  // normals point out of the fluid, which is above
     }
   const CutPlace place = place_of(automatic_cuts(mesh, k_context), "junction");
   EXPECT_EQ(place.focus.x, 0.0);

@@ -1,4 +1,4 @@
-// Sections of volume meshes: they tile the domain's section, whatever the plane goes through.
+// Sections of volume meshes: they tile the section of the domain for any position of the plane.
 #include "geom/mesh/cut.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Vec3 area_of(std::span<const Point> corners) {
   return sum;
 }
 
-/// Sum of areas; each polygon must be right-handed about the normal and lie in the plane.
+/// Returns the sum of areas. Each polygon must be right-handed about the normal and lie in the plane.
 double total_area(const MeshCut& cut, const CutPlane& plane) {
   const Vec3 normal = normalized(plane.normal);
   double sum = 0.0;
@@ -73,7 +73,7 @@ std::vector<Case> cases() {
   add("plate, along the layers", plate_block(4), {0, 0, 0.2}, {0, 0, 1}, 1.0);
   add("plate, along the envelope", plate_block(4, {.layer_height = 0.5}), {0, 0, 0.5}, {0, 0, 1}, 1.0);
   add("plate with collapsed lines", plate_block(4, {.collapsed = {6, 7, 12, 13, 18}}), {0.4, 0.5, 0}, {1, 0.3, 0.1}, 0.0);
-  all.back().area = std::nan("");  // compared with the mesh without collapsed lines
+  all.back().area = std::nan("");  // compared with the mesh without collapsed growth lines
   add("cube in a cube", cube_shell(3), {0, 0, 0.5}, {0, 0, -1}, 8.0);
   add("cube in a cube, along its side", cube_shell(3), {0, 0, 1.0}, {0, 0, 1}, 8.0);
   add("cube in a cube, outside it", cube_shell(3), {0, 0, 1.0}, {0, 0, -1}, 9.0);
@@ -110,7 +110,7 @@ TEST(Cut, NoTwoPolygonsOverlap) {
 TEST(Cut, OfASphericalShell) {
   const HybridMesh mesh = sphere_shell(6);  // from radius 1 to 3
   const CutPlane plane{{0, 0, 0}, {0.3, 0.2, 1.0}, std::nullopt};
-  EXPECT_NEAR(total_area(cut_mesh(mesh, plane, k_context), plane), 8.0 * std::numbers::pi, 0.02 * 8.0 * std::numbers::pi);  // of an inscribed polyhedron
+  EXPECT_NEAR(total_area(cut_mesh(mesh, plane, k_context), plane), 8.0 * std::numbers::pi, 0.02 * 8.0 * std::numbers::pi);  // inscribed polyhedron
 }
 
 TEST(Cut, OfColumnsIsThatOfExplicitCells) {

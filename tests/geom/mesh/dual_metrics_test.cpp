@@ -1,4 +1,4 @@
-// SU2's dual metrics: hand-worked cells, and two implementations against each other on meshes of every kind of cell.
+// SU2's dual metrics: cells calculated by hand, and two implementations compared on meshes with every kind of cell.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace test;
 
 using test::k_degree;
-/// Angles inside columns come from a polynomial good to 2e-8; elsewhere from acos, which near 0 and 180 degrees turns rounding into as much.
+/// Angles inside columns come from a polynomial accurate to 2e-8. Other angles come from acos, which near 0 and 180 degrees has rounding errors of this size.
 constexpr double k_angle_error = 5e-8;
 
 Column<NodeId, NodeMetrics> metrics_of(const HybridMesh& mesh) {
@@ -99,12 +99,12 @@ TEST(DualMetrics, RightTetByHand) {
   HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {});
   mesh.tetrahedra.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3)});
   const auto m = metrics_of(mesh);
-  // Node 0: dual face of edge 0-1 = (2, 1, 1)/24, likewise the others: area sqrt(6)/24, cosine to the edge 2/sqrt(6), 35.264 degrees.
+  // Node 0: dual face of edge 0-1 = (2, 1, 1)/24, the other edges by symmetry: area sqrt(6)/24, cosine to the edge 2/sqrt(6), 35.264 degrees.
   EXPECT_NEAR(m[NodeId(0)].orthogonality, (90 - 35.26438968) * k_degree, 1e-9);
   // Boundary piece: a third of each of three faces of area 1/2, (-1, -1, -1)/6, area sqrt(3)/6; over sqrt(6)/24 that is sqrt(8).
   EXPECT_NEAR(m[NodeId(0)].face_area_ratio, std::sqrt(8.0), 1e-14);
   EXPECT_DOUBLE_EQ(m[NodeId(0)].edge_ratio, 1.0);
-  // Node 1: the face towards 0 as above; those towards 2 and 3 are normal to their edges, (-1, 1, 0)/24 and (-1, 0, 1)/24.
+  // Node 1: the face towards node 0 as above; the faces towards 2 and 3 are normal to their edges, (-1, 1, 0)/24 and (-1, 0, 1)/24.
   EXPECT_NEAR(m[NodeId(1)].orthogonality, (std::sqrt(6.0) * 54.73561032 + 2 * std::sqrt(2.0) * 90) / (std::sqrt(6.0) + 2 * std::sqrt(2.0)) * k_degree, 1e-8);
   EXPECT_NEAR(m[NodeId(1)].edge_ratio, std::sqrt(2.0), 1e-15);
   for (const NodeId node : mesh.points.ids()) {
@@ -118,16 +118,16 @@ TEST(DualMetrics, RightPrismsByHand) {
   for (const double h : {1.0, 1e-3, 1e-6}) {
     const HybridMesh mesh = right_prism(h);
     const auto m = metrics_of(mesh);
-    // Node 0: towards 1 the dual face (h/6, h/12, 0), area h sqrt(5)/12, 26.565 degrees off the edge; towards 2 the mirror image; upwards (0, 0, 1/6), aligned.
+    // Node 0: towards 1 the dual face (h/6, h/12, 0), area h sqrt(5)/12, 26.565 degrees off the edge; towards 2 its mirror image; upwards (0, 0, 1/6), aligned.
     const double side = h * std::sqrt(5.0) / 12, top = 1.0 / 6;
     EXPECT_NEAR(m[NodeId(0)].orthogonality, (2 * side * 63.43494882 + top * 90) / (2 * side + top) * k_degree, 1e-8);
     // Boundary piece (-h/4, -h/4, -1/6).
     const double boundary = std::sqrt(h * h / 8 + 1.0 / 36);
     EXPECT_NEAR(m[NodeId(0)].face_area_ratio, std::max({side, top, boundary}) / std::min({side, top, boundary}), 1e-9 * boundary / side);
-    EXPECT_NEAR(m[NodeId(0)].edge_ratio, 1.0, 1e-15);  // the growth edge does not count
+    EXPECT_NEAR(m[NodeId(0)].edge_ratio, 1.0, 1e-15);  // the edge along the growth direction is excluded
     EXPECT_NEAR(m[NodeId(1)].edge_ratio, std::sqrt(2.0), 1e-15);
     for (const NodeId node : mesh.points.ids()) {
-      EXPECT_NEAR(m[node].sub_volume_ratio, 1.0, 1e-9);  // 36 sub-tets of h/72, as the image of any straight prism
+      EXPECT_NEAR(m[node].sub_volume_ratio, 1.0, 1e-9);  // 36 sub-tets of h/72, since a straight prism is an affine image
       EXPECT_NEAR(m[node].volume, h / 12, 1e-9 * h);
     }
   }
@@ -143,7 +143,7 @@ TEST(DualMetrics, CubeAndCubeOfTets) {
     EXPECT_NEAR(m.volume, 1.0 / 8, 1e-16);
     EXPECT_TRUE(std::isnan(m.edge_ratio));
   }
-  // Six tets about the diagonal 0-6, each of volume 1/6: on the diagonal a node has all six (volume 6/24), else two (2/24); sub-tets are all 1/144.
+  // Six tets about the diagonal 0-6, each of volume 1/6. A node on the diagonal belongs to all six (volume 6/24), others to two (2/24); all sub-tets are 1/144.
   HybridMesh mesh = hexahedra_block(1);
   const auto v = mesh.hexahedra.front();
   mesh.hexahedra.clear();
@@ -165,9 +165,9 @@ TEST(DualMetrics, CubeAndCubeOfTets) {
 }
 
 TEST(DualMetrics, PyramidByHand) {
-  // Apex over the middle of a unit square, height 1, volume 1/3. Centroid (1/2, 1/2, 1/5). At the apex: sub-tets on a side (area vector half of 0 1 4), cut
-  // from the centroid: the side's tet to the centroid has volume (1/3 - base tet 1/3 * 1/5) / 4 = 1/15, a sixth for each of its six sub-tets: 1/90. On the
-  // base: the pyramid over it to the centroid has 1/15, an eighth for each of its sub-tets: 1/120.
+  // Apex over the middle of a unit square, height 1, volume 1/3. Centroid (1/2, 1/2, 1/5). Sub-tets at the apex, on a side (area vector half of 0 1 4), as seen
+  // from the centroid: the tet from the side to the centroid has volume (1/3 - base tet 1/3 * 1/5) / 4 = 1/15; each of its six sub-tets has a sixth, 1/90.
+  // Sub-tets on the base: the pyramid from the base to the centroid has 1/15; each of its eight sub-tets has an eighth, 1/120.
   HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}, {{0, 3, 2, 1}});
   mesh.pyramids.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4)});
   const auto m = metrics_of(mesh);
@@ -181,7 +181,7 @@ TEST(DualMetrics, PyramidByHand) {
 }
 
 TEST(DualMetrics, RegularStackHasOneAndAHalfTimesEdgeOverHeight) {
-  // Regular triangles of edge l: a hexagon of area l^2 sqrt(3)/2 above, sides of length l/sqrt(3); over the height H the ratio is 1.5 l/H.
+  // Regular triangles of edge l: the upper dual face is a hexagon of area l^2 sqrt(3)/2 with sides of length l/sqrt(3); at layer height H the ratio is 1.5 l/H.
   constexpr int k_n = 4, k_layers = 8;
   HybridMesh mesh = plate_block(k_n, {.n_layers = k_layers, .layer_height = 0.1, .ratio = 1.0});
   for (Point& p : mesh.points) p = {p.x - 0.5 * p.y, std::sqrt(0.75) * p.y, p.z};
@@ -205,8 +205,8 @@ TEST(DualMetrics, ThinLayersFarFromTheOrigin) {
   EXPECT_NEAR(report.dual_volume, report.total_volume, 1e-12 * report.total_volume);
 }
 
-/// Needles 5 m long and 1e-5 m wide, as repair leaves them beside crossings (openscad-nonmanifold-crash.obj: one control volume was said to be open). Rounding
-/// of the long edges is more than 1e-12 of such cells' faces.
+/// Sliver triangles 5 m long and 1e-5 m wide, as repair leaves them beside crossings (openscad-nonmanifold-crash.obj: one control volume was reported as open).
+/// Rounding of the long edges exceeds 1e-12 of the faces of such cells.
 TEST(DualMetrics, NeedlesAreNotOpenByRounding) {
   HybridMesh mesh = plate_block(4, {.n_layers = 6});
   for (Point& p : mesh.points) p = {5.0 * p.x + 0.31 * p.y + 0.17 * p.z, 1e-5 * p.y, 1e-5 * p.z + 0.3e-5 * p.x};
@@ -224,14 +224,14 @@ TEST(DualMetrics, RealMesh) {
   options.envelope.first_height = 1e-4 * body_length(wall);
   options.farfield.farfield_radius = 20 * body_length(wall);
   const volmesh::VolumeMeshResult result = volmesh::volume_mesh(wall, options, RunContext({.threads = 2}));
-  expect_as_naive(result.mesh, 1e-6);  // the naive one cancels: coordinates of 20 body lengths, cells of 1e-4
+  expect_as_naive(result.mesh, 1e-6);  // cancellation in the naive version: coordinates of 20 body lengths, cells of 1e-4
   EXPECT_NEAR(result.check.dual_volume, result.check.total_volume, 1e-12 * result.check.total_volume);
   EXPECT_LT(result.check.gate(Measure::dual_closure).worst, 1e-12);
   for (const MeasureInfo& info : measures())
     EXPECT_EQ(result.check.gate(info.measure).state == GateState::not_checked,
               info.measure == Measure::cad_distance || info.measure == Measure::cad_normal || info.measure == Measure::boundary_layer)
-        << info.name;  // these need a model, or a boundary layer that was asked for
-  // The same mesh as a file would have it: lines are found again.
+        << info.name;  // these measures need a model, or a boundary layer in the request
+  // The same mesh without columns, as read from a file: the check finds the growth lines again.
   const CheckReport cells = check(explicit_cells(result.mesh), {.intersections = false}, RunContext({.threads = 2}));
   for (const Measure measure :
        {Measure::stack_growth, Measure::stack_angle, Measure::layer_step, Measure::interface_height, Measure::interface_volume, Measure::sub_volume_ratio})
@@ -245,7 +245,7 @@ Cell only_cell(const HybridMesh& mesh) {
   return result;
 }
 
-/// Smallest sub-tet of a lone cell by the definitions.
+/// Returns the smallest sub-tet volume of a single cell, computed from the definitions.
 double least_sub_volume(CellKind kind, const std::vector<Point>& points) {
   HybridMesh mesh;
   mesh.points = Column<NodeId, Point>(points);
@@ -273,7 +273,7 @@ TEST(SubVolumes, SignsAreThoseOfTheDefinitionOnRandomPrismsAndPyramids) {
     ASSERT_EQ(are_sub_volumes_positive(q), least_sub_volume(CellKind::pyramid, {q.begin(), q.end()}) > 0.0) << i;
   }
   EXPECT_GT(n_positive, 100);
-  EXPECT_GT(n_valid_but_negative, 10);  // so the gate says something that G3 does not
+  EXPECT_GT(n_valid_but_negative, 10);  // so this gate finds cells that G3 does not
 }
 
 }  // namespace

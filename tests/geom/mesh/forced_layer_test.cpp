@@ -1,4 +1,4 @@
-// What the wall under a layer forces: each proof on a mesh where it holds, on a near one where it does not, and never beyond what a mesh has.
+// Defects forced by the input surface under a layer: each proof on a mesh where it holds, on a similar one where it does not, and never beyond real meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ int n_of_sides(const GateResult& gate) {
   return n;
 }
 
-/// A plate of 4 x 4 squares of which the second row across x is `width` wide instead of 0.25, from layer `from` on.
+/// Returns a plate of 4 x 4 squares whose second row across x is `width` wide instead of 0.25, from layer `from` on.
 HybridMesh plate_with_strip(double width, double layer_height, int from = 0) {
   HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = layer_height, .ratio = 1.2, .outer_height = 2.0 * layer_height});
   const auto squeezed = [&](double x) { return x <= 0.25 ? x : x <= 0.5 ? 0.25 + (x - 0.25) * width / 0.25 : x - 0.25 + width; };
@@ -50,22 +50,22 @@ TEST(ForcedLayer, WeightsAndVolumesOfUnequalWallTriangles) {
   for (const Measure measure : {Measure::face_weight, Measure::volume_ratio}) {
     const GateResult& gate = thin.gate(measure);
     EXPECT_GT(gate.n_forced, 0) << to_text(gate);
-    EXPECT_EQ(n_of_sides(gate), 0) << to_text(gate);  // of columns all is forced
+    EXPECT_EQ(n_of_sides(gate), 0) << to_text(gate);  // all column sides beyond the limit are forced by the input surface
     ASSERT_FALSE(gate.forced.empty());
     EXPECT_NE(gate.forced.front().forcing.remedy.find("remesh the wall"), std::string::npos);
   }
-  // The wall is even: what stands on it is ours.
+  // The wall is regular, so the defect in the layer above is the mesher's.
   const CheckReport above = checked(plate_with_strip(0.001, 1e-5, 1));
   EXPECT_EQ(above.gate(Measure::face_weight).n_forced, 0);
   EXPECT_GT(n_of_sides(above.gate(Measure::face_weight)), 0);
   EXPECT_EQ(above.gate(Measure::face_weight).state, GateState::fail);
-  // A layer that is thicker than the strip is wide could have leant.
+  // In a layer thicker than the strip's width, growth lines could have been tilted.
   const CheckReport thick = checked(plate_with_strip(0.001, 0.2));
   EXPECT_EQ(thick.gate(Measure::face_weight).n_forced, 0);
   EXPECT_EQ(thick.gate(Measure::volume_ratio).n_forced, 0);
 }
 
-/// What a request permits: 4 layers that grow by 1.25.
+/// Returns a plate with 4 layers that grow by 1.25, whose request permits the given growth.
 HybridMesh low_plate(double asked_growth) {
   HybridMesh mesh = plate_block(4, {.n_layers = 4, .layer_height = 0.01, .ratio = 1.25, .outer_height = 0.2});
   mesh.request.first_height = 0.01 / 5.765625;
@@ -82,7 +82,7 @@ TEST(ForcedLayer, LastHeightsThatTheRequestKeepsLow) {
   EXPECT_EQ(asked.n_forced, asked.n_beyond_hard) << to_text(asked);
   EXPECT_NE(asked.state, GateState::fail);
   EXPECT_NE(asked.forced.front().forcing.remedy.find("more layers"), std::string::npos);
-  // With such a growth the last cell could have been 30 times as high.
+  // With this growth ratio the last cell could have been 30 times as high.
   const GateResult ours = checked(low_plate(3.0)).gate(Measure::interface_height);
   EXPECT_EQ(ours.n_forced, 0);
   EXPECT_EQ(ours.state, GateState::fail);
@@ -101,14 +101,14 @@ TEST(ForcedLayer, LastHeightsThatAGapKeepsLow) {
 
 struct SharpEdge {
   double half_angle = 1.2 * k_degree;
-  double lower_chord = 1.0;  ///< over the upper one
-  double lower_shift = 0.0;  ///< of the lower sheet along the edge
-  double height = 2e-4;      ///< of the layer
-  double off_middle = 0.0;   ///< rad, of the edge's lines
-  double leaning = 0.0;      ///< rad, random, of all lines
+  double lower_chord = 1.0;  ///< chord of the lower side over that of the upper side
+  double lower_shift = 0.0;  ///< shift of the lower side along the edge
+  double height = 2e-4;      ///< layer height
+  double off_middle = 0.0;   ///< rad, inclination of the edge's growth lines to the middle direction
+  double leaning = 0.0;      ///< rad, random inclination of all growth lines
 };
 
-/// Two sheets of a wing's rear that meet along the y axis: five nodes on the edge, four opposite ones on each sheet.
+/// Returns the two sides of a wing's rear that meet along the y axis: five nodes on the edge, four opposite nodes on each side.
 HybridMesh sharp_edge(const SharpEdge& edge) {
   TriMesh wall;
   wall.patches.push_back({"wing", PatchKind::wall});
@@ -146,24 +146,24 @@ TEST(ForcedLayer, SkewnessAtASharpEdge) {
   EXPECT_GT(gate.n_beyond_hard, 0);
   EXPECT_EQ(gate.n_forced, gate.n_beyond_hard) << to_text(gate);
   EXPECT_NE(gate.forced.front().forcing.remedy.find("several normals"), std::string::npos);
-  // Sheets that are shifted against each other have no such skewness, nor has a blunt edge.
+  // Neither sides shifted against each other nor a blunt edge force such skewness.
   const HybridMesh shifted = sharp_edge({.lower_shift = 0.3}), blunt = sharp_edge({.half_angle = 12 * k_degree});
   for (const HybridMesh* mesh : {&shifted, &blunt})
     for (const ColumnSide& side : inner_sides(*mesh)) EXPECT_FALSE(GivenLayer(*mesh).skewness(side, info_of(Measure::skewness).limits.hard));
-  // Where the layer is as thick as the triangles are long, its sides are where its lines lead them.
+  // Where the layer is as thick as the triangles are long, the positions of the column sides depend on the growth lines.
   const HybridMesh thick = sharp_edge({.height = 0.3});
   for (const ColumnSide& side : inner_sides(thick)) EXPECT_FALSE(GivenLayer(thick).skewness(side, info_of(Measure::skewness).limits.hard));
 }
 
 TEST(ForcedLayer, SkewnessThatTheBareEdgeHas) {
-  // A wedge of 6 degrees: 5 / (2 sin 3 degrees) with triangles that stand opposite each other, in thin layers.
+  // A wedge of 6 degrees: 5 / (2 sin 3 degrees) for opposite triangles, in thin layers.
   const double hard = info_of(Measure::skewness).limits.hard, value = 2.5 / std::sin(3 * k_degree);
   const HybridMesh thin = sharp_edge({.half_angle = 3 * k_degree, .height = 1e-4});
   const GateResult gate = check(thin, {.intersections = false}, RunContext({.threads = 1})).gate(Measure::skewness);
   EXPECT_NEAR(gate.worst, value, 0.02 * value);
   EXPECT_GT(gate.n_beyond_hard, 0);
   EXPECT_EQ(gate.n_forced, gate.n_beyond_hard) << to_text(gate);
-  // What is worse than the edge has it from the layer; blunt edges, and triangles that do not stand opposite each other, have none.
+  // Skewness beyond the edge's bound is caused by the layer; blunt edges, and triangles that are not opposite each other, force no skewness.
   const auto n_told = [&](const HybridMesh& mesh, double measured) {
     const GivenLayer given(mesh);
     return std::ranges::count_if(inner_sides(mesh), [&](const ColumnSide& side) { return given.skewness_of_edge(side, hard, measured).has_value(); });
@@ -187,13 +187,13 @@ TEST(ForcedLayer, OrthogonalityBetweenFacetsOfUnequalSize) {
   };
   EXPECT_GT(n_proven({.lower_chord = 0.3}), 0);
   EXPECT_EQ(n_proven({.lower_chord = 0.95}), 0);
-  // A wedge of 10 degrees leaves directions that pass; lines that hug the lower sheet are our choice.
+  // A wedge of 10 degrees leaves directions that pass the gate; growth lines close to the lower side are the mesher's choice.
   const SharpEdge wide = {.half_angle = 5 * k_degree, .lower_chord = 0.3, .off_middle = -4.9 * k_degree};
   EXPECT_EQ(n_proven(wide), 0);
   EXPECT_EQ(check(sharp_edge(wide), {.intersections = false}, RunContext({.threads = 1})).gate(Measure::orthogonality).is_hard_missed, true);
 }
 
-// A bound must hold for every mesh that keeps what it supposes: none is beyond the worst that such meshes have.
+// A bound must hold for every mesh that meets its assumptions: no bound exceeds the worst value of such meshes.
 TEST(ForcedLayer, NoBoundIsBeyondWhatAMeshHas) {
   for (const double half_angle : {1.0, 3.0, 8.0})
     for (const double chord : {0.05, 0.4, 1.0})

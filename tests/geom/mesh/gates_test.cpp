@@ -1,4 +1,4 @@
-// The QUALITY gates: how a measure is judged, and each gate on a mesh whose figure is known by hand.
+// The QUALITY gates: how a measure is judged, and each gate on a mesh whose value is known by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ TEST(Gates, PassWarnAndFailByHardTargetAndUsualLimits) {
   EXPECT_EQ(state_of(999, {4.1}), GateState::pass);  // 99.9 %
   EXPECT_EQ(state_of(998, {4.1}), GateState::warn);
   EXPECT_EQ(state_of(9999, {20.1}), GateState::fail);
-  EXPECT_EQ(state_of(9999, {20.0}), GateState::pass);  // a limit itself is kept
+  EXPECT_EQ(state_of(9999, {20.0}), GateState::pass);  // a value equal to the limit passes
   EXPECT_EQ(state_of(9999, {std::numeric_limits<double>::quiet_NaN()}), GateState::fail);
   const MeasureInfo& target = info_of(Measure::skewness);  // upper: hard 20, target 4
   EXPECT_EQ(judged_of(target, target.limits, 9999, {4.1}).state, GateState::warn);
@@ -61,13 +61,13 @@ TEST(Gates, ALimitForNodeCentredSolversWithoutEvidenceOfItsOwnWarns) {
   EXPECT_EQ(state_for(cited, Consumer::cell_centred), GateState::not_checked);
   EXPECT_EQ(cited.state, GateState::warn);
   GateLimits own = nodes.limits;
-  own.hard = 2e4;  // the user's
+  own.hard = 2e4;  // the user's limit
   EXPECT_EQ(judged_of(nodes, own, 9, {100001.0}).state, GateState::fail);
   const MeasureInfo& both = info_of(Measure::tet_growth);
   const GateResult shared = judged_of(both, both.limits, 9, {21.0});
   EXPECT_EQ(state_for(shared, Consumer::cell_centred), GateState::fail);
   EXPECT_EQ(state_for(shared, Consumer::node_centred), GateState::warn);
-  const MeasureInfo& asked = info_of(Measure::first_height);  // against the request: a definition
+  const MeasureInfo& asked = info_of(Measure::first_height);  // compared with the request, by definition
   EXPECT_EQ(state_for(judged_of(asked, asked.limits, 0, {0.5}), Consumer::node_centred), GateState::fail);
 }
 
@@ -99,14 +99,14 @@ TEST(Gates, ItemsAreCountedOnBothSidesOfWhatTheyShouldBe) {
       << to_text(result);
 }
 
-/// Heights of one line's cells changed; the plate is 6 x 6.
+/// Changes the cell heights of one growth line; the plate is 6 x 6.
 void jump(HybridMesh& mesh, std::uint32_t line) { mesh.points[mesh.layers.node(line, 2)].z *= 1.5; }
 
 TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   HybridMesh mesh = regular_plate_of_steps();
   ask_for(mesh, 0.1 / 6.187, 0.1, 1.3);
   jump(mesh, 8);
-  jump(mesh, 9);   // beside it
+  jump(mesh, 9);   // a neighbour
   jump(mesh, 40);  // far away
   const CheckReport report = checked(mesh);
   const GateResult& growth = report.gate(Measure::stack_growth);
@@ -114,7 +114,7 @@ TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   EXPECT_EQ(growth.n_beyond_hard, 3);
   EXPECT_EQ(growth.n_places, 2);
   EXPECT_EQ(growth.n_too_large, 3);
-  EXPECT_NEAR(growth.share_beyond, 3.0 / 36, 0.02);  // a line inside stands for a square
+  EXPECT_NEAR(growth.share_beyond, 3.0 / 36, 0.02);  // an inner growth line represents one square
   EXPECT_TRUE(growth.extent.empty());
   EXPECT_EQ(report.quality_state(Consumer::cell_centred), GateState::fail);
   ASSERT_EQ(report.verdict_places.size(), 2u);
@@ -129,7 +129,7 @@ TEST(Gates, AVerdictForOneKindOfSolverLeavesTheOthersOut) {
   const CheckReport both = checked(mesh), nodes = checked(mesh, {.consumers = {.cell_centred = false, .node_centred = true}}),
                     cells = checked(mesh, {.consumers = {.cell_centred = true, .node_centred = false}});
   EXPECT_EQ(nodes.gate(Measure::non_orthogonality).state, GateState::not_checked);
-  EXPECT_EQ(nodes.gate(Measure::stack_growth).state, GateState::warn);  // a guideline's limit
+  EXPECT_EQ(nodes.gate(Measure::stack_growth).state, GateState::warn);  // the limit is a guideline
   EXPECT_EQ(nodes.quality_state(), GateState::warn);
   EXPECT_EQ(cells.gate(Measure::orthogonality).state, GateState::not_checked);
   EXPECT_EQ(cells.gate(Measure::stack_growth).state, GateState::fail);
@@ -190,7 +190,7 @@ HybridMesh regular_plate(int n, const ShellOptions& options) {
 
 HybridMesh regular_plate_of_steps() { return regular_plate(6, {.n_layers = 4, .layer_height = 0.1, .ratio = 1.3}); }
 
-/// A request that the mesh's layers meet.
+/// Sets a request that the mesh's layers meet.
 void ask_for(HybridMesh& mesh, double first_height, double height, double max_growth) {
   mesh.request.first_height = first_height;
   mesh.request.max_growth = max_growth;
@@ -216,7 +216,7 @@ TEST(Gates, StraightLayersAsAsked) {
   EXPECT_EQ(report.gate(Measure::layer_step).total, 40 + 16);  // edges of 4 x 4 squares and their diagonals
   ASSERT_EQ(report.coverage.size(), 1u);
   EXPECT_EQ(report.coverage[0].patch, "plate");
-  // The last layer has 1.953125 first heights over 0.8165 of the edge 1/4: 0.166, 6.02 times too low.
+  // The last layer has 1.953125 first heights; 0.8165 of the edge 1/4 is the target: the ratio is 0.166, 6.02 times too low.
   EXPECT_NEAR(report.gate(Measure::interface_height).worst, std::sqrt(2.0 / 3.0) * 0.25 / (1.953125 * k_first), 1e-9);
   EXPECT_EQ(report.gate(Measure::interface_height).state, GateState::warn);
 }
@@ -239,12 +239,12 @@ TEST(Gates, EachLineIsMeasuredAgainstWhatWasAskedOfIt) {
   constexpr double k_first = 0.1 / 5.765625, k_second = 0.1 / 2.25;
   HybridMesh mesh = two_shells(8, 4, 2, {.layer_height = 0.1, .ratio = 1.25});
   ask_for(mesh, k_first, 0.1, 1.25);
-  EXPECT_GT(checked(mesh).gate(Measure::first_height).worst, 1.0);  // of the second body
+  EXPECT_GT(checked(mesh).gate(Measure::first_height).worst, 1.0);  // from the second body
   for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) mesh.request.line_first_height.push_back(mesh.layers.layers_of_line(k) == 4 ? k_first : k_second);
-  EXPECT_LT(checked(mesh).gate(Measure::first_height).worst, 1e-4);  // rays lean a little from the normals of a sphere of facets
+  EXPECT_LT(checked(mesh).gate(Measure::first_height).worst, 1e-4);  // rays are slightly inclined to the normals of a faceted sphere
   EXPECT_EQ(checked(mesh).gate(Measure::layer_step).worst, 0.0);
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::pass);
-  // The second body was asked for 1.2: its 1.25 is as 1.25 * 1.25 / 1.2 against the largest.
+  // The second body requests a growth of 1.2: its 1.25 counts as 1.25 * 1.25 / 1.2 against the largest.
   for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) mesh.request.line_max_growth.push_back(mesh.layers.layers_of_line(k) == 4 ? 1.25 : 1.2);
   const CheckReport report = checked(mesh);
   EXPECT_NEAR(report.gate(Measure::stack_growth).worst, 1.25 * 1.25 / 1.2, 1e-9);
@@ -261,7 +261,7 @@ TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
   ask_for(mesh, 0.11, 0.3, 1.2);  // three cells of 0.11 do not fit: compressed everywhere
   const CheckReport compressed = checked(mesh);
   EXPECT_EQ(compressed.gate(Measure::first_height).state, GateState::not_checked);
-  EXPECT_NEAR(compressed.coverage[0].full, 1.0, 1e-14);  // but as high as was asked for
+  EXPECT_NEAR(compressed.coverage[0].full, 1.0, 1e-14);  // but at the full requested height
   ask_for(mesh, 0.11, 0.4, 1.2);
   EXPECT_NEAR(checked(mesh).coverage[0].compressed, 1.0, 1e-14);
   ask_for(mesh, 0.08, 0.4, 1.2);
@@ -269,17 +269,17 @@ TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
   const CheckReport reduced = checked(mesh);
   EXPECT_NEAR(reduced.coverage[0].reduced, 1.0, 1e-14);
   EXPECT_EQ(reduced.coverage[0].lost.front().first, "warped");
-  EXPECT_EQ(reduced.gate(Measure::coverage).state, GateState::warn);  // an edge-matching height is no boundary layer
+  EXPECT_EQ(reduced.gate(Measure::coverage).state, GateState::warn);  // a height that matches the edges is not a boundary layer height
   EXPECT_EQ(reduced.gate(Measure::boundary_layer).state, GateState::not_checked);
-  mesh.request.line_boundary_layer.assign(mesh.layers.n_lines(), 0.32);  // the layer has 0.3, more than 0.9 of it
+  mesh.request.line_boundary_layer.assign(mesh.layers.n_lines(), 0.32);  // the layer height of 0.3 is more than 0.9 of the boundary layer
   EXPECT_EQ(checked(mesh).gate(Measure::boundary_layer).state, GateState::pass);
   mesh.request.line_boundary_layer.assign(mesh.layers.n_lines(), 0.35);
   EXPECT_EQ(checked(mesh).gate(Measure::boundary_layer).state, GateState::fail);
   EXPECT_EQ(checked(mesh).gate(Measure::boundary_layer).worst, 0.0);
-  mesh.request.line_boundary_layer.front() = 0.0;  // asked for on the rest
+  mesh.request.line_boundary_layer.front() = 0.0;  // required on all other growth lines
   EXPECT_LT(checked(mesh).gate(Measure::boundary_layer).total, checked(mesh).gate(Measure::coverage).total);
   mesh.request.line_boundary_layer.clear();
-  // A line that leans by 60 degrees is twice as long as its height along the normal, which counts.
+  // A growth line inclined by 60 degrees is twice as long as its height along the normal; the height is judged.
   for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);
   ask_for(mesh, 0.1, 0.6, 1.2);
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.0, 1e-12);
@@ -310,7 +310,7 @@ TEST(Gates, WhatIsForcedDoesNotFailAndIsListedApart) {
 }
 
 TEST(Gates, EdgeRatiosOfTheWallAreForcedThoseAboveItAreNot) {
-  // The middle line stands a thousandth beside its neighbour, in all layers; the layers are lower than that.
+  // The middle growth line is 0.001 from its neighbour in all layers; the layers are lower than this distance.
   HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 1e-4});
   const auto move_from = [&](int layer) {
     HybridMesh moved = mesh;
@@ -352,7 +352,7 @@ TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
   ask_for(mesh, 0.1, 0.32, 1.2);
   EXPECT_NEAR(checked(mesh).coverage[0].full, 1.0, 1e-14);
-  for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);  // twice as long, as high as before
+  for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);  // twice as long, with unchanged height
   EXPECT_NEAR(checked(mesh).coverage[0].full, 1.0, 1e-14);
   ask_for(mesh, 0.1, 0.6, 1.2);
   EXPECT_NEAR(checked(mesh).coverage[0].full, 0.0, 1e-14);
@@ -360,7 +360,7 @@ TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
 }
 
 TEST(Gates, WhatAnOpposingWallForbidsIsNotAskedFor) {
-  // Equal plates of layers of one height over each other; without cells between them the mesh is no tiling, but its coverage can be told by LayerRoom.
+  // Equal plates with layers of one height facing each other. Without cells between them the mesh is not a tiling, but LayerRoom can judge its coverage.
   constexpr double k_gap = 1.0, k_target = 0.8, k_edge = 0.5;
   const auto plate = [&](double z, std::array<std::uint32_t, 3> feet, double asked) {
     std::array<Point, 3> corners = {Point{-1, -1, z}, {1, -1, z}, {0, 2, z}};
@@ -370,17 +370,17 @@ TEST(Gates, WhatAnOpposingWallForbidsIsNotAskedFor) {
   const RoomRequest line{.line = 0, .foot = {0, 0, 0}, .normal = {0, 0, 1}, .target = k_target, .edge = k_edge};
   const auto permitted = [&](std::vector<FacingTriangle> boundary, const RoomRequest& of) { return LayerRoom(std::move(boundary), k_context).permitted(of); };
   const FacingTriangle own = plate(0.0, {0, 1, 2}, k_target);
-  // Half of what the kept edges leave of the gap; all of it where nothing grows from the other side; the target where there is room.
+  // Half of the gap left by the kept edges; all of it if no layer grows from the other side; the target if there is room.
   EXPECT_NEAR(permitted({own, plate(k_gap, {3, 4, 5}, k_target)}, line), 0.5 * (k_gap - k_kept_edges * k_edge), 1e-14);
   EXPECT_EQ(permitted({own, plate(k_gap, {3, 4, 5}, 0.0)}, line), k_target);
   EXPECT_NEAR(permitted({own, plate(0.5, {3, 4, 5}, 0.0)}, line), 0.5 - k_kept_edges * k_edge, 1e-14);
   EXPECT_EQ(permitted({own, plate(2.0, {3, 4, 5}, k_target)}, line), k_target);
-  // Half of a gap that is narrower than what is kept, and nothing from a wall's back.
+  // Half of a gap that is narrower than the kept edges, and no limit from the back of a wall.
   EXPECT_NEAR(permitted({own, plate(0.1, {3, 4, 5}, 0.0)}, line), 0.05, 1e-14);
   FacingTriangle back = plate(k_gap, {3, 4, 5}, k_target);
   std::swap(back.corners[0], back.corners[1]);
   EXPECT_EQ(permitted({own, back}, line), k_target);
-  // A corner of a cube: its diagonal sees three faces at 0.577; where no direction sees all facets nothing is permitted.
+  // A corner of a cube: its diagonal sees three faces at 0.577. If no direction sees all facets, no layer height is permitted.
   RoomRequest corner = line;
   corner.visibility = 1 / std::sqrt(3.0);
   EXPECT_NEAR(permitted({own}, corner), k_target * corner.visibility / 0.9, 1e-14);
@@ -395,22 +395,22 @@ TEST(Gates, LeanOfTheFirstCellsBeyondTheBestPossible) {
   EXPECT_NEAR(report.gate(Measure::stack_angle).worst, 12 * k_degree, 1e-9);
   EXPECT_EQ(report.gate(Measure::stack_angle).state, GateState::warn);
   EXPECT_EQ(report.gate(Measure::stack_angle).share_within, 0.0);
-  // At a cube's corner the best direction, the diagonal, is 54.7 degrees off its three faces; the shell's rays go there.
+  // At a cube's corner the best direction, the diagonal, is 54.7 degrees off the normals of its three faces; the shell's rays follow the diagonal.
   EXPECT_LT(checked(cube_shell(2)).gate(Measure::stack_angle).worst, 50 * k_degree);
   const std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_NEAR(smallest_spherical_cap(axes).angle, std::acos(1 / std::sqrt(3.0)), 1e-12);
 }
 
 TEST(Gates, CollapsedLinesAreStepsAndLostArea) {
-  HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12}});  // the middle: six of 32 triangles
+  HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12}});  // the middle vertex: six of 32 triangles
   ask_for(mesh, 0.01, 0.1, 2.0);
   const CheckReport report = checked(mesh);
   EXPECT_EQ(report.gate(Measure::layer_step).worst, 3.0);
   EXPECT_EQ(report.gate(Measure::layer_step).n_beyond_hard, 6);
   EXPECT_EQ(report.gate(Measure::layer_step).state, GateState::fail);
-  EXPECT_NEAR(report.gate(Measure::collapsed).worst, 2.0 / 32, 1e-14);  // a third of each
+  EXPECT_NEAR(report.gate(Measure::collapsed).worst, 2.0 / 32, 1e-14);  // a third of each triangle
   EXPECT_NEAR(report.gate(Measure::coverage).worst, 30.0 / 32, 1e-14);
-  // All three lines of a triangle: it has no cells, but it is wall.
+  // All three growth lines of a triangle are collapsed: the triangle has no cells, but it is wall.
   HybridMesh bare = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12, 13, 18}});
   ask_for(bare, 0.01, 0.1, 2.0);
   ASSERT_EQ(checked(bare).coverage.size(), 1u);
@@ -421,7 +421,7 @@ TEST(Gates, LinesAreFoundInExplicitPrisms) {
   for (HybridMesh mesh : {sphere_shell(4, {.n_layers = 5, .ratio = 1.3}), plate_block(4, {.n_layers = 5, .collapsed = {12}}), cube_shell(2, {.n_layers = 1})}) {
     const CheckReport columns = checked(mesh);
     HybridMesh cells = explicit_cells(mesh);
-    // Prisms turned upside down and around, as another program may write them.
+    // Prisms turned upside down and rotated, as another program may write them.
     for (std::size_t i = 0; i < cells.prisms.size(); i += 3) {
       const auto p = cells.prisms[i];
       cells.prisms[i] = {p[5], p[4], p[3], p[2], p[1], p[0]};
@@ -454,7 +454,7 @@ TEST(Gates, TetsByHand) {
   EXPECT_NEAR(report.gate(Measure::tet_growth).worst, 6.0, 1e-12);
   EXPECT_EQ(report.gate(Measure::tet_growth).total, 1.0);
   EXPECT_EQ(report.gate(Measure::tet_growth).state, GateState::warn);
-  // Edges 1 and the long ones sqrt(1/3 + 36 * 2/3).
+  // Short edges 1, long edges sqrt(1/3 + 36 * 2/3).
   EXPECT_NEAR(report.gate(Measure::edge_ratio).worst, std::sqrt(1.0 / 3 + 24), 1e-12);
   // The steep tet's base angle: height 6h over the inradius sqrt(1/12).
   EXPECT_NEAR(report.gate(Measure::max_dihedral).worst, std::atan(6 * h / std::sqrt(1.0 / 12)), 1e-12);
@@ -478,7 +478,7 @@ TEST(Gates, SymmetryPatchesLieInOnePlane) {
 }
 
 TEST(Gates, PrismWithANegativeSubVolumeIsInvalidThoughItsJacobianIsPositive) {
-  // Top turned and moved over the base: all Jacobians positive, but the cell's centroid is on the wrong side of a part of a side's cone.
+  // Top rotated and shifted over the base: all Jacobians are positive, but the cell's centroid is on the wrong side of a part of a side's cone.
   HybridMesh mesh;
   mesh.patches.push_back({"all", PatchKind::wall});
   mesh.points = Column<NodeId, Point>({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {3, -1, 3}, {3, 0, 3}, {0, -1, 3}});
@@ -511,8 +511,8 @@ TEST(CheckReport, JsonHasEveryMeasureWithItsLimits) {
   EXPECT_NE(json["quality_verdict"], "not checked");
 }
 
-/// Layers that end on another wall (a strut on a tunnel's): the tops of their last prisms touch that wall, and are tops all the same, also in a file that knows
-/// no columns. (They were taken for first cells of fans and left out.)
+/// Layers that end on another wall (a strut on a tunnel wall): the tops of their last prisms touch that wall and must still count as tops, also in a file
+/// without columns. (They used to be treated as first cells of multi-normal fans and left out.)
 TEST(Gates, TopsBesideAnotherWallCountInFilesToo) {
   HybridMesh mesh = plate_block(1);
   for (Patch& patch : mesh.patches)

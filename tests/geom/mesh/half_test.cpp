@@ -29,7 +29,7 @@ double area(const TriMesh& mesh) {
   return sum;
 }
 
-/// Flux of the coordinate `axis` along itself: the volume, of a half model in a plane where this coordinate is zero.
+/// Returns the flux of the coordinate `axis` along itself. This is the volume, also of a half model cut in a plane where the coordinate is zero.
 double volume(const TriMesh& mesh, std::size_t axis) {
   double sum = 0.0;
   for (const TriangleId t : mesh.triangles.ids()) {
@@ -39,7 +39,7 @@ double volume(const TriMesh& mesh, std::size_t axis) {
   return sum;
 }
 
-/// What the header says of every half.
+/// Checks the guarantees of the header for every half.
 void expect_rim(const TriMesh& half, std::size_t axis, double at) {
   const Topology topology(half, k_context);
   std::vector<int> balance(half.n_vertices(), 0), n_edges(half.n_vertices(), 0);
@@ -113,7 +113,7 @@ TEST(Half, HasNoSliversBesideTheRim) {
       const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
       flattest = std::min(flattest, 2.0 * triangle_area(a, b, c) / (longest * longest));
     }
-    EXPECT_GT(flattest, 0.05) << at;  // 0.1 of the shortest edge, less what cutting obliquely takes
+    EXPECT_GT(flattest, 0.05) << at;  // 0.1 of the shortest edge, less the effect of oblique cuts
   }
 }
 
@@ -127,12 +127,12 @@ TEST(Half, TellsWhereTheOtherSideIsNoImage) {
   };
   TriMesh body = test::sphere(12);
   EXPECT_THAT(warnings_of(body), testing::IsEmpty());
-  EXPECT_THAT(warnings_of(moved(body, {0.0, 0.03, 0.0})), testing::SizeIs(1));  // cut beside the middle
+  EXPECT_THAT(warnings_of(moved(body, {0.0, 0.03, 0.0})), testing::SizeIs(1));  // cut off centre
   TriMesh dented = body;
   for (Point& p : dented.points)
     if (p.y < -0.8) p.y *= 0.9;
   EXPECT_THAT(warnings_of(dented), testing::ElementsAre(testing::AllOf(HasSubstr("is not the image of the one that is kept"), HasSubstr("0.1 m"))));
-  TriMesh rough = body;  // other triangles on both sides are no asymmetry
+  TriMesh rough = body;  // different triangulations of the two sides are no asymmetry
   for (std::size_t i = 0; i < rough.points.size(); ++i) {
     Point& p = rough.points[VertexId(i)];
     if (p.y > 0.1) p = normalized(p + Vec3{0.03 * std::sin(static_cast<double>(i)), 0.0, 0.03 * std::cos(static_cast<double>(7 * i))});
@@ -150,7 +150,7 @@ TEST(Half, OfAHalfIsTheSame) {
     EXPECT_EQ(again.points.raw(), half.points.raw());
     EXPECT_EQ(again.triangles.raw(), half.triangles.raw());
   }
-  // A flat side that closes it is left out.
+  // A flat side that closes the half is left out.
   TriMesh box = half_of(test::cube(2), {}, k_context);
   expect_rim(box, 1, 0.0);
   EXPECT_NEAR(area(box), 5.0, 1e-15);
@@ -203,7 +203,7 @@ TEST(Half, SaysWhatIsWrong) {
     EXPECT_THAT(open.problem, HasSubstr("not closed in the plane:"));
     EXPECT_FALSE(open.places.empty());
   }
-  // The plane meets a corner of the cube alone.
+  // The plane touches the cube in one corner only.
   TriMesh turned = test::cube(1);
   for (Point& p : turned.points) p = {p.x, p.x + 2.0 * p.y + 4.0 * p.z, p.z};
   append(turned, moved(test::cube(2), {5.0, -0.31, 0.0}));

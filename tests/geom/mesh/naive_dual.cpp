@@ -35,7 +35,7 @@ NaiveDual naive_dual(const HybridMesh& mesh) {
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         const NodeId i = nodes[k], j = nodes[(k + 1) % nodes.size()];
         const Point m = 0.5 * (mesh.points[i] + mesh.points[j]);
-        const Vec3 area = area_vector(m, g, f);  // points from i to j, as the face is seen counter-clockwise from outside
+        const Vec3 area = area_vector(m, g, f);  // points from i to j; face f is counter-clockwise seen from outside
         edges[std::minmax(i, j)] += i < j ? area : -area;
         for (const NodeId node : {i, j}) {
           const double volume = node == i ? tet_volume(mesh.points[i], m, g, f) : tet_volume(mesh.points[j], m, f, g);

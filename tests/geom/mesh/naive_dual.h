@@ -1,5 +1,5 @@
-// The definitions of docs/method/quality.md, "Median dual" written down as they stand: one loop over cells, faces and edges, maps for everything. Slow; for
-// small meshes.
+// Literal implementation of the definitions of docs/method/quality.md, "Median dual": one loop over cells, faces and edges, with maps for everything. Slow, for
+// small meshes only.
 #pragma once
 
 #include "geom/mesh/dual_metrics.h"

@@ -1,4 +1,4 @@
-// Orders of nodes: lines stay lines, neighbours come near, the mesh is the same.
+// Node numbering: growth lines stay consecutive, neighbours get close numbers, the mesh is unchanged.
 #include "geom/mesh/numbering.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@
 namespace sterna {
 namespace {
 
-/// A chain whose numbers jump about.
+/// Returns a chain whose numbers jump.
 NeighbourGraph shuffled_chain(std::uint32_t n) {
   std::vector<std::uint32_t> place(n);
   for (std::uint32_t i = 0; i < n; ++i) place[i] = (i * 37) % n;  // 37 and n have no common divisor
@@ -42,7 +42,7 @@ TEST(Numbering, AChainGetsABandwidthOfOne) {
   EXPECT_TRUE(bandwidth_order(NeighbourGraph{}).empty());
 }
 
-/// What line-implicit solvers need: the nodes of a line are neighbours in the file, from the wall on, whatever their order is.
+/// Requirement of line-implicit solvers: the nodes of a growth line are consecutive in the file, starting at the wall, in any order of the growth lines.
 TEST(Numbering, LinesStayConsecutiveAndNeighboursComeNear) {
   const HybridMesh mesh = test::sphere_shell(6, {.n_layers = 5, .collapsed = {3, 50, 51}});
   const RunContext context({.threads = 2});
@@ -55,7 +55,7 @@ TEST(Numbering, LinesStayConsecutiveAndNeighboursComeNear) {
       EXPECT_EQ(both.layers.node(line, j).value(), both.layers.first_node[line] + static_cast<std::uint32_t>(j));
       EXPECT_EQ(is_met[both.layers.node(line, j).index()]++, 0);
     }
-  // The points along a line are those of a line of the given mesh, in its order.
+  // The points along each growth line are those of a growth line of the input mesh, in the same order.
   const auto lines_of = [](const HybridMesh& m) {
     std::vector<std::vector<std::array<double, 3>>> all;
     for (std::uint32_t line = 0; line < m.layers.n_lines(); ++line) {

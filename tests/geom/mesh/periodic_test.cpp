@@ -1,4 +1,4 @@
-// Periodic sides: a box whose left and right sides are copies, and what is found where they are not.
+// Periodic sides: a box whose left and right sides are copies, and the reported errors if they are not.
 #include "geom/mesh/periodic.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace sterna {
 namespace {
 
-/// Two flat sides x = 0 and x = 2 of n x n squares, normals along +-x; `turn` changes the diagonals of the second one.
+/// Returns two flat sides x = 0 and x = 2 of n x n squares, normals along +-x; `turn` flips the diagonals of the second side.
 TriMesh two_sides(std::uint32_t n, bool turn = false) {
   TriMesh mesh;
   for (const char* name : {"left", "right"}) mesh.patches.push_back({name, PatchKind::slip});

@@ -1,4 +1,4 @@
-// Fields of boundary faces against values worked by hand.
+// Fields of boundary faces against values calculated by hand.
 #include "geom/mesh/surface_fields.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ const std::vector<double>& values_of(const std::vector<SurfaceField>& fields, co
 const char* const k_all[] = {"edge_length", "min_angle", "aspect", "area_ratio",  "layer_height",   "first_height",   "coverage",
                              "layers",      "growth",    "skew",   "stack_angle", "interface_jump", "scaled_jacobian"};
 
-/// Equal, or both not numbers.
+/// Checks that the values are equal or both NaN.
 void expect_same(double a, double b, double tolerance) {
   if (std::isnan(a) && std::isnan(b)) return;
   EXPECT_NEAR(a, b, tolerance);
@@ -68,7 +68,7 @@ TEST(SurfaceFields, OfAPlate) {
     }
   }
   EXPECT_EQ(n_walls, 8u);
-  // The lowest quad on a side: 0.5 wide, `first` high; its neighbour above is 1.5 times as large.
+  // The lowest quad on a side: 0.5 wide, `first` high; the quad above is 1.5 times as large.
   std::size_t lowest = n_triangles;
   while (mesh.points[mesh.boundary_quads[lowest - n_triangles].nodes[0]].z != 0.0) ++lowest;
   EXPECT_NEAR(values_of(fields, "aspect")[lowest], 0.5 / first, 1e-12);

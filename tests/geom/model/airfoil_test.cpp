@@ -18,7 +18,7 @@ namespace {
 
 using test::message_of;
 
-/// Distances of the points of `a` from the polyline of `b`.
+/// Returns the distances of the points of `a` from the polyline of `b`.
 std::vector<double> deviations(const Airfoil& a, const Airfoil& b) {
   std::vector<double> distances;
   for (const Uv p : a.points) {
@@ -73,18 +73,18 @@ TEST(Airfoil, GeneratedSectionsAgreeWithPublishedCoordinates) {
   STERNA_NEEDS_SHARED_DATA();
   struct Case {
     const char *file, *name;
-    double nine_of_ten, all;  // limits of the distances of the file's points from ours: 90 % of them, and the largest
+    double nine_of_ten, all;  // limits of the distances of the file's points from the generated airfoil: for 90 % of the points, and the largest
   };
   for (const Case& c :
-       {// Formulas: what is left is our polyline's sagitta (3e-6 at the nose, with 400 points a side) and the files' last digit (5e-6 in the second two).
+       {// Formulas: the difference is the polyline's sagitta (3e-6 at the nose, with 400 points a side) and the files' last digit (5e-6 in the last two).
         Case{"n0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0006.dat", "NACA 0006", 5e-6, 6e-6},
         Case{"naca23012.dat", "naca23012", 8e-6, 1e-5},
-        // Mapping: the tables of 1945, worked by hand, against the functions of 1974. Beyond 90 %: the nose of 63A210 (1.3e-4); of 66(3)-218 the one station
-        // 0.65 on both sides (2.0e-4).
+        // Mapping: the tables of 1945, calculated by hand, against the functions of 1974. The largest 10 %: the nose of 63A210 (1.3e-4); for 66(3)-218 the
+        // station 0.65 on both sides (2.0e-4).
         Case{"naca63a210.dat", "63A210", 8e-5, 1.4e-4}, Case{"naca663218.dat", "66(3)-218", 7e-5, 2.1e-4},
-        // This file's nose (x < 0.025) is 2.5e-4 blunter than that of the mapping, which 64A010 has to 4e-5.
+        // This file's nose (x < 0.025) is 2.5e-4 blunter than that of the mapping, which reproduces 64A010 to 4e-5.
         Case{"n64015a.dat", "642-015A", 2.3e-4, 2.6e-4},
-        // This file closes the edge, which is 2.1e-4 from the middle by definition.
+        // This file closes the trailing edge, which by definition is 2.1e-4 from the middle.
         Case{"naca64a010.dat", "64-010A", 3e-5, 2.2e-4}}) {
     SCOPED_TRACE(c.file);
     std::vector<double> distances = deviations(read_airfoil(file(c.file)), naca_airfoil(c.name, 400));
@@ -112,7 +112,7 @@ TEST(Airfoil, NacaSectionsHaveTheThicknessAndCamberOfTheirName) {
   }
   // The mean line of uniform load: camber cl ln 2 / (4 pi) in the middle.
   EXPECT_NEAR(measure(naca_airfoil("65-412", 120)).camber, 0.4 * std::log(2.0) / (4.0 * M_PI), 5e-4);
-  // A reflexed line turns up at the trailing edge: moment-free; a plain one does not.
+  // A reflexed mean line turns up at the trailing edge, for zero moment; a plain mean line does not.
   const Airfoil reflexed = naca_airfoil("23112", 120), plain = naca_airfoil("23012", 120);
   const auto mean_at_90 = [](const Airfoil& a) {
     const AirfoilCurves c = airfoil_curves(a);
@@ -127,7 +127,7 @@ TEST(Airfoil, NacaSectionsHaveTheThicknessAndCamberOfTheirName) {
 /// and t = 0.2) and another quadratic and cubic term ahead of it. By these formulas the two differ by 1.57e-3 at x = 0.633, and by 8.2e-4 at most ahead of 0.3.
 TEST(Airfoil, ModifiedSectionsFollowTheirOwnFormula) {
   const Airfoil modified = naca_airfoil("0012-63", 400), plain = naca_airfoil("0012", 400);
-  EXPECT_NEAR(deviation(modified, plain), 1.567e-3, 1e-5);  // a distance across a side that slopes by 6 degrees there
+  EXPECT_NEAR(deviation(modified, plain), 1.567e-3, 1e-5);  // distance normal to a side that slopes by 6 degrees at this station
   const auto aft = [](double x) { return 0.6 * (0.002 + (1.0 - x) * (0.234 + (1.0 - x) * (-0.068571 + (1.0 - x) * -0.093878))); };
   for (const Uv p : modified.points)
     if (p.u >= 0.3) {
@@ -181,7 +181,7 @@ TEST(Airfoil, BadFilesAreRefusedWithTheLine) {
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0.7 0.1\n0.3 0.1\n0 0\n0.5 -0.1\n1 0\n"), testing::AllOf(HasSubstr("line 4"), HasSubstr("turns back")));
   EXPECT_THAT(message("n\n0 0\n0.2 0.1\n0.5 0.1\n0.8 0.05\n1 0\n"), HasSubstr("do not go around"));
   EXPECT_THAT(message_of([] { (void)read_airfoil("/absent/a.dat"); }), HasSubstr("does not exist"));
-  // Any prefix of a good file is read or refused, never worse.
+  // Any prefix of a good file is either read or refused, without a crash.
   const std::string good = "n\n1.0 0.001\n0.5 0.06\n0.1 0.04\n0 0\n0.1 -0.03\n0.5 -0.04\n1 -0.001\n";
   for (std::size_t n = 0; n < good.size(); ++n) (void)message(good.substr(0, n));
 }
@@ -193,8 +193,8 @@ TEST(Airfoil, TrailingEdgesOpenAndClose) {
     const Airfoil other = with_trailing_edge(airfoil, t);
     EXPECT_NEAR(other.trailing_edge_thickness(), t, 1e-5 * (1 + t)) << t;
     EXPECT_EQ(other.points[other.leading_edge], airfoil.points[airfoil.leading_edge]);
-    // Both sides are turned, not squeezed: their lengths change by what the ends move along them, half the thickness times the mean line's slope at the edge (2
-    // m / (1 - p) = 1/15 of 2412).
+    // Both sides are rotated, not compressed: their lengths change by the motion of the ends along them. This is half the thickness times the mean line's slope
+    // at the edge (2 m / (1 - p) = 1/15 for 2412).
     const double along = 0.5 * std::max(0.0, airfoil.trailing_edge_thickness() - t) / 15.0;
     const auto length = [](const Airfoil& a, Uv end) { return std::hypot(end.u - a.points[a.leading_edge].u, end.v - a.points[a.leading_edge].v); };
     if (t < airfoil.trailing_edge_thickness()) {

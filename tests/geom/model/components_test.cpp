@@ -23,7 +23,7 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-/// Every edge twice, in opposite directions; borders close in (u, v) and in space; parameter curves follow their edges; vector areas cancel.
+/// Checks that every edge is used twice, in opposite directions; borders close in (u, v) and in space; parameter curves follow edges; vector areas cancel.
 void expect_closed(const Model& model, double relative_tolerance = 1e-8) {
   const auto uses = uses_of_edges(model);
   for (const EdgeId e : model.edges.ids()) {
@@ -64,7 +64,7 @@ Body cylinder_body(double radius, double length) {
   return body;
 }
 
-/// Half ellipses as an airfoil: its area is pi / 4 * thickness * chord.
+/// Returns two half ellipses as an airfoil: the area is pi / 4 * thickness * chord.
 WingSection elliptic_section(double y, double chord, double thickness) {
   WingSection s{.name = "y" + std::to_string(y), .leading_edge = {0.0, y, 0.0}, .chord = chord};
   for (int i = 0; i <= 200; ++i) {
@@ -90,7 +90,7 @@ TEST(Components, a_tube_has_its_volume_flat_or_domed) {
   body.nose = body.tail = {CapShape::strip, 1.0};
   const Model strips = make_body(body, ComponentKind::body);
   expect_closed(strips);
-  EXPECT_NEAR(solid_measures(strips, SolidId(0)).volume, pi * 0.64 * 5.0 + 4.0 / 3.0 * pi * 0.512, 2e-4);  // half spheres again, made across
+  EXPECT_NEAR(solid_measures(strips, SolidId(0)).volume, pi * 0.64 * 5.0 + 4.0 / 3.0 * pi * 0.512, 2e-4);  // half spheres again, built across the axis
   EXPECT_EQ(strips.faces.size(), 4u);
   for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(strips, RunContext()))) ADD_FAILURE() << fault.what;
 }
@@ -107,7 +107,7 @@ TEST(Components, superellipses_double_ellipses_and_eggs_fill_their_box) {
     const Model model = make_body(body, ComponentKind::body);
     expect_closed(model);
     const double area = solid_measures(model, SolidId(0)).volume / 4.0 / (3.0 * 2.0);
-    // Of the box: the ellipse of exponent 4 has gamma(5/4)^2 / gamma(3/2), two half ellipses of any heights pi / 4.
+    // Share of the bounding box: the ellipse of exponent 4 has gamma(5/4)^2 / gamma(3/2), two half ellipses of any heights pi / 4.
     const double expected = shape == FrameShape::ellipse ? std::pow(std::tgamma(1.25), 2) / std::tgamma(1.5) : pi / 4;
     EXPECT_NEAR(area, expected, shape == FrameShape::ellipse ? 3e-4 : shape == FrameShape::double_ellipse ? 1e-5 : 0.03);
   }
@@ -126,7 +126,7 @@ TEST(Components, an_inlet_lip_ends_in_a_flat_fan_face) {
       EXPECT_EQ(face.name, "EngineIntake");
       const FaceMeasures m = face_measures(model, f);
       EXPECT_NEAR(m.area, pi * 0.75 * 0.75, 1e-5);
-      EXPECT_NEAR(m.vector_area.x, -m.area, 1e-9);  // it looks forwards
+      EXPECT_NEAR(m.vector_area.x, -m.area, 1e-9);  // the normal points forwards
     }
     if (face.role == FaceRole::nozzle) {
       EXPECT_EQ(face.name, "EngineExhaust");
@@ -195,7 +195,7 @@ TEST(Components, winglets_join_round) {
     const Model model = make_wing(wing);
     expect_closed(model, 1e-6);
     for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << name << ": " << fault.what;
-    // The leading edge, seen along x, goes on in the same direction at both ends of the blend; without it, it bends by 30 degrees and more.
+    // The leading edge, seen along x, continues in the same direction at both ends of the blend; without the blend it bends by 30 degrees and more.
     std::vector<Vec3> starts, ends;
     for (const ModelEdge& edge : model.edges)
       if (edge.name == "leading edge") {
@@ -213,7 +213,7 @@ TEST(Components, winglets_join_round) {
     EXPECT_NEAR(solid_measures(model, SolidId(0)).area, straight, 0.02 * straight) << name;
   }
   const Wing plain = read_smx(test::shared_data() / "smx/delta.smx", RunContext()).aircraft.wings.at(0);
-  EXPECT_EQ(wing_rows(plain).rows.size(), 2 * plain.sections.size() - 1);  // it may look for one, but has none
+  EXPECT_EQ(wing_rows(plain).rows.size(), 2 * plain.sections.size() - 1);  // this wing has no winglet
 }
 
 TEST(Components, a_section_with_only_a_naca_designation_is_made) {
@@ -222,8 +222,8 @@ TEST(Components, a_section_with_only_a_naca_designation_is_made) {
   wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
   const Model model = make_wing(wing);
   expect_closed(model);
-  // Area of the 4-digit section: 5 t (0.2969 / 1.5 - 0.126 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1015 / 5) on both sides, of the chord squared; less the wedge that
-  // closes it.
+  // Area of the 4-digit section: 5 t (0.2969 / 1.5 - 0.126 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1015 / 5) on both sides, times the chord squared; minus the wedge
+  // that closes the section.
   EXPECT_NEAR(solid_measures(model, SolidId(0)).volume, 3.0 * 4.0 * (2.0 * 0.6 * (0.2969 / 1.5 - 0.063 - 0.1172 + 0.071075 - 0.0203) - 0.00126), 3e-3);
 }
 

@@ -1,4 +1,4 @@
-// Reader of CPACS: all real files, transformations and profiles by hand, refusals with their place.
+// Reader of CPACS: all real files, transformations and profiles by hand, errors with their location.
 #include "geom/model/cpacs.h"
 #include "geom/model/components.h"
 
@@ -51,7 +51,7 @@ TEST_P(CpacsFiles, are_read_with_every_component) {
     }
 }
 
-// Components by counting in the files; pylons count as wings.
+// Component counts, counted in the files; pylons count as wings.
 INSTANTIATE_TEST_SUITE_P(all_twelve, CpacsFiles,
                          testing::Values(CpacsCounts{"CPACS_30_D150.xml", 1, 3, 0, 5}, CpacsCounts{"boxWing.xml", 1, 2, 0, 1},
                                          CpacsCounts{"canards.xml", 1, 1, 0, 1}, CpacsCounts{"d150.xml", 1, 3, 0, 5},
@@ -73,7 +73,7 @@ TEST(Cpacs, onera_m6_stands_where_its_positioning_says) {
   ASSERT_EQ(wing.sections.size(), 2u);
   EXPECT_NEAR(root_of(wing).chord, 0.8059, 1e-12);
   EXPECT_NEAR(tip_of(wing).chord, 0.4513, 1e-12);
-  EXPECT_NEAR(tip_of(wing).leading_edge.y, 1.1963 * std::cos(M_PI / 6), 1e-12);  // length and sweep of the file
+  EXPECT_NEAR(tip_of(wing).leading_edge.y, 1.1963 * std::cos(M_PI / 6), 1e-12);  // length and sweep from the file
   EXPECT_NEAR(tip_of(wing).leading_edge.x, 1.1963 * 0.5, 1e-12);
   // The airfoil runs from the trailing edge over the upper side.
   const auto highest = std::max_element(wing.sections[0].loop.begin(), wing.sections[0].loop.end(), [](const Point& a, const Point& b) { return a.z < b.z; });
@@ -96,7 +96,7 @@ TEST(Cpacs, children_move_with_parents_and_absolute_ones_do_not) {
   const Aircraft aircraft = read_real("simpletest-pylon-nacelle.cpacs.xml").aircraft;
   const Wing& pylon = aircraft.wings.at(1);
   EXPECT_TRUE(pylon.is_pylon);
-  EXPECT_NEAR(aircraft.nacelles.at(0).placement.shift.y, 1.0, 1e-12);  // the pylon's
+  EXPECT_NEAR(aircraft.nacelles.at(0).placement.shift.y, 1.0, 1e-12);  // the pylon's shift
   EXPECT_NEAR(aircraft.nacelles[0].placement.shift.z, -0.12 - 0.41, 1e-12);
   EXPECT_EQ(aircraft.nacelles[0].cowls.at(0).sections.size(), 3u);
   EXPECT_EQ(aircraft.nacelles[0].center_body.size(), 4u);
@@ -115,7 +115,7 @@ TEST(Cpacs, control_surfaces_become_patches_on_both_halves) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_real("simpletest-flaps.cpacs.xml").aircraft;
   const Model model = make_components(aircraft, RunContext());
-  // The file: InnerLED from eta 0.1 to 0.41 (at its hinge) of the half span, 2 m; hinge at 0.08 .. 0.1 of the chord.
+  // In the file: InnerLED from eta 0.1 to 0.41 (at its hinge) of the half span, 2 m; hinge at 0.08 .. 0.1 of the chord.
   for (const auto& [name, side] : {std::pair{"InnerLED", 1.0}, std::pair{"InnerLEDLeft", -1.0}}) {
     double low = 10.0, high = 0.0;
     for (const ModelFace& face : model.faces) {
@@ -134,7 +134,7 @@ TEST(Cpacs, control_surfaces_become_patches_on_both_halves) {
     EXPECT_TRUE(std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return f.name == flap; })) << flap;
 }
 
-/// A wing of two sections; `section` is put into the first one, `profiles` after the wing.
+/// Returns a file of a wing with two sections; `section` is inserted into the first one, `profiles` after the wing.
 std::string wing_file(const std::string& element, const std::string& airfoil, const std::string& positionings = "", const std::string& wing = "uID='W'") {
   const auto section = [&](const std::string& n, const std::string& inside) {
     return "<section uID='S" + n + "'><elements><element uID='E" + n + "'><airfoilUID>A</airfoilUID>" + inside + "</element></elements></section>\n";
@@ -155,10 +155,10 @@ TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
               "<transformation><scaling><x>2</x><z>3</z></scaling><rotation><x>90</x><z>90</z></rotation><translation><y>5</y></translation></transformation>",
               k_diamond))
           .aircraft.wings[0];
-  // x' y' z'': the turn about z acts first, then that about x. (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (0, 0, 2); (0, 0, 1) -> (0, 0, 3) -> (0, -3, 0).
+  // x' y' z'': rotation about z first, then about x. (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (0, 0, 2); (0, 0, 1) -> (0, 0, 3) -> (0, -3, 0).
   const std::vector<Point>& loop = wing.sections[0].loop;
   EXPECT_NEAR(distance(loop[0], {0.0, 5.0, 2.0}), 0.0, 1e-12);
-  EXPECT_NEAR(distance(loop[1], {0.0, 5.0 - 0.3, 1.0}), 0.0, 1e-12);  // the upper side comes first, although the file has the lower one first
+  EXPECT_NEAR(distance(loop[1], {0.0, 5.0 - 0.3, 1.0}), 0.0, 1e-12);  // the upper side comes first, although the file lists the lower side first
   EXPECT_NEAR(wing.sections[0].chord, 2.0, 1e-12);
   EXPECT_NEAR(wing.sections[1].leading_edge.y, 2.0, 1e-12);
 }
@@ -192,7 +192,7 @@ TEST(Cpacs, class_shape_airfoils_have_their_thickness) {
   }
 }
 
-/// The diamond wing of wing_file with one trailing-edge device.
+/// Returns the diamond wing of wing_file with one trailing-edge device.
 std::string file_with_device(const std::string& inner, const std::string& outer, const std::string& from = "E1") {
   std::string text = wing_file("", k_diamond);
   text.insert(text.find("</wing>"),
@@ -208,7 +208,7 @@ TEST(Cpacs, borders_need_not_say_where_their_other_end_is) {
   const AircraftReading both =
       read_cpacs_text(file_with_device("<etaLE>0.2</etaLE><etaTE>0.2</etaTE><xsiLE>0.7</xsiLE>", "<etaLE>0.6</etaLE><etaTE>0.6</etaTE><xsiLE>0.7</xsiLE>"));
   ASSERT_EQ(both.aircraft.control_surfaces.size(), 1u);
-  EXPECT_THAT(both.messages, testing::IsEmpty());  // a structure is no shape
+  EXPECT_THAT(both.messages, testing::IsEmpty());  // structural elements are not geometry
   for (const char* tag : {"etaLE", "etaTE"}) {
     const auto border = [&](const std::string& eta) { return "<" + std::string(tag) + ">" + eta + "</" + tag + "><xsiLE>0.7</xsiLE>"; };
     const AircraftReading one = read_cpacs_text(file_with_device(border("0.2"), border("0.6")));
@@ -261,7 +261,7 @@ TEST(Cpacs, errors_name_line_and_path) {
       HasSubstr("line 2, /cpacs/vehicles/aircraft/model[M]/wings/wing[W]/sections/section[S1]/elements/element[E1]: the file has no element with the uID 'B'"));
 }
 
-/// The file of wing_file with an engine of the given references, and its definition where it has one.
+/// Returns the file of wing_file with an engine of the given references, and the engine's definition if given.
 std::string file_with_engine(const std::string& uid, const std::string& definition) {
   std::string text = wing_file("", k_diamond);
   text.insert(text.find("</model>"), "<engines><engine uID='inst'><engineUID>" + uid + "</engineUID></engine></engines>");
@@ -276,7 +276,7 @@ TEST(CpacsReferences, AnEngineThatIsNotThereIsLeftOut) {
     EXPECT_TRUE(reading.aircraft.nacelles.empty());
     EXPECT_THAT(reading.messages, Contains(testing::AllOf(HasSubstr("engine[inst]"), HasSubstr("the engine is left out"))));
   }
-  // Its cowl's profile is not there.
+  // The profile of the cowl is missing.
   const AircraftReading reading = read_cpacs_text(file_with_engine(
       "e",
       "<engine uID='e'><nacelle><fanCowl uID='c'><sections><section uID='s'><profileUID>none</profileUID></section></sections></fanCowl></nacelle></engine>"));

@@ -1,4 +1,4 @@
-// Deflected control surfaces: the clean wing at zero, points before the hinge untouched, trailing edges where a turn puts them, closed solids.
+// Deflected control surfaces: the clean wing at zero, unchanged points before the hinge, trailing edges at the rotated positions, closed solids.
 #include "geom/model/deflection.h"
 
 #include <gmock/gmock.h>
@@ -54,7 +54,7 @@ TEST(Deflection, no_angle_is_the_clean_wing_to_the_bit) {
   EXPECT_TRUE(deflected(wing, {}) == wing);
 }
 
-/// Of OpenCASCADE's check.
+/// Checks that OpenCASCADE's check finds no faults.
 void expect_valid(const Model& model) {
   for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << fault.what;
 }
@@ -112,7 +112,7 @@ TEST(Deflection, ends_near_a_section_are_there) {
 
 TEST(Deflection, a_patch_covers_its_part_of_the_planform) {
   const Model model = make_wing(deflected(straight_wing(), {{flap(0.1, 0.3, 0.7)}}));
-  double area = 0.0;  // of the upper side, seen from above
+  double area = 0.0;  // area of the upper side in plan view
   for (const FaceId f : model.faces.ids())
     if (model.faces[f].name == "Flap") area += std::max(0.0, face_measures(model, f).vector_area.z);
   EXPECT_NEAR(area, 0.2 * 12.0 * 0.3 * 2.0, 1e-6);
@@ -184,7 +184,7 @@ TEST(Deflection, a_flap_turns_its_trailing_edge_and_nothing_before_the_knee_or_b
     const double span = (6.0 - section.loop[k_wing_side_points].y) / 12.0;
     std::vector<Point> row = section.loop;
     if (span > 0.1 - 1e-9 && span < 0.3 + 1e-9) {
-      ++n_full;  // hinge at x = 1.4, the trailing edge 0.6 behind it
+      ++n_full;  // hinge at x = 1.4, trailing edge 0.6 behind the hinge
       EXPECT_NEAR(row.front().x, 1.4 + 0.6 * std::cos(angle), 1e-9);
       EXPECT_NEAR(row.front().z, -0.6 * std::sin(angle), 1e-9);
     }
@@ -192,7 +192,7 @@ TEST(Deflection, a_flap_turns_its_trailing_edge_and_nothing_before_the_knee_or_b
     if (is_outside) ++n_clean;
     for (std::size_t k = 0; k < row.size(); ++k)
       if (is_outside || clean[k].x < 0.5 * 1.4) {
-        EXPECT_NEAR(row[k].x, clean[k].x, 1e-14);  // rows between sections are interpolated: rounding
+        EXPECT_NEAR(row[k].x, clean[k].x, 1e-14);  // rows between sections are interpolated: rounding only
         EXPECT_NEAR(row[k].z, clean[k].z, 1e-14);
       }
   }
@@ -223,7 +223,7 @@ TEST(Deflection, cubic_wings_bend_between_smooth_rows) {
   wing.sections[1].leading_edge = {0.5, 4.0, 0.1};
   wing.sections[2].leading_edge = {0.1, 2.0, 0.0};
   const SolidMeasures clean = solid_measures(make_wing(wing), SolidId(0));
-  // As good as no angle: what is left is the error of the rows.
+  // An angle of practically zero: the difference is the error of the rows.
   const Model sampled = make_wing(deflected(wing, {{.surface = flap(0.1, 0.3, 0.7), .angle = 1e-9}}));
   EXPECT_NEAR(solid_measures(sampled, SolidId(0)).volume, clean.volume, 1e-5 * clean.volume);
   EXPECT_NEAR(solid_measures(sampled, SolidId(0)).area, clean.area, 1e-5 * clean.area);
@@ -262,7 +262,7 @@ TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
         Wing wing = straight_wing();
         wing.trailing_edge = thickness;
         const double clean = volume_of(make_wing(wing), 0);
-        // The clean sections without slots: of the wing beside and before (behind) the hinge, and of the flap.
+        // The clean sections without slots: sections of the wing beside and before (behind) the hinge, and of the flap.
         Deflection d = open_flap(flap(0.1, 0.3, kind == ControlKind::leading_edge ? 0.2 : 0.7, kind));
         d.has_flat_nose = is_flat;
         const Model model = make_wing(deflected(wing, {d}));
@@ -271,7 +271,7 @@ TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
         for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-8);
         expect_valid(model);
         EXPECT_EQ(model.components[ComponentId(1)].name, "Flap");
-        // Missing: the slots at both ends, the cove's circle of radius r + slot less the nose's half circle (a flat nose: all of it).
+        // Missing volume: the slots at both ends, and the cove's circle of radius r + slot less the nose's half circle (for a flat nose, the whole circle).
         const double chordwise = kind == ControlKind::leading_edge ? 0.2 : 0.3;
         const double r = 0.24 * std::sqrt(1.0 - (kind == ControlKind::leading_edge ? 0.8 : 0.3)) * (kind == ControlKind::leading_edge ? 0.8 : 0.3) * 2.0;
         const double length = 2.4, part = volume_of(model, 1);
@@ -289,7 +289,7 @@ TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
 
 TEST(Deflection, open_flaps_turn_rigidly_and_stay_clear_of_the_wing) {
   Wing wing = straight_wing();
-  wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);  // the flap runs over a section
+  wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);  // the flap extends across a section
   wing.sections[1].leading_edge = {0.0, 3.5, 0.0};
   const Model straight = make_wing(deflected(wing, {open_flap(flap(0.1, 0.3, 0.7))}));
   for (const double angle : {-20.0, 30.0}) {
@@ -298,7 +298,7 @@ TEST(Deflection, open_flaps_turn_rigidly_and_stay_clear_of_the_wing) {
     EXPECT_NEAR(volume_of(turned, 1), volume_of(straight, 1), 1e-9);
     EXPECT_NEAR(volume_of(turned, 0), volume_of(straight, 0), 1e-12);
     if (angle > 0.0) {
-      EXPECT_EQ(cad::unite_aircraft(turned, {}, RunContext()).report.n_bodies, 2u);  // nothing touches
+      EXPECT_EQ(cad::unite_aircraft(turned, {}, RunContext()).report.n_bodies, 2u);  // no bodies touch
     }
     double lowest = 0.0, highest = 0.0;
     for (const ModelCorner& corner : turned.corners)
@@ -364,7 +364,7 @@ TEST(Deflection, ailerons_of_the_widebody_move_apart) {
   expect_valid(model);
   deflections[0].gap = ControlGap::open;
   test::expect_error(ErrorCode::bad_argument, "leaves the middle of the wing's section by",
-                     [&] { (void)deflected(wing, deflections); });  // it reaches over a kink of the wing
+                     [&] { (void)deflected(wing, deflections); });  // the control surface extends across a kink of the wing
 }
 
 TEST(Deflection, a_fairing_that_reaches_a_flat_tip_bends_it) {
@@ -437,13 +437,14 @@ TEST(SetControls, neighbours_give_each_other_room_and_stay_closed) {
   const Aircraft turned = with_controls_set(aircraft, {{.names = "Inner", .angle = 0.3}, {.names = "Out*", .angle = -0.2}});
   ASSERT_EQ(turned.deflections.size(), 3u);
   const auto of = [&](const std::string& name) { return *std::ranges::find(turned.deflections, name, [](const Deflection& d) { return d.surface.name; }); };
-  // A fairing of a tenth of the chord of 2 m is a sixtieth of the span of 12 m: both are drawn in by one, the outer one by a whole one beside the tab.
+  // A fairing of a tenth of the chord of 2 m is a sixtieth of the span of 12 m. Each end between the two flaps moves in by one fairing;
+  // beside the tab, which is not deflected, the outer flap also moves in by a whole fairing.
   const double fairing = 1.0 / 60.0;
   EXPECT_NEAR(of("Inner").surface.hinge.back().span, 0.25 - fairing, 1e-6);
   EXPECT_NEAR(of("Outer").surface.hinge.front().span, 0.25 + fairing, 1e-6);
   EXPECT_NEAR(of("Outer").surface.hinge.back().span, 0.4 - fairing, 1e-6);
   EXPECT_EQ(of("Tab").surface.hinge.front().span, 0.4);
-  EXPECT_NEAR(of("Inner").surface.hinge.back().chord, 0.7 + 0.1 * (0.15 - fairing) / 0.15, 1e-6);  // on its line
+  EXPECT_NEAR(of("Inner").surface.hinge.back().chord, 0.7 + 0.1 * (0.15 - fairing) / 0.15, 1e-6);  // on its hinge line
   const Model model = make_components(turned, RunContext());
   EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
   EXPECT_GT(area_of(model, "Inner", FaceRole::control), 1.0);
@@ -474,7 +475,7 @@ TEST(SetControls, segments_that_turn_alike_are_one_surface) {
                                           std::pair{"LowSpeedAileron", "RightAileronSegment2"}, std::pair{"RightAileronSegment1", "RightAileronSegment1"}})
     for (const ControlGap gap : {ControlGap::sealed, ControlGap::open}) {
       SCOPED_TRACE(std::string(control) + (gap == ControlGap::open ? ", open" : ", sealed"));
-      if (gap == ControlGap::open && std::string_view(control) == "LowSpeedRudder") continue;  // it reaches the tip
+      if (gap == ControlGap::open && std::string_view(control) == "LowSpeedRudder") continue;  // this control surface extends to the tip
       const Aircraft turned = with_controls_set(plane, {{.names = control, .angle = 0.2, .gap = gap}});
       EXPECT_TRUE(std::ranges::any_of(turned.deflections, [&](const Deflection& d) { return d.surface.name == expected && d.angle != 0.0; }));
       const Model model = make_components(turned, RunContext());

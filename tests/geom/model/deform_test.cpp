@@ -170,7 +170,7 @@ TEST(RadialMap, InterpolatesAndReproducesLinearMaps) {
       EXPECT_NEAR(map.derivatives(p).determinant(), 1.0, 1e-9);
     }
   }
-  // Without the linear part bumps end at their radius.
+  // Without the linear part, bumps end at their radius.
   const RadialMap local({{{0, 0, 0}}, {{0, 0, 1}}}, {.kernel = "wendland_c2", .radius = 0.5, .linear_part = false});
   EXPECT_LE(distance(local.point({0, 0, 0}), {0, 0, 1}), 1e-15);
   EXPECT_EQ(local.point({0.6, 0, 0}), (Point{0.6, 0, 0}));
@@ -280,7 +280,7 @@ TEST(DeformedModel, SharedStaysSharedAndEdgesStayOnFaces) {
   EXPECT_EQ(image.faces.raw()[0].name, "wing right upper");
   EXPECT_EQ(image.faces.raw()[1].name, "support mirrored");
   EXPECT_TRUE(image.faces.raw()[0].is_reversed);
-  // Outward normals are mirrored: up stays up.
+  // Outward normals are mirrored: a normal that points up still points up.
   const SurfaceDerivatives d = image.faces.raw()[0].surface->derivatives({0.2, 0.2});
   EXPECT_GT(-cross(d.du, d.dv).z, 0.0);
   EXPECT_EQ(mirrored_name("WingLeft"), "WingRight");

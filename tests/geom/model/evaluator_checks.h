@@ -13,7 +13,7 @@
 
 namespace sterna::test {
 
-/// Largest size of the surface's sampled points about their first one, metres.
+/// Returns the largest distance of the surface's sampled points from the first one, metres.
 inline double size_of(const Surface& s) {
   const ParameterBox box = s.domain();
   const Point first = s.point({box.u.from, box.v.from});
@@ -29,16 +29,16 @@ inline bool is_near(double t, const std::vector<double>& breaks, double step) {
   return false;
 }
 
-/// Within a piece of an analytic function central differences of step h and h/2 differ from the derivative by c h^2 + O(h^4): the error falls fourfold, or is
-/// rounding.
-/// \pre no knot within 2 h: where c jumps it falls by as little as half
+/// Within a piece of an analytic function, central differences of step h and h/2 differ from the derivative by c h^2 + O(h^4). The error falls fourfold, or
+/// is rounding.
+/// \pre no knot within 2 h: where c jumps, the error falls by as little as half
 inline void expect_second_order(const Vec3& exact, const Vec3& coarse, const Vec3& fine, double rounding, const char* what) {
-  constexpr double k_least_fall = 0.3;  // a quarter, and what O(h^4) adds
+  constexpr double k_least_fall = 0.3;  // a quarter, plus the contribution of O(h^4)
   const double e1 = norm(coarse - exact), e2 = norm(fine - exact);
   EXPECT_LE(e2, k_least_fall * e1 + rounding) << what << ": " << e1 << " -> " << e2;
 }
 
-/// Breaks, and all knots where they are known: a spline's third derivative jumps there, which breaks do not tell.
+/// Returns the breaks, and all knots if they are known: a spline's third derivative jumps at knots, and breaks do not include such jumps.
 inline std::array<std::vector<double>, 2> knots_of(const Surface& s) {
   std::array<std::vector<double>, 2> knots{s.breaks_u(), s.breaks_v()};
   if (const auto form = s.exact_nurbs()) {
@@ -59,7 +59,7 @@ inline void expect_derivatives(const Surface& s, int n = 60) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(0.02, 0.98);
   const double hu = 2e-3 * box.u.length(), hv = 2e-3 * box.v.length();
-  // Rounding of a second difference: a few ulps of the coordinates over the smallest step squared.
+  // Rounding of a second difference: a few ulps of the coordinates divided by the smallest step squared.
   const double r1 = 1e-14 * size, r2 = 4e-14 * size;
   const auto knots = knots_of(s);
   for (int k = 0; k < n; ++k) {
@@ -95,7 +95,7 @@ inline void expect_batch(const Surface& s) {
   for (std::size_t i = 0; i < at.size(); ++i) EXPECT_EQ(points[i], s.point(at[i]));
 }
 
-/// The NURBS form gives the same points and derivatives.
+/// Checks that the NURBS form gives the same points and derivatives.
 inline void expect_exact_nurbs(const Surface& s, double tolerance = 1e-13) {
   const auto form = s.exact_nurbs();
   ASSERT_TRUE(form.has_value()) << s.kind();

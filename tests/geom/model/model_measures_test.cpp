@@ -1,4 +1,4 @@
-// Areas and volumes against formulas: holes, seams, parameters beyond a period, borders whose curves go on beyond their edges.
+// Areas and volumes against formulas: holes, seams, parameters beyond a period, borders whose curves continue beyond their edges.
 #include "geom/model/model_measures.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using test::k_pi;
 
-/// One face over a polygon of parameters; the curves of its edges go on by `beyond` at both ends.
+/// Returns one face over a polygon of parameters; the curves of its edges continue by `beyond` at both ends.
 Model patch(SurfacePtr surface, const std::vector<Uv>& outline, double beyond = 0.0) {
   Model model;
   ModelFace face{.surface = surface, .borders = {{}}, .component = model.components.push_back({"patch"}), .name = "patch"};
@@ -58,7 +58,7 @@ TEST(ModelMeasures, curves_that_go_on_beyond_their_edges_and_parameters_beyond_a
     EXPECT_NEAR(m.area, 0.5 * 1.5 * 1.5, 1e-12) << start;
     EXPECT_NEAR(m.volume, m.area * 0.5 / 3.0, 1e-12);
   }
-  // Slanted borders on a sphere: area of a spherical triangle between two meridians and a line of (u, v), by its own integral.
+  // Slanted borders on a sphere: area of a spherical triangle between two meridians and a straight line in (u, v), by an integral of its own.
   const auto sphere = std::make_shared<SphereSurface>(frame, 1.0);
   const FaceMeasures m = face_measures(patch(sphere, {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, 0.3), FaceId(0));
   EXPECT_NEAR(m.area, 1.0 - std::cos(1.0), 1e-11);  // integral of sin u over 0 .. 1
@@ -76,7 +76,7 @@ TEST(ModelMeasures, solids_have_volume_centre_and_box) {
   EXPECT_TRUE(m.total.has_volume);
   ASSERT_EQ(m.solids.size(), 1u);
   EXPECT_EQ(m.solids[0].n_faces, 3u);
-  // The image under a map of constant determinant, by the same quadrature: bending shears layers, volume stays.
+  // The image under a map of constant determinant, by the same quadrature: bending shears layers, so the volume stays constant.
   const auto bend = std::make_shared<FunctionMap>([](const Point& p) { return Point{p.x + 0.05 * (p.z - 7) * (p.z - 7), p.y, p.z}; }, 1e-3);
   EXPECT_NEAR(model_measures(deformed(can, bend, RunContext()), RunContext()).total.volume, m.total.volume, 1e-9 * m.total.volume);
 }

@@ -54,7 +54,7 @@ NurbsSurfaceForm random_surface(int p, int q, bool is_rational, std::mt19937_64&
   return form;
 }
 
-/// de Boor's algorithm by repeated corner cutting, the definition; independent of the basis functions.
+/// Evaluates the curve with de Boor's algorithm by repeated corner cutting: the definition, independent of the basis functions.
 Point by_corner_cutting(const NurbsCurveForm<Point>& form, double t) {
   const auto p = static_cast<std::size_t>(form.degree);
   std::size_t span = p;
@@ -94,7 +94,7 @@ TEST(NurbsCurve, EndsAreTheEndPolesAndEndPiecesGoOn) {
   const NurbsCurve curve(random_curve(3, 5, false, random));
   EXPECT_LE(distance(curve.point(curve.domain().from), curve.form().poles.front()), 1e-15);
   EXPECT_LE(distance(curve.point(curve.domain().to), curve.form().poles.back()), 1e-14);
-  // A cubic is its own Taylor series: the piece beyond the end has the same third difference.
+  // A cubic equals its own Taylor series: the piece beyond the end has the same third difference.
   const double t = curve.domain().to, h = 0.01;
   const auto third = [&](double from) { return curve.point(from + 3 * h) - 3.0 * curve.point(from + 2 * h) + 3.0 * curve.point(from + h) - curve.point(from); };
   EXPECT_LE(distance(third(t - 3 * h), third(t)), 1e-12);
@@ -135,7 +135,7 @@ TEST(NurbsSurface, DerivativesAndBatchForEveryPairOfDegrees) {
         const NurbsSurface surface(random_surface(p, q, is_rational, random));
         test::expect_derivatives(surface, 25);
         test::expect_batch(surface);
-        // Along a border the surface is the curve of its border poles.
+        // On a border, the surface equals the curve of the border poles.
         NurbsCurveForm<Point> border{p, surface.form().knots_u, {}, {}};
         for (std::size_t i = 0; i < surface.form().n_u; ++i) {
           border.poles.push_back(surface.form().poles[i * surface.form().n_v]);

@@ -19,7 +19,7 @@ namespace {
 
 using test::k_pi;
 
-/// A tapered, twisted wing with a round leading edge and a sharp trailing edge, as sumo has it: u around the section, v along the span.
+/// Returns a tapered, twisted wing with a round leading edge and a sharp trailing edge, as in sumo: u around the section, v along the span.
 SurfacePtr wing() {
   PointGrid grid{33, 7, {}};
   for (int i = 0; i < 33; ++i)
@@ -48,7 +48,7 @@ TEST(SurfaceProjector, FindsTheFootOfNormalsOnAWing) {
     EXPECT_LE(foot.distance, height + 1e-12);
     EXPECT_LE(distance(foot.point, s->point(foot.at)), 1e-14 * 10);
     EXPECT_LE(std::abs(foot.distance - distance(foot.point, p)), 1e-14);
-    // Either the foot itself, or (near the thin trailing edge) one that is nearer.
+    // The result is either the expected nearest point or, near the thin trailing edge, a nearer point.
     if (foot.distance >= height - 1e-12) {
       EXPECT_LE(distance(foot.point, d.point), 1e-7 * std::sqrt(height) + 1e-10);
     }
@@ -90,7 +90,7 @@ TEST(SurfaceProjector, AnalyticDistances) {
     EXPECT_NEAR(sphere.nearest(p).distance, std::abs(norm(p) - 2.0), 1e-12);
     EXPECT_NEAR(torus.nearest(p).distance, std::abs(std::hypot(std::hypot(p.x, p.y) - 2.0, p.z) - 0.5), 1e-12);
   }
-  // Degenerate places: the centre, the axis, the poles from inside and outside.
+  // Degenerate locations: the centre, the axis, the poles from inside and outside.
   EXPECT_NEAR(sphere.nearest({0, 0, 0}).distance, 2.0, 1e-14);
   for (const double z : {2.5, 1.5, -2.5, 2.0, 1e-9}) {
     EXPECT_NEAR(sphere.nearest({0, 0, z}).distance, std::abs(2.0 - std::abs(z)), 1e-12);
@@ -119,7 +119,7 @@ TEST(SurfaceProjector, CrossesSeamsPolesAndKeepsToBorders) {
   EXPECT_EQ(flat.seeded({3, 0.5, 1}, {1, 0.5}).at, (Uv{2.0, 0.5}));
   EXPECT_EQ(flat.seeded({3, 5, 0}, {1, 0.5}).at, (Uv{2.0, 1.0}));
   EXPECT_NEAR(flat.nearest({-1, -1, 0}).distance, std::numbers::sqrt2, 1e-14);
-  // A part of a surface keeps to its box.
+  // A projection on a part of a surface stays within the part's parameter box.
   const SurfaceProjector part(sphere, {{1.0, 2.0}, {-0.5, 0.5}});
   const SurfaceFoot limited = part.nearest({1, 0, 0});
   EXPECT_NEAR(limited.at.u, 1.0, 1e-12);

@@ -1,4 +1,4 @@
-// Reference data: formulas of trapezoids, and published values of the ONERA M6 and the D150.
+// Reference data: formulas for trapezoids, and published values of the ONERA M6 and the D150.
 #include "geom/model/reference_data.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(ReferenceData, a_trapezoid_has_its_formulas) {
   EXPECT_NEAR(r.aspect_ratio, 100.0 / 15.0, 1e-12);
 }
 
-// Dihedral shortens span and area alike: the chords stay those of the flat wing. Vertical winglets add to neither.
+// Dihedral shortens span and area alike: the chords stay those of the flat wing. Vertical winglets contribute to neither.
 TEST(ReferenceData, DihedralLeavesTheMeanChordsAlone) {
   const double root = 0.17, tip = 0.09, half_span = 0.22;
   const auto wing = [&](double dihedral, double winglet) {
@@ -64,8 +64,8 @@ TEST(ReferenceData, DihedralLeavesTheMeanChordsAlone) {
 }
 
 // Schmitt and Charpin, AGARD AR-138 (1979), quoted from memory (no copy is stored here): semi span 1.1963 m, root 0.8059 m, taper 0.562, mean aerodynamic chord
-// 0.64607 m, half area 0.7532 m2. The file says 1.1963 along the swept leading edge instead of along the span, so its span is that times cos 30 degrees: 0.866
-// of the published.
+// 0.64607 m, half area 0.7532 m2. The file has 1.1963 along the swept leading edge instead of along the span. Its span is therefore this length times
+// cos 30 degrees: 0.866 of the published span.
 TEST(ReferenceData, onera_m6) {
   STERNA_NEEDS_SHARED_DATA();
   Wing wing = read_cpacs(test::shared_data() / "cpacs/onera_m6.xml", RunContext()).aircraft.wings.at(0);
@@ -79,8 +79,8 @@ TEST(ReferenceData, onera_m6) {
   EXPECT_NEAR(stretched.area, 2 * 0.7532, 0.005 * 2 * 0.7532);
 }
 
-// The file itself states area 122.4 m2 and mean chord 4.193 m (<reference>). Its header says that the shape comes from the A320-200, which spans 33.91 m
-// without wing tip fences (that number from memory; no source is stored here).
+// The file itself states area 122.4 m2 and mean chord 4.193 m (<reference>). According to its header the shape comes from the A320-200, which spans 33.91 m
+// without wing tip fences (this number is from memory; no source is stored here).
 TEST(ReferenceData, d150) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_cpacs(test::shared_data() / "cpacs/d150.xml", RunContext()).aircraft;
@@ -99,7 +99,7 @@ TEST(ReferenceData, d150) {
     EXPECT_GT(part.volume, 0.0);
     EXPECT_GT(part.area, 0.0);
   }
-  EXPECT_GT(parts[1].area, 2.0 * r.area);  // both sides, and they are curved
+  EXPECT_GT(parts[1].area, 2.0 * r.area);  // both sides, and both are curved
   EXPECT_LT(parts[1].area, 2.1 * r.area);
 }
 

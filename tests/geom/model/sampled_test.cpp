@@ -20,7 +20,7 @@ namespace {
 
 using test::message_of;
 
-/// Largest distance at random places: none of those that the sampling looked at.
+/// Returns the largest distance at random parameters, none of which the sampling evaluated.
 double largest_error(const Surface& a, const std::function<Point(Uv)>& f) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -39,7 +39,7 @@ TEST(SampledSurface, ToleranceHoldsBetweenTheSamples) {
   for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
     const SampledSurface s = sample_surface(wavy, {{0, 3}, {-1, 2}}, {.tolerance = tolerance});
     EXPECT_LE(s.error, tolerance);
-    EXPECT_LE(largest_error(*s.surface, wavy), 1.3 * tolerance);  // between 8 places in every cell
+    EXPECT_LE(largest_error(*s.surface, wavy), 1.3 * tolerance);  // tolerance holds at the 8 points per cell; between these points the error may be larger
     EXPECT_NEAR(distance(s.surface->point(s.worst), wavy(s.worst)), s.error, 1e-15);
     EXPECT_GT(s.n_u * s.n_v, before);
     before = s.n_u * s.n_v;

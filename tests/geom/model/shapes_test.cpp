@@ -47,7 +47,7 @@ TEST(Shapes, a_test_section_holds_the_fluid_inside) {
   o.height = 1.5;
   const Model plain = make_test_section(o);
   expect_no_opening(plain);
-  EXPECT_NEAR(solid_measures(plain, SolidId(0)).volume, -6.0 * 2.1 * 1.5, 1e-10);  // normals look inwards, into the fluid
+  EXPECT_NEAR(solid_measures(plain, SolidId(0)).volume, -6.0 * 2.1 * 1.5, 1e-10);  // normals point inwards, into the fluid
   o.contraction_length = 2.0;
   o.contraction_ratio = 4.0;
   o.diffuser_length = 3.0;
@@ -107,7 +107,7 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   });
 }
 
-/// Half the height of a nacelle's cowl, straight between its frames.
+/// Returns half the height of a nacelle's cowl; the contour is straight between frames.
 double cowl_radius(const Body& nacelle, double x) {
   std::size_t i = 0;
   while (i + 2 < nacelle.frames.size() && x > nacelle.frames[i + 1].center.x) ++i;
@@ -116,8 +116,8 @@ double cowl_radius(const Body& nacelle, double x) {
 }
 
 TEST(Shapes, pylons_start_at_the_cowl_and_stay_out_of_the_jet) {
-  for (const double side : {1.0, -1.0})           // hanging below, standing above
-    for (const double behind : {-1.5, 0.0, 2.5})  // where the wing is
+  for (const double side : {1.0, -1.0})           // nacelle below the wing, then above
+    for (const double behind : {-1.5, 0.0, 2.5})  // position of the wing
       for (const double to : {0.6, 0.95, 1.0, 1.3})
         for (const double exit : {0.4, 0.6, 0.8}) {
           NacelleOptions n;
@@ -139,7 +139,7 @@ TEST(Shapes, pylons_start_at_the_cowl_and_stay_out_of_the_jet) {
           const std::vector<Point>&lower = pylon.sections[0].loop, &upper = pylon.sections[1].loop;
           double least = 1.0;
           for (std::size_t i = 0; i < lower.size(); ++i) {
-            // The lower end is in the cowl; what is behind the nozzle, and the ways from it to the wing, above the jet.
+            // The lower end is inside the cowl. Points behind the nozzle, and the lines from them to the wing, are above the jet.
             const double x = lower[i].x;
             if (x <= n.length && to <= 0.95) EXPECT_LT(std::hypot(lower[i].y, lower[i].z), cowl_radius(nacelle, x)) << label << " at x = " << x;
             for (int k = 0; k <= 50; ++k) {
@@ -169,14 +169,14 @@ TEST(Shapes, a_boom_is_a_tube_with_half_ellipsoids) {
     EXPECT_EQ(boom.components[ComponentId(0)].kind, ComponentKind::boom);
     double farthest = 0.0;
     for (const ModelCorner& corner : boom.corners) farthest = std::max(farthest, dot(corner.point, to) / 5.0);
-    EXPECT_NEAR(farthest, 5.0, 1e-5);  // it ends where it was told to, as well as a spline is round
+    EXPECT_NEAR(farthest, 5.0, 1e-5);  // ends at the given length, within the accuracy of the spline's circles
   }
   test::expect_error(ErrorCode::bad_argument, "shorter than the boom, 1.000000 m", [&] { (void)boom_body("short", {0, 0, 0}, {1, 0, 0}, o); });
   test::expect_error(ErrorCode::bad_argument, "shorter than the boom, 0.000000 m", [&] { (void)boom_body("none", {0, 0, 0}, {0, 0, 0}, o); });
 }
 
 TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
-  // A cone and a cylinder are exact; a smooth profile r = 0.3 sin(pi x / 4) has pi 0.09 / 2 * 4.
+  // A cone and a cylinder are exact; a smooth profile r = 0.3 sin(pi x / 4) has the volume pi 0.09 / 2 * 4.
   EXPECT_NEAR(volume_of(valid(body_of_revolution("b", {}, {{0.0, 0.0}, {1.0, 0.5}, {3.0, 0.5}}, true))), pi * 0.25 * (1.0 / 3.0 + 2.0), 1e-5);
   std::vector<Uv> profile;
   for (int i = 0; i <= 24; ++i) profile.push_back({i / 6.0, i == 0 || i == 24 ? 0.0 : 0.3 * std::sin(pi * i / 24.0)});
@@ -196,7 +196,7 @@ TEST(Shapes, a_fairing_fills_its_box) {
   o.width = 2.0;
   o.height = 1.0;
   o.exponent = 2.0;
-  // Ellipses: half an ellipsoid in front, and pi / 4 w h (1 - t2)^2 behind: 8 / 15 of the cylinder.
+  // Elliptic sections: half an ellipsoid in front, and pi / 4 w h (1 - t2)^2 behind, which is 8 / 15 of the cylinder.
   const Model model = valid(fairing_body("belly", {1.0, 0.0, -1.0}, o));
   EXPECT_NEAR(volume_of(model), pi / 4 * 2.0 * (0.4 * 6.0 * 2.0 / 3.0 + 0.6 * 6.0 * 8.0 / 15.0), 0.01);
   EXPECT_EQ(model.components[ComponentId(0)].kind, ComponentKind::fairing);

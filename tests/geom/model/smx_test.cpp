@@ -1,4 +1,4 @@
-// Reader and writer of .smx: all files of sumo, the traps of the schema, and what is refused with its place.
+// Reader and writer of .smx: all files of sumo, unexpected conventions of the schema, and refused input with its location.
 #include "geom/model/smx.h"
 #include "geom/model/components.h"
 
@@ -65,7 +65,7 @@ TEST_P(SmxFiles, are_read_completely_and_written_so_that_they_read_back_equal) {
   EXPECT_EQ(second.aircraft.bodies.size(), first.aircraft.bodies.size());
 }
 
-// Counts by grep of the elements in each file.
+// Element counts, obtained with grep from each file.
 INSTANTIATE_TEST_SUITE_P(all_seven, SmxFiles,
                          testing::Values(SmxCounts{"bjet.smx", 4, 4, 5, 4, 2}, SmxCounts{"delta.smx", 3, 2, 3, 3, 1},
                                          SmxCounts{"sumo_empty.smx", 1, 0, 0, 0, 0}, SmxCounts{"torture.smx", 0, 1, 0, 0, 0},

@@ -45,7 +45,7 @@ TEST(Spline, GoesThroughItsPointsAtTheirParameters) {
 }
 
 TEST(Spline, ReproducesCubicsWhereItMust) {
-  // Not-a-knot and clamped splines reproduce any cubic; Bessel's any parabola; all of them lines.
+  // Not-a-knot and clamped splines reproduce any cubic; Bessel splines any parabola; all of them straight lines.
   const auto cubic = [](double t) { return Point{t * t * t - t, 2.0 * t * t + 1.0, 3.0 - t}; };
   const auto parabola = [](double t) { return Point{t * t, 1.0 - 3.0 * t, 0.5 * t * t + t}; };
   const std::vector<double> at{0.0, 0.3, 0.5, 1.1, 1.2, 2.0};
@@ -128,7 +128,7 @@ TEST(Spline, AkimaKeepsStraightSegmentsStraight) {
 }
 
 TEST(Spline, MonotoneTangentsNeverCarryACoordinateBeyondItsTwoPoints) {
-  // Uneven steps, a plateau and turns in each coordinate: Bessel's tangents swing beyond all of them.
+  // Uneven steps, a plateau and turning points in each coordinate: with Bessel tangents the curve overshoots all of them.
   const std::vector<Point> points{{0, 0, 1}, {0.1, 1, 1}, {0.2, 1.05, 1}, {3, 1.05, 0.2}, {3.1, 0.2, 0.1}, {3.1, 0.1, 4}, {5, 0.1, 4.1}};
   const std::vector<double> t = spline_parameters(points, SplineParameters::chord_length);
   const CurvePtr monotone = spline_curve(points, {.tangents = SplineTangents::monotone}), bessel = spline_curve(points, {.tangents = SplineTangents::bessel});
@@ -145,7 +145,7 @@ TEST(Spline, MonotoneTangentsNeverCarryACoordinateBeyondItsTwoPoints) {
       }
     }
   EXPECT_GT(beyond_of_bessel, 0.01);
-  // Smooth all the same.
+  // The monotone curve is still smooth.
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
     EXPECT_LE(norm(monotone->derivatives(t[i] - 1e-9).first - monotone->derivatives(t[i] + 1e-9).first), 1e-5) << i;
 }

@@ -52,7 +52,7 @@ TEST(AnalyticSurfaces, SatisfyTheirEquations) {
       EXPECT_NEAR(std::hypot(b.x, b.y), 0.5 + b.z * std::tan(0.3), 1e-14);
       EXPECT_NEAR(norm(c), 1.3, 1e-14);
       EXPECT_NEAR(std::hypot(std::hypot(d.x, d.y) - 2.0, d.z), 0.4, 1e-14);
-      // Gauss's curvature of the sphere and mean curvature from the second derivatives.
+      // Gaussian curvature of the sphere and mean curvature, from the second derivatives.
       const SurfaceDerivatives s = sphere.derivatives({u, v});
       const Vec3 n = normalized(cross(s.du, s.dv));
       EXPECT_NEAR(dot(n, normalized(s.point - k_frame.origin)), 1.0, 1e-12);
@@ -161,7 +161,7 @@ TEST(SurfaceView, PartsReversalsAndExchangesAreTheSameSurface) {
   EXPECT_LE(distance(exchanged(base)->point({0.3, 0.6}), base->point({0.6, 0.3})), 1e-15);
   EXPECT_LE(distance(reversed_u(base)->point({0.25, 0.6}), base->point({0.75, 0.6})), 1e-15);
   test::expect_error(ErrorCode::bad_argument, "u in [0.200000, 1.200000] is not within its domain", [&] { (void)part_of(base, {{0.2, 1.2}, {0.3, 0.5}}); });
-  // Across the seam of a periodic surface a part is allowed.
+  // A part may extend across the seam of a periodic surface.
   const SurfacePtr cylinder = std::make_shared<CylinderSurface>(Frame{}, 1.0, ParameterBox{k_full_turn, {0, 1}});
   const SurfacePtr across = part_of(cylinder, {{5.0, 8.0}, {0.0, 1.0}});
   EXPECT_FALSE(across->is_periodic_u());

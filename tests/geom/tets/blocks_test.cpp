@@ -1,4 +1,4 @@
-// Boxes for work side by side: every place is in one of them, and each has its share of the points.
+// Blocks for parallel work: every location is in one of the boxes, and each box has its share of the points.
 #include "geom/tets/blocks.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Meshes of tetrahedra to begin with, for the tests of the kernel.
+// Initial tetrahedral meshes for the tests of the kernel.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ struct TetSoup {
   std::vector<tets::Corners> tetrahedra;
 };
 
-/// The unit cube as n^3 cells of six tetrahedra around a diagonal (Kuhn); cells for which `is_left_out` says so are not part of it, nor points that only they
-/// have.
+/// Returns the unit cube as n^3 cells of six tetrahedra around a diagonal (Kuhn). Cells for which `is_left_out` returns true are left out, and so are points
+/// that only such cells use.
 inline TetSoup cube_of_tets(std::uint32_t n, const std::function<bool(const Vec3&)>& is_left_out = {}) {
   TetSoup soup;
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers;
@@ -61,7 +61,7 @@ inline double volume_of(const tets::TetMesh& mesh) {
   return sum;
 }
 
-/// Triangles without tetrahedron behind them, lowest corner first, sense kept; as places, so that numbers do not matter.
+/// Returns the triangles without a tetrahedron behind them, lowest corner first, orientation kept. They are stored as coordinates, independent of numbering.
 inline std::set<std::array<std::array<double, 3>, 3>> boundary_of(const tets::TetMesh& mesh) {
   std::set<std::array<std::array<double, 3>, 3>> faces;
   for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
@@ -79,7 +79,7 @@ inline std::set<std::array<std::array<double, 3>, 3>> boundary_of(const tets::Te
   return faces;
 }
 
-/// Whether tetrahedra are positive and neighbours agree on each other.
+/// Returns true if all tetrahedra are positive and neighbours refer to each other.
 inline bool is_sound(const tets::TetMesh& mesh) {
   for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
     if (!mesh.is_alive(t)) continue;

@@ -1,4 +1,4 @@
-// Insertion against brute force: no point inside the sphere of any tetrahedron, exactly.
+// Insertion against brute force: exactly no point is inside the circumsphere of any tetrahedron.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,14 +60,14 @@ TEST(TetInsert, RandomCloudsAreDelaunay) {
 }
 
 TEST(TetInsert, PointsOnOneSphereHaveOneAnswer) {
-  // 7^3 places of a grid: eight on one sphere around each cell, many in one plane.
+  // 7^3 points of a grid: eight on one sphere around each cell, many in one plane.
   std::vector<Vec3> places;
   for (int i = 1; i < 8; ++i)
     for (int j = 1; j < 8; ++j)
       for (int k = 1; k < 8; ++k) places.push_back({i / 8.0, j / 8.0, k / 8.0});
   const TetMesh mesh = with_points(places);
   expect_delaunay(mesh, 351);
-  // Of the grid's own tetrahedra, whose spheres hold no corner of the cube, the numbers decide.
+  // For the grid's own tetrahedra, whose spheres hold no corner of the cube, ties are decided by the node numbers.
   for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
     if (!mesh.is_alive(t) || std::ranges::min(mesh.nodes[t]) < 8) continue;
     for (std::uint32_t p = 8; p < mesh.points.size(); ++p) {
@@ -78,7 +78,7 @@ TEST(TetInsert, PointsOnOneSphereHaveOneAnswer) {
 }
 
 TEST(TetInsert, ManyPointsAreTheSameMeshForAnyThreads) {
-  // Enough for many blocks; points begin near to where they are going from the second call on.
+  // Enough points for many blocks; from the second call on, the search starts near each point's final position.
   const RunContext one({.threads = 1});
   const TetSoup cube = cube_of_tets(12);
   std::vector<TetMesh> meshes;
@@ -92,7 +92,7 @@ TEST(TetInsert, ManyPointsAreTheSameMeshForAnyThreads) {
       seed.start = 6 * (144 * cell(seed.position.x) + 12 * cell(seed.position.y) + cell(seed.position.z));
     }
     for (const Insertion result : inserter.insert(seeds, context)) EXPECT_EQ(result, Insertion::done);
-    EXPECT_LT(inserter.n_serial(), 25000);  // blocks do work, though of a mesh so coarse most of it is at their borders
+    EXPECT_LT(inserter.n_serial(), 25000);  // blocks do some of the work, although in such a coarse mesh most of the work is at block borders
   }
   EXPECT_TRUE(is_sound(meshes[0]));
   EXPECT_NEAR(test::volume_of(meshes[0]), 1.0, 1e-10);
@@ -104,7 +104,7 @@ TEST(TetInsert, ManyPointsAreTheSameMeshForAnyThreads) {
 }
 
 TEST(TetInsert, ASphereIsJudgedExactly) {
-  // The corners of a cube far from the origin are on one sphere; one bit aside decides.
+  // The corners of a cube far from the origin are on one sphere; a shift by one bit decides.
   const double far = 1048576.0;
   const auto corner = [&](double x, double y, double z) { return Vec3{far + x, far + y, far + z}; };
   const Vec3 a = corner(0, 0, 0), b = corner(1, 0, 0), c = corner(0, 1, 0), d = corner(0, 0, 1);
@@ -117,7 +117,7 @@ TEST(TetInsert, ASphereIsJudgedExactly) {
 
 TEST(TetInsert, TellsWhyNot) {
   const RunContext context;
-  const TetSoup cube = cube_of_tets(3, [](const Vec3& p) { return distance(p, {0.5, 0.5, 0.5}) < 0.1; });  // a cell is missing in the middle
+  const TetSoup cube = cube_of_tets(3, [](const Vec3& p) { return distance(p, {0.5, 0.5, 0.5}) < 0.1; });  // a cell in the middle is missing
   TetMesh mesh = connect(cube.points, cube.tetrahedra, context);
   BulkInserter inserter(mesh, context);
   const std::vector<Corners> before = mesh.nodes;
@@ -131,7 +131,7 @@ TEST(TetInsert, TellsWhyNot) {
   EXPECT_EQ(results[1], Insertion::outside);
   EXPECT_EQ(results[2], Insertion::too_near);
   EXPECT_EQ(results[3], Insertion::encroaches);
-  EXPECT_EQ(results[4], Insertion::no_cavity);  // where a point is already
+  EXPECT_EQ(results[4], Insertion::no_cavity);  // there already is a point at this location
   EXPECT_TRUE(std::ranges::equal(before, std::span(mesh.nodes).first(before.size())));
 }
 

@@ -1,4 +1,4 @@
-// Recovery of boundaries, on bodies of which no two triangles cross: bit for bit, no hole, no tetrahedron outside.
+// Boundary recovery on bodies without crossing triangles: bit-identical boundary, no hole, no tetrahedron outside.
 #include "geom/tets/recover.h"
 
 #include <gtest/gtest.h>
@@ -13,12 +13,12 @@
 namespace sterna::tets {
 namespace {
 
-/// A closed surface; normals into the body, so that its inside is the domain.
+/// A closed surface. Its normals point into the body, so its inside is the domain.
 struct Shell {
   std::vector<Vec3> points;
   std::vector<Facet> facets;
 
-  /// Another one beside or around it.
+  /// Adds another shell, beside this one or around it.
   void add(const Shell& other) {
     const auto first = static_cast<std::uint32_t>(points.size());
     points.insert(points.end(), other.points.begin(), other.points.end());
@@ -36,7 +36,7 @@ struct Shell {
   }
 };
 
-/// n parallels and 2 n meridians on the unit sphere; a radius for each point makes any star.
+/// Returns a star with n parallels and 2 n meridians on the unit sphere; `radius` gives the radius of each point.
 Shell star(std::uint32_t n, const std::function<double(const Vec3&)>& radius) {
   Shell shell;
   const std::uint32_t around = 2 * n;
@@ -56,7 +56,7 @@ Shell star(std::uint32_t n, const std::function<double(const Vec3&)>& radius) {
     shell.facets.push_back({0, at(1, j + 1), at(1, j)});
     shell.facets.push_back({last, at(n - 1, j), at(n - 1, j + 1)});
     for (std::uint32_t i = 1; i + 1 < n; ++i) {
-      const bool is_turned = (i * 7 + j * 13) % 3 == 0;  // diagonals either way, so that those of the Delaunay mesh are not always the wanted ones
+      const bool is_turned = (i * 7 + j * 13) % 3 == 0;  // mixed diagonals, so that the Delaunay mesh does not always have the required ones
       if (is_turned) {
         shell.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
         shell.facets.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
@@ -84,7 +84,7 @@ std::set<std::array<std::array<double, 3>, 3>> places_of(const Shell& shell) {
   return faces;
 }
 
-/// By the divergence theorem.
+/// Returns the volume by the divergence theorem.
 double volume_of(const Shell& shell) {
   double sum = 0.0;
   for (const Facet& f : shell.facets) sum -= dot(shell.points[f[0]], cross(shell.points[f[1]], shell.points[f[2]])) / 6.0;
@@ -93,7 +93,7 @@ double volume_of(const Shell& shell) {
 
 Recovery recovered(const Shell& shell, int threads = 1) { return recover(shell.points, shell.facets, {}, RunContext({.threads = threads})); }
 
-/// The mesh fills what the shell bounds, and nothing else; the shell's points are as they were.
+/// Checks that the mesh fills exactly the domain bounded by the shell, and that the shell's points are unchanged.
 void expect_filled(const Shell& shell, const Recovery& recovery, const std::string& what) {
   SCOPED_TRACE(what);
   ASSERT_EQ(recovery.failure.problem, "");
@@ -106,7 +106,7 @@ void expect_filled(const Shell& shell, const Recovery& recovery, const std::stri
   EXPECT_EQ(mesh.points.size(), shell.points.size() + static_cast<std::size_t>(recovery.report.n_points));
 }
 
-/// A cube of n^3 cells whose squares are cut by diagonals that turn either way; the inside is the domain.
+/// Returns a cube of n^3 cells whose squares are split by diagonals of mixed direction; the inside is the domain.
 Shell random_grid(int n) {
   const test::TetSoup soup = test::cube_of_tets(n);
   const TetMesh grid = connect(soup.points, soup.tetrahedra, RunContext{});
@@ -141,8 +141,8 @@ Shell random_grid(int n) {
   return shell;
 }
 
-/// Every square has four points on one circle, every cell eight on one sphere. From 16 on some diagonals need points on both sides, once nearer than first
-/// tried (found by filling a cube of uniform tetrahedra, which 2.6 edges of 10 000 barred).
+/// Every square has four points on one circle, every cell eight on one sphere. From n = 16 on, some diagonals need points on both sides, once nearer than the
+/// first attempt (found by filling a cube of uniform tetrahedra, which 2.6 edges of 10 000 prevented).
 TEST(TetRecover, FacesOfAGridWhoseDiagonalsTurnEitherWay) {
   for (const int n : {4, 16, 25}) {
     const Shell cube = random_grid(n);
@@ -150,14 +150,14 @@ TEST(TetRecover, FacesOfAGridWhoseDiagonalsTurnEitherWay) {
     EXPECT_GT(recovery.report.n_missing_edges, 0);
     expect_filled(cube, recovery, "cube of " + std::to_string(n));
   }
-  // The same from outside.
+  // The same grid from outside.
   Shell room = random_grid(2).moved({-1.0, -1.0, -1.0}, 3.0);
   room.add(random_grid(16).inside_out());
   expect_filled(room, recovered(room), "around a cube");
 }
 
 TEST(TetRecover, RoughStars) {
-  // Radii at random, so that a third of the edges are missing in the Delaunay mesh; seen from the middle no two triangles are in each other's way.
+  // Random radii, so that a third of the edges are missing in the Delaunay mesh; all triangles are visible from the centre.
   for (const double roughness : {0.02, 0.2, 0.6}) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
       std::mt19937 generator(seed);
@@ -173,7 +173,7 @@ TEST(TetRecover, RoughStars) {
 }
 
 TEST(TetRecover, ABodyThatNoTetrahedraFillWithoutAPoint) {
-  // A prism whose top is turned by 30 degrees, its sides folded inwards (Schoenhardt 1928).
+  // A prism whose top is rotated by 30 degrees, with its sides folded inwards (Schoenhardt 1928).
   Shell shell;
   for (const double z : {0.0, 1.0})
     for (int i = 0; i < 3; ++i) {
@@ -215,15 +215,15 @@ TEST(TetRecover, StripsNeedlesAndNearContacts) {
   if (volume_of(strip) < 0.0) strip = strip.inside_out();
   expect_filled(strip, recovered(strip), "strip");
 
-  // Two balls, 1e-4 of an edge apart, of which points stand opposite to edges.
+  // Two balls at a distance of 1e-4 of an edge, with points of one opposite edges of the other.
   Shell room = ball(5).moved({}, 20.0);
   room.add(ball(12).inside_out());
   room.add(ball(13).inside_out().moved({0, 0, 2.0 + 2.5e-5}));
   expect_filled(room, recovered(room), "near contact");
 }
 
-/// Corners of a room see half of a ball's 14 000 triangles when they come after it: as many tetrahedra in one cavity (found on a DLR-F6 of 613 000 triangles,
-/// of which HXT had to recover the boundary).
+/// Corners of a room see half of a ball's 14 000 triangles if they are inserted after the ball: one cavity then has as many tetrahedra. Found on a DLR-F6 of
+/// 613 000 triangles, whose boundary HXT had to recover.
 TEST(TetRecover, PointsFarFromAllOthers) {
   Shell room = random_grid(1).moved({-25.0, -25.0, -25.0}, 50.0);
   room.add(ball(60).inside_out());
@@ -237,7 +237,7 @@ TEST(TetRecover, ManyBodiesAndOneInAnothersHole) {
       for (int k = 0; k < 6; ++k) room.add(ball(3).inside_out().moved({3.0 * i - 7.5, 3.0 * j - 7.5, 3.0 * k - 7.5}));
   expect_filled(room, recovered(room), "216 bodies");
 
-  // Two domains: one around a hollow ball, the other one in its hole around a small one.
+  // Two domains: one around a hollow ball, the other in the ball's cavity around a small ball.
   Shell nested = ball(8).moved({}, 4.0);
   nested.add(ball(8).inside_out().moved({}, 2.0));
   nested.add(ball(7));
@@ -265,7 +265,7 @@ TEST(TetRecover, SheetsHaveTheDomainOnBothSides) {
 }
 
 TEST(TetRecover, WhatCannotBeIsToldWithAPlace) {
-  // A point of one ball within a facet of the other one's side of the room: two balls that cross.
+  // Two balls that cross: a point of one ball lies within a facet of the other, on the room's side.
   Shell room = ball(5).moved({}, 20.0);
   room.add(ball(6).inside_out());
   room.add(ball(6).inside_out().moved({0.9, 0.1, 0.2}));

@@ -15,7 +15,7 @@ using test::cube_of_tets;
 using test::is_sound;
 using test::TetSoup;
 
-/// A cube of 6^3 cells with a cross of missing ones: edges and corners of every kind, some that bend inwards.
+/// Returns a cube of 6^3 cells without a cross of cells: edges and corners of every kind, some of them reentrant.
 TetSoup hollow_cube() {
   return cube_of_tets(6, [](const Vec3& p) {
     const Vec3 d = p - Vec3{0.5, 0.5, 0.5};
@@ -23,7 +23,7 @@ TetSoup hollow_cube() {
   });
 }
 
-/// Smaller towards one corner, where no point of the boundary asks for it.
+/// A size field that is smaller towards one corner, independent of the boundary points.
 constexpr auto graded = [](const Vec3& p) { return 0.02 + 0.1 * distance(p, {0.1, 0.1, 0.1}); };
 
 TetMesh refined(const TetSoup& soup, const SizeFunction& sizes, int threads, RefineReport& report) {
@@ -57,7 +57,7 @@ TEST(TetRefine, KeepsTheBoundaryToTheBit) {
 TEST(TetRefine, MakesTheSizesThatAreWanted) {
   RefineReport report;
   const TetSoup soup = cube_of_tets(6);
-  // As long as the edges of the boundary there, and smaller inside.
+  // Equal to the boundary edges at the boundary, and smaller inside.
   const auto sizes = [](const Vec3& p) { return 0.2 - 0.35 * std::min({p.x, p.y, p.z, 1.0 - p.x, 1.0 - p.y, 1.0 - p.z}); };
   const TetMesh mesh = refined(soup, sizes, 2, report);
   std::int64_t n_large = 0, n_inside = 0;
@@ -72,7 +72,7 @@ TEST(TetRefine, MakesTheSizesThatAreWanted) {
   double nearest = 1e9;
   for (std::size_t i = soup.points.size(); i < mesh.points.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, distance(mesh.points[i], mesh.points[j]) / sizes(mesh.points[i]));
-  EXPECT_GT(nearest, 0.6);  // 0.7 of the size at the one of the two that came last
+  EXPECT_GT(nearest, 0.6);  // 0.7 of the size at the point inserted last
 }
 
 TEST(TetRefine, EdgesHaveTheWantedLengthInTheMean) {
@@ -88,7 +88,7 @@ TEST(TetRefine, EdgesHaveTheWantedLengthInTheMean) {
       }
     }
   }
-  EXPECT_NEAR(std::exp(sum / n), 1.0, 0.1);  // as far as a boundary of such edges lets it
+  EXPECT_NEAR(std::exp(sum / n), 1.0, 0.1);  // as far as a boundary with such edges permits
 }
 
 TEST(TetRefine, IsTheSameForAnyThreads) {
@@ -116,7 +116,7 @@ TEST(TetRefine, ScalesWithTheUnit) {
 
 TEST(TetRefine, NeedlesOfTheBoundaryDoNotHinderTheEnd) {
   TetSoup soup = cube_of_tets(8);
-  for (Vec3& p : soup.points) p.z *= 1e-3;  // corners of a hundredth of a degree
+  for (Vec3& p : soup.points) p.z *= 1e-3;  // corner angles of 0.01 degrees
   RefineReport report;
   const TetMesh before = connect(soup.points, soup.tetrahedra, RunContext{});
   const TetMesh mesh = refined(soup, graded, 1, report);
@@ -137,7 +137,7 @@ TEST(TetRefine, StopsWhenTold) {
   EXPECT_EQ(test::error_of([&] { refine(mesh, static_cast<std::uint32_t>(soup.points.size()), sizes, context); }).code(), ErrorCode::cancelled);
 }
 
-/// Faces of a cube as n x n squares, all diagonals one way; the domain is outside of it, or inside.
+/// Adds the faces of a cube as n x n squares with all diagonals in one direction; the domain is outside or inside of the cube.
 void add_structured_cube(std::uint32_t n, const Vec3& low, double side, bool is_room, std::vector<Vec3>& points, std::vector<Facet>& facets) {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers;
   const auto at = [&](std::size_t axis, std::uint32_t level, std::uint32_t i, std::uint32_t j) {
@@ -161,8 +161,8 @@ void add_structured_cube(std::uint32_t n, const Vec3& low, double side, bool is_
         }
 }
 
-/// Four points of each square are on one circle, and the flips that recover the wanted diagonals leave a mesh that is far from Delaunay: cavities of a thousand
-/// tetrahedra fell apart, and a quarter of a thousand stayed that lie flat over half a face.
+/// Four points of each square are on one circle, and the flips that recover the required diagonals leave a mesh that is far from Delaunay. Cavities of a
+/// thousand tetrahedra used to fall apart, and 250 tetrahedra that are flat over half a face used to remain.
 TEST(TetRefine, StructuredPlaneFacesLeaveNothingFlatAndLong) {
   std::vector<Vec3> points;
   std::vector<Facet> facets;
@@ -175,7 +175,7 @@ TEST(TetRefine, StructuredPlaneFacesLeaveNothingFlatAndLong) {
     Recovery recovery = recover(points, facets, {}, context);
     ASSERT_EQ(recovery.failure.problem, "");
     const RefineReport report = refine(recovery.mesh, static_cast<std::uint32_t>(points.size()), sizes, context);
-    EXPECT_EQ(report.n_far, 0);  // 245 before
+    EXPECT_EQ(report.n_far, 0);  // previously 245
     EXPECT_LT(report.n_left, static_cast<std::int64_t>(recovery.mesh.nodes.size() / 20));
     if (!first) {
       EXPECT_TRUE(is_sound(recovery.mesh));

@@ -24,7 +24,7 @@ TEST(FormatTable, RowsAreComplete) {
   }
 }
 
-// Where two readers share an extension, all but the first need a look inside the file.
+// If readers share an extension, all but the first must inspect the file's contents.
 TEST(FormatTable, SharedExtensionsAreToldByContents) {
   std::map<std::string, int> n_readers;
   for (const Format& format : formats()) {

@@ -1,4 +1,4 @@
-// Damage to small files of every format: the reader gives a sound surface or throws sterna::Error; anything else ends the test program.
+// Damage to small files of every format: the reader returns a sound surface or throws sterna::Error; anything else ends the test program.
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 namespace sterna::test {
 namespace {
 
-/// A file of a kilobyte takes far below a millisecond; this is for a machine under load, against readers that run away.
+/// Time limit per file. A file of one kilobyte takes far below a millisecond; the limit finds endless loops, also on a machine under load.
 constexpr double k_longest_seconds = 5.0;
 
-/// A folder in memory where the system has one, since these tests write some hundred thousand files; removed at the end.
+/// A folder in memory if the system has one, since these tests write some hundred thousand files; removed at the end.
 class MemoryFolder {
  public:
   MemoryFolder() : path_(std::filesystem::is_directory("/dev/shm") ? "/dev/shm/sterna_test_" + std::to_string(getpid()) : scratch().string()) {
     std::filesystem::create_directories(path_);
   }
   ~MemoryFolder() {
-    std::error_code ignored;  // a destructor must not throw; what may remain is a few kB in memory
+    std::error_code ignored;  // a destructor must not throw; a few kB may remain in memory
     std::filesystem::remove_all(path_, ignored);
   }
   MemoryFolder(const MemoryFolder&) = delete;
@@ -32,7 +32,7 @@ class MemoryFolder {
   std::filesystem::path path_;
 };
 
-/// Small files of tests/data/io, and the samples of tests/data/shared.
+/// Returns the small files of tests/data/io, and the samples of tests/data/shared.
 std::vector<std::filesystem::path> victims() {
   constexpr std::uintmax_t k_small = 2500;
   std::vector<std::filesystem::path> files;
@@ -53,7 +53,7 @@ std::vector<std::filesystem::path> victims() {
   return files;
 }
 
-/// \returns whether it was read
+/// \returns true if the file was read, false if it was refused
 bool survive(const std::filesystem::path& path, const std::string& damage) {
   SCOPED_TRACE(path.filename().string() + ", " + damage);
   const auto start = std::chrono::steady_clock::now();
@@ -62,7 +62,7 @@ bool survive(const std::filesystem::path& path, const std::string& damage) {
     read_surface(path);
     is_read = true;
   } catch (const Error& error) {
-    // The damage may make a TetGen file ask for its .node file, which is not there.
+    // The damage may make a TetGen file refer to its .node file, which does not exist.
     const bool is_companion = error.code() == ErrorCode::file_not_found && std::string(error.what()).find(".node") != std::string::npos;
     EXPECT_TRUE(is_companion || error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
     EXPECT_TRUE(error.code() != ErrorCode::file_malformed || says_where(error, false)) << error.what();
@@ -86,9 +86,9 @@ TEST(Hostile, CutAtEveryByte) {
 TEST(Hostile, EveryByteChanged) {
   const MemoryFolder folder;
   for (const std::filesystem::path& file : victims()) {
-    if (file.filename().string().starts_with("mix4")) continue;  // more of the same in twice the bytes
+    if (file.filename().string().starts_with("mix4")) continue;  // similar contents in twice the bytes
     std::string content = bytes_of(file);
-    constexpr std::size_t k_large = 600;  // of which every third byte says enough
+    constexpr std::size_t k_large = 600;  // in larger files, every third byte is sufficient
     const std::size_t step = content.size() > k_large ? 3 : 1;
     for (std::size_t i = 0; i < content.size(); i += step) {
       const char before = content[i];

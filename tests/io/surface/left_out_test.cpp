@@ -1,4 +1,4 @@
-// What readers of surfaces leave out is in the log, with its number.
+// Elements that surface readers leave out are reported in the log, with their number.
 #include <gmock/gmock.h>
 
 #include "tests/io/surface/surface_tools.h"
@@ -11,7 +11,7 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// All lines of the log, notes and warnings.
+/// Returns all lines of the log, notes and warnings.
 std::vector<std::string> log_of_reading(const std::string& name, const std::string& content) {
   std::vector<std::string> lines;
   const auto path = scratch() / name;

@@ -30,7 +30,7 @@ TEST(SurfaceMsh, BothVersionsGiveTheSame) {
 
 TEST(SurfaceMsh, VersionsOfTheSameLayoutAreRead) {
   for (const char* version : {"2", "2.0", "2.1"}) expect_same_soup(read_msh(replaced(k_v2, "2.2 0 8", std::string(version) + " 0 8")), read_msh(k_v2));
-  // Version 2.0 knows no dimension of physical names.
+  // Version 2.0 has no dimension in physical names.
   expect_same_soup(read_msh(replaced(replaced(k_v2, "2.2 0 8", "2.0 0 8"), "2 7 \"upper wing\"", "7 \"upper wing\"")), read_msh(k_v2));
 }
 
@@ -60,7 +60,7 @@ TEST(SurfaceMsh, BinarySamplesAreTheTextOnes) {
   expect_same_soup(read_surface(samples / "pt.v22bin.msh"), read_surface(samples / "pt.v22.msh"));
   expect_same_soup(read_surface(samples / "mix4.v22bin.msh"), read_surface(samples / "mix4.v22.msh"));
   const SurfaceSoup text = read_surface(samples / "pt.v41.msh"),
-                    binary = read_surface(samples / "pt.v41bin.msh");  // gmsh has put the nodes and groups in its own order
+                    binary = read_surface(samples / "pt.v41bin.msh");  // gmsh stored the nodes and groups in its own order
   EXPECT_NEAR(volume_of(binary), volume_of(text), 1e-15);
   EXPECT_EQ(binary.triangles.size(), text.triangles.size());
 }
@@ -76,7 +76,7 @@ TEST(SurfaceMsh, WhatIsNotReadIsNamed) {
 
 TEST(SurfaceMsh, MistakesAreToldWithTheirLine) {
   refused_msh("solid wing\n", {"line 1", "\"solid\"", "$MeshFormat"});
-  refused_msh(replaced(k_v2, "10 1 0 0", "10 1 0"), {"line 15", "\"$EndNodes\"", "a coordinate of a node"});  // line ends count as blanks: seen at the end
+  refused_msh(replaced(k_v2, "10 1 0 0", "10 1 0"), {"line 15", "\"$EndNodes\"", "a coordinate of a node"});  // line ends count as blanks
   refused_msh(replaced(k_v2, "10 1 0 0", "900 1 0 0"), {"line 11", "node 900 occurs twice"});
   refused_msh(replaced(k_v2, "900 10 40", "900 10 41"), {"line 19", "node 41"});
   refused_msh(replaced(k_v4, "2 900 10 40", "2 900 10 41"), {"node 41", "$Nodes does not list"});

@@ -1,4 +1,4 @@
-// Formats of quad patches (LaWGS, PLOT3D, zml) and dwfs: small files made by hand in tests/data/io, and the real ones.
+// Formats of quad patches (LaWGS, PLOT3D, zml) and dwfs: small hand-made files in tests/data/io, and real files.
 #include <gmock/gmock.h>
 
 #include "io/file/format_table.h"
@@ -18,7 +18,7 @@ TEST(Wgs, NetworksArePlacedAndMirrorsTold) {
   EXPECT_EQ(triangles_by_patch(soup), (Counts{{"WING", 4}, {"FIN, turned/moved", 4}}));
   ASSERT_EQ(soup.points.size(), 12u);
   EXPECT_EQ(soup.points[4], (Vec3{0.5, 1, 0.1}));
-  // (1, 2, 0) turned by 90 degrees about x is (1, 0, 2); moved by 1 along z, then doubled.
+  // (1, 2, 0) rotated by 90 degrees about x is (1, 0, 2); then moved by 1 along z, then doubled.
   EXPECT_LT(distance(soup.points[11], {2, 0, 6}), 1e-15);
   EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("y = 0"), HasSubstr("WING"))));
 }
@@ -57,7 +57,7 @@ TEST(Plot3d, MistakesAreTold) {
 
 TEST(Zml, SectionsAndConditionsArePatches) {
   const SurfaceSoup soup = read_surface(corpus() / "io" / "pyramid.zml");
-  // Of the four triangles of "roof", elements 2 and 3 of the file are "north"; the quad "floor" is element 0.
+  // "roof" has four triangles; elements 2 and 3 of the file are "north"; the quad "floor" is element 0.
   EXPECT_EQ(triangles_by_patch(soup), (Counts{{"floor", 2}, {"roof", 2}, {"north", 2}}));
   EXPECT_DOUBLE_EQ(volume_of(soup), 1.0 / 3.0);
 }

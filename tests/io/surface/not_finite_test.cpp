@@ -1,4 +1,4 @@
-// Coordinates that are nan or infinite: the polygons that use them are left out of a surface and counted, in every format that stores surfaces.
+// Coordinates that are nan or infinite: surface readers of every format leave out the polygons that use them, and count these polygons.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A coordinate that no other vertex has; exact in single precision.
+/// A coordinate used by no other vertex; exact in single precision.
 constexpr double k_planted = 0.8125;
 
-/// Eight triangles; four of them at the vertex with the planted coordinate.
+/// Returns eight triangles; four of them use the vertex with the planted coordinate.
 TriMesh octahedron() {
   TriMesh mesh;
   mesh.points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, k_planted}, {0, 0, -1}};
@@ -47,7 +47,7 @@ std::string real_bytes(double value, std::endian order) {
   return bytes;
 }
 
-/// Replaces the planted coordinate, however it is spelt. \returns how often
+/// Replaces the planted coordinate in any spelling. \returns the number of replacements
 int plant(std::string& content, double value) {
   const std::string word = std::isnan(value) ? "nan" : value < 0.0 ? "-inf" : "inf";
   std::vector<std::pair<std::string, std::string>> spellings = {{"0.8125", word}, {"8.125e-01", word}, {"8.125E-1", word}};
@@ -74,7 +74,7 @@ TEST(NotFinite, EveryFormatLeavesOutThePolygonsAndSaysHowMany) {
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
       io::write_surface_file(octahedron(), path, RunContext({.threads = 1}), format.name);
       std::string content = bytes_of(path);
-      if (plant(content, value) == 0) continue;  // coordinates are packed
+      if (plant(content, value) == 0) continue;  // coordinates are compressed
       write_bytes(path, content);
       std::vector<std::string> warnings;
       const SurfaceSoup soup = read_surface(path, &warnings);

@@ -78,7 +78,7 @@ TEST(SurfaceOff, MistakesAreToldWithTheirLine) {
   off_refused(replaced(whole, "3 0 1 2", "3 0 1 3"), {"line 6", "found 3", "0 to 2"});
   off_refused(replaced(whole, "3 0 1 2", "3 0 1"), {"end of the file"});
   off_refused(replaced(whole, "3 1 0", "3 2 0"), {"end of the file"});
-  off_refused(replaced(whole, "3 1 0", "2 1 0"), {"line 6", "after the last of 1 faces"});  // the third vertex passes for a face without corners
+  off_refused(replaced(whole, "3 1 0", "2 1 0"), {"line 6", "after the last of 1 faces"});  // the third vertex is read as a face without corners
   off_refused(replaced(whole, "3 1 0", "3000 1 0"), {"line 2", "3000", "cut short"});
   off_refused(replaced(whole, "OFF", "OOF"), {"line 1", "\"OOF\""});
   expect_refused("a.off", "nOFF\n3\n3 1 0\n", ErrorCode::unsupported_format, {"any dimension"});

@@ -16,17 +16,17 @@ namespace {
 
 using test::scratch;
 
-/// What a format keeps of a coordinate: relative to the largest one.
+/// Precision of coordinates in a format, relative to the largest coordinate.
 double precision_of(const Format& format, std::size_t n_patches = 6) {
   if (format.name == "STL binary" || (format.name == "STL" && n_patches == 1) || format.name == "Cart3D binary") return 1.2e-7;  // 2^-23: a float
-  if (format.name == "Nastran") return 1e-9;  // 16 characters, of which 10 are digits at worst
+  if (format.name == "Nastran") return 1e-9;  // 16 characters, of which at least 10 are digits
   return 0.0;
 }
 
-/// The name by which a format's own number stands for patch i.
+/// Returns the name of patch i in formats that store patch numbers only.
 std::string numbered(std::size_t i) { return "patch_" + std::to_string(i + 1); }
 
-/// A glider of 1.5 k triangles, cut into patches by place.
+/// Returns a glider of 1500 triangles, split into patches by location.
 TriMesh glider() {
   TriMesh mesh = to_tri_mesh(test::read_surface(test::shared_data() / "surfaces" / "clean" / "meshpy_ka6d_ka-6d.ply"));
   mesh.patches = {{"left wing"},
@@ -50,7 +50,7 @@ TriMesh glider() {
 
 std::string first_extension(const Format& format) { return std::string(format.extensions.substr(0, format.extensions.find(' '))); }
 
-/// Writes, reads back; warnings of both.
+/// Writes the mesh and reads it back; collects the warnings of both steps.
 TriMesh through(const TriMesh& mesh, const Format& format, const std::filesystem::path& stem, std::vector<std::string>* log = nullptr) {
   const std::filesystem::path path = stem.string() + first_extension(format);
   const RunContext context({.threads = 2, .log = [log](LogLevel level, std::string_view text) {
@@ -62,7 +62,7 @@ TriMesh through(const TriMesh& mesh, const Format& format, const std::filesystem
 
 using Row = std::array<std::size_t, 4>;
 
-/// Triangles beginning with their smallest vertex, with their patch, in order.
+/// Returns the triangles in sorted order, each starting with its smallest vertex, with its patch.
 std::vector<Row> sorted_rows(const TriMesh& mesh, const std::vector<std::size_t>& vertex, const std::vector<std::size_t>& patch) {
   std::vector<Row> rows;
   for (const TriangleId t : mesh.triangles.ids()) {
@@ -81,7 +81,7 @@ std::vector<std::size_t> identity(std::size_t n) {
   return map;
 }
 
-/// For each vertex of `back` the vertex of `mesh` at its place; by number where the format keeps vertices.
+/// Returns for each vertex of `back` the vertex of `mesh` at its location, or with its number if the format keeps vertices.
 std::vector<std::size_t> match_vertices(const TriMesh& mesh, const TriMesh& back, double tolerance, bool keeps_vertices) {
   if (keeps_vertices) {
     for (std::size_t i = 0; i < mesh.n_vertices(); ++i) EXPECT_LE(distance(mesh.points.raw()[i], back.points.raw()[i]), tolerance);
@@ -111,7 +111,7 @@ TEST(SurfaceRoundTrip, EveryWriterKeepsConnectivityCoordinatesAndNames) {
     ASSERT_EQ(back.n_vertices(), mesh.n_vertices());
     const bool is_stl = format.name.starts_with("STL");
     const std::vector<std::size_t> vertex = match_vertices(mesh, back, precision_of(format) * size, !is_stl);
-    // Names are kept, or the log tells what became of them.
+    // Names are kept, or the log reports the new names.
     std::vector<std::size_t> patch_of_back;
     for (const Patch& patch : back.patches) {
       std::size_t found = mesh.patches.size();
@@ -158,7 +158,7 @@ TEST(SurfaceRoundTrip, EveryPairKeepsTriangles) {
         area += area_of(twice, t);
         area_once += area_of(once, t);
       }
-      EXPECT_NEAR(area, area_once, (precision_of(second, once.patches.size()) + 1e-12) * size * size);  // 1e-12: sums in another order
+      EXPECT_NEAR(area, area_once, (precision_of(second, once.patches.size()) + 1e-12) * size * size);  // 1e-12: sums in a different order
       EXPECT_EQ(twice.patches.size(), second.carries_patch_names ? once.patches.size() : 1u);
     }
   }
@@ -166,7 +166,7 @@ TEST(SurfaceRoundTrip, EveryPairKeepsTriangles) {
 
 TEST(SurfaceRoundTrip, BytesDoNotDependOnThreads) {
   STERNA_NEEDS_SHARED_DATA();
-  const TriMesh mesh = to_tri_mesh(test::read_surface(test::shared_data() / "surfaces" / "clean" / "pmp_fandisk.off"));  // three chunks and more
+  const TriMesh mesh = to_tri_mesh(test::read_surface(test::shared_data() / "surfaces" / "clean" / "pmp_fandisk.off"));  // at least three chunks
   for (const Format& format : formats()) {
     if (!format.write_surface) continue;
     SCOPED_TRACE(format.name);
@@ -220,7 +220,7 @@ TEST(SurfaceRoundTrip, WhatCannotBeWrittenIsRefusedAndTheOldFileStays) {
 
 // ---- independent readers
 
-/// "key value" lines of tests/tools/verify_surface.py; empty without that Python module.
+/// Returns the "key value" lines of tests/tools/verify_surface.py; empty if the Python module is missing.
 std::map<std::string, std::string> verify(const std::string& reader, const std::filesystem::path& file) {
   const std::string command =
       "/usr/bin/python3 '" + test::source_folder().string() + "/tests/tools/verify_surface.py' " + reader + " '" + file.string() + "' 2>&1";
@@ -266,7 +266,7 @@ TEST_P(SurfaceReaders, Agree) {
     ++n_by_patch[mesh.triangle_patch[t].index() + 1];
   }
   EXPECT_EQ(std::stoul(values["triangles"]), mesh.n_triangles());
-  const double tolerance = 1e-6;  // single precision, in which VTK keeps points of some formats
+  const double tolerance = 1e-6;  // VTK stores points of some formats in single precision
   EXPECT_NEAR(std::stod(values["area"]), area, tolerance * area);
   EXPECT_NEAR(std::stod(values["enclosed"]), volume, 1e3 * tolerance * std::abs(volume));  // a thin body away from the origin: cancellation
   std::vector<int> expected, found;
@@ -278,7 +278,7 @@ TEST_P(SurfaceReaders, Agree) {
   EXPECT_EQ(found, independent.has_markers ? expected : std::vector<int>());
 }
 
-// meshio reads no SU2 file without elements; Gmsh 4.8 neither SU2, OFF nor VTK 5.1.
+// meshio cannot read SU2 files without elements; Gmsh 4.8 cannot read SU2, OFF or VTK 5.1.
 INSTANTIATE_TEST_SUITE_P(Independent, SurfaceReaders,
                          ::testing::Values(Independent{"meshio", "STL text", ".stl", false}, Independent{"meshio", "STL binary", ".stl", false},
                                            Independent{"meshio", "OFF", ".off", false}, Independent{"meshio", "OBJ", ".obj", false},

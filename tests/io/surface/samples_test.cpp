@@ -78,14 +78,15 @@ TEST(Samples, EveryFormatGivesTheSameSurface) {
       const SurfaceSoup soup = read_surface(shared_data() / "formats" / file, &warnings);
       EXPECT_EQ(soup.triangles.size(), static_cast<std::size_t>(body.n_triangles));
       EXPECT_EQ(soup.points.size(), file.ends_with(".stl") ? 3 * soup.triangles.size() : body.n_points);
-      // 1e-6: single precision of coordinates near 1. The sign: formats differ in which way boundary faces of a volume mesh point.
+      // 1e-6: single precision of coordinates near 1. The sign depends on the format: boundary faces of a volume mesh have different orientations.
       EXPECT_NEAR(std::abs(volume_of(soup)), body.volume, 1e-6);
       EXPECT_EQ(soup.single_precision, sample.is_single);
       EXPECT_EQ(soup.has_names, sample.names != Names::none);
       EXPECT_EQ(triangles_by_patch(soup), sample.names == Names::named      ? body.triangles
                                           : sample.names == Names::numbered ? body.numbered
                                                                             : (std::map<std::string, int>{{"", body.n_triangles}}));
-      std::erase_if(warnings, [](const std::string& text) { return text.find("points in regions") != std::string::npos; });  // TetGen's, which no surface has
+      // A warning for TetGen files about data that surfaces do not have.
+      std::erase_if(warnings, [](const std::string& text) { return text.find("points in regions") != std::string::npos; });
       EXPECT_TRUE(warnings.empty()) << warnings.front();
       EXPECT_EQ(soup.source, (shared_data() / "formats" / file).string());
     }
@@ -104,7 +105,7 @@ TEST(Samples, GzipCrlfAndAMissingLineEndChangeNothing) {
       std::string content = bytes_of(shared_data() / "formats" / file);
       write_bytes(folder / (file + ".gz"), packed(content));
       expect_same_soup(read_surface(folder / (file + ".gz")), soup);
-      write_bytes(folder / file, packed(content));  // what is in the file decides, not its name
+      write_bytes(folder / file, packed(content));  // compression is detected from the content, not from the name
       expect_same_soup(read_surface(folder / file), soup);
       if (!sample.is_text) continue;
       write_bytes(folder / file, with_crlf(content));
@@ -140,16 +141,16 @@ TEST(Samples, ZonesOfSu2AreJoined) {
 
 TEST(Samples, RealVolumeMeshesGiveTheirBoundary) {
   STERNA_NEEDS_SHARED_DATA();
-  EXPECT_EQ(read_surface(shared_data() / "formats" / "sphere_mixed.1.lb8.ugrid").triangles.size(), 864u);  // its row in tests/data/shared/README.md
+  EXPECT_EQ(read_surface(shared_data() / "formats" / "sphere_mixed.1.lb8.ugrid").triangles.size(), 864u);  // number from tests/data/shared/README.md
   const SurfaceSoup brick = read_surface(shared_data() / "formats" / "mesh_brick_prism_ffd.su2");
-  // Markers of 380, 380 and 780, 780 quads, 1482, 1482 triangles: see the file.
+  // Markers of 380, 380 and 780, 780 quads, 1482, 1482 triangles, according to the file.
   EXPECT_EQ(triangles_by_patch(brick), (std::map<std::string, int>{{"x_m", 760}, {"x_p", 760}, {"y_m", 1560}, {"y_p", 1560}, {"z_m", 1482}, {"z_p", 1482}}));
   EXPECT_EQ(brick.patch_names, (std::vector<std::string>{"x_m", "x_p", "y_m", "y_p", "z_m", "z_p"}));
 }
 
 TEST(Samples, EveryRealSurfaceHasTheTrianglesOfItsRow) {
   STERNA_NEEDS_SHARED_DATA();
-  // Rows of its README: "| surfaces/clean/x.stl | ... | tri=880 |".
+  // Rows of the README there: "| surfaces/clean/x.stl | ... | tri=880 |".
   std::istringstream rows(bytes_of(corpus() / "shared" / "README.md"));
   int n_read = 0;
   for (std::string row; std::getline(rows, row);) {
@@ -160,7 +161,7 @@ TEST(Samples, EveryRealSurfaceHasTheTrianglesOfItsRow) {
     try {
       io::format_of(file);
     } catch (const Error&) {
-      continue;  // CGNS, Medit: other readers' tests
+      continue;  // CGNS, Medit: covered by the tests of other readers
     }
     EXPECT_EQ(read_surface(shared_data() / file).triangles.size(), std::stoul(row.substr(count + 4)));
     ++n_read;

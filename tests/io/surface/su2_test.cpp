@@ -4,7 +4,7 @@
 namespace sterna::test {
 namespace {
 
-/// A tetrahedron with two markers.
+/// Returns a tetrahedron with two markers.
 const std::string k_tetrahedron =
     "NDIME= 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNELEM= 1\n10 0 1 2 3\n"
     "NMARK= 2\nMARKER_TAG= wing\nMARKER_ELEMS= 3\n5 0 2 1\n5 0 1 3\n5 0 3 2\nMARKER_TAG= tip\nMARKER_ELEMS= 1\n5 1 2 3\n";

@@ -1,4 +1,4 @@
-// What the tests of surface readers share: files made of text, hand-packed gzip, checks of a soup.
+// Shared functions of the surface reader tests: files made from text, hand-packed gzip, checks of a soup.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,31 +16,31 @@
 namespace sterna::test {
 
 std::string bytes_of(const std::filesystem::path& path);
-/// A small file of tests/data/io.
+/// Returns the content of a small file of tests/data/io.
 std::string small_text(const char* name);
 void write_bytes(const std::filesystem::path& path, std::string_view bytes);
 
-/// The soup in a file, checked for what holds for every soup; warnings go to `warnings` when it is given.
+/// Reads a soup from a file and checks the properties required of every soup. Warnings are appended to `warnings` if given.
 SurfaceSoup read_surface(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
-/// The same for a file of that name and content.
+/// Writes a file of this name and content, then reads it as above.
 SurfaceSoup read_surface_text(const std::string& name, std::string_view content, std::vector<std::string>* warnings = nullptr);
 
-/// Indices in range, patches named, coordinates finite.
+/// Checks that indices are in range, patches have names, and coordinates are finite.
 void expect_sound(const SurfaceSoup& soup);
 void expect_same_soup(const SurfaceSoup& a, const SurfaceSoup& b);
 
-/// Enclosed volume, positive when the triangles' normals point outward.
+/// Returns the enclosed volume, positive if the triangles' normals point outward.
 double volume_of(const SurfaceSoup& soup);
-/// Triangles by name of their patch.
+/// Returns the number of triangles by patch name.
 std::map<std::string, int> triangles_by_patch(const SurfaceSoup& soup);
 
-/// A gzip member that holds `content` unpacked (RFC 1952, stored blocks).
+/// Returns a gzip member that stores `content` uncompressed (RFC 1952, stored blocks).
 /// \pre content is below 65536 bytes
 std::string packed(std::string_view content);
 std::string with_crlf(std::string_view text);
 std::string replaced(std::string text, std::string_view from, std::string_view to);
 
-/// Reading the file of that name and content must fail with that code and a message that has every one of the texts.
+/// Checks that reading a file of this name and content fails with this code and a message that contains each of the strings.
 void expect_refused(const std::string& name, std::string_view content, ErrorCode code, const std::vector<std::string>& texts);
 
 }  // namespace sterna::test

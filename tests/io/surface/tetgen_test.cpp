@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* k_tetgen = "/usr/bin/tetgen";
 
-/// Rows of numbers of one of TetGen's files, without its comments; the first row has the counts.
+/// Returns the rows of numbers of a TetGen file, without comments; the first row has the counts.
 std::vector<std::vector<double>> rows_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   EXPECT_TRUE(file.is_open()) << path;
@@ -33,7 +33,7 @@ std::vector<std::vector<double>> rows_of(const std::filesystem::path& path) {
 
 using test::volume_of;
 
-/// TetGen fills the surface without touching it (-Y): its tetrahedra have the volume inside, its faces the patches.
+/// Checks that TetGen fills the unchanged surface (-Y): the tetrahedra fill the enclosed volume, and their boundary faces are the patches.
 void expect_filled(const TriMesh& mesh, const std::string& extension) {
   SCOPED_TRACE(extension);
   const auto folder = test::scratch();
@@ -53,7 +53,7 @@ void expect_filled(const TriMesh& mesh, const std::string& extension) {
     const Point a = point(tets[i][1]);
     volume += std::abs(dot(point(tets[i][2]) - a, cross(point(tets[i][3]) - a, point(tets[i][4]) - a))) / 6.0;
   }
-  EXPECT_NEAR(volume, volume_of(mesh), 1e-9 * std::abs(volume));  // TetGen writes 15 digits, a thin body cancels some
+  EXPECT_NEAR(volume, volume_of(mesh), 1e-9 * std::abs(volume));  // TetGen writes 15 digits; cancellation in a thin body loses some of them
   std::map<int, std::int64_t> found, expected;
   for (std::size_t i = 1; i < faces.size(); ++i) ++found[static_cast<int>(faces[i][4])];
   for (const PatchId patch : mesh.triangle_patch) ++expected[static_cast<int>(patch.index()) + 1];

@@ -9,7 +9,7 @@
 namespace sterna::test {
 namespace {
 
-/// Bytes of a UGRID file of either width of integers and byte order.
+/// Builds the bytes of a UGRID file with 32-bit or 64-bit integers, in either byte order.
 class UgridBytes {
  public:
   UgridBytes(bool is_wide, bool is_big) : is_wide_(is_wide), is_big_(is_big) {}
@@ -35,7 +35,7 @@ class UgridBytes {
   std::string bytes_;
 };
 
-/// A tetrahedron: patch 5 of three triangles, patch 2 of one; a fifth point that no face uses.
+/// Returns a tetrahedron: patch 5 with three triangles, patch 2 with one, and a fifth point that no face uses.
 std::string tetrahedron(bool is_wide, bool is_big, std::int64_t last_corner = 4, double last_z = 1.0) {
   return UgridBytes(is_wide, is_big)
       .integers({5, 4, 0, 1, 0, 0, 0})
@@ -73,7 +73,7 @@ TEST(SurfaceUgrid, NamesOfTheMapbcBesideIt) {
   EXPECT_EQ(names_with("a.v2.mapbc", "2\n2 5000 far field\n5 4000 wing", "a.v2.lb8.ugrid.gz"), named);
   EXPECT_EQ(names_with("a.mapbc", "1\n5 4000 wing\n", "a.lb8.ugrid"), (std::vector<std::string>{"wing", "patch_2"}));
   EXPECT_EQ(names_with("a.mapbc", "2\n5 4000\n2 5000\n", "a.lb8.ugrid"), numbered);
-  EXPECT_EQ(names_with("a.mapbc", "1\n5 4000 wing\n", "a.v2.lb8.ugrid"), numbered);  // another mesh's
+  EXPECT_EQ(names_with("a.mapbc", "1\n5 4000 wing\n", "a.v2.lb8.ugrid"), numbered);  // belongs to another mesh
   EXPECT_EQ(names_with("a.mapbc", "2\n5 4000 wing\n2 4000 wing\n", "a.lb8.ugrid"), std::vector<std::string>{"wing"});
 }
 
@@ -99,7 +99,7 @@ TEST(SurfaceUgrid, MistakesAreToldWithTheirByte) {
     expect_refused(name, bytes, ErrorCode::file_malformed, texts);
   };
   const std::string whole = tetrahedron(false, false);
-  refused("t.b8.ugrid", whole, {"byte 28", "coordinates of the points"});  // the other byte order: 83886080 points
+  refused("t.b8.ugrid", whole, {"byte 28", "coordinates of the points"});  // read in the other byte order: 83886080 points
   refused("t.lb8.ugrid", tetrahedron(false, false, 6), {"byte 192", "found point 6", "1 to 5"});
   refused("t.lb8.ugrid", tetrahedron(false, false, 0), {"byte 192", "found point 0"});
   refused("t.lb8l.ugrid", tetrahedron(true, false, -1), {"found point -1"});

@@ -1,4 +1,4 @@
-// Legacy VTK, Nastran, Cart3D, TetGen: variants that the samples lack, and mistakes.
+// Legacy VTK, Nastran, Cart3D, TetGen: variants that are missing in the samples, and faulty files.
 #include <gmock/gmock.h>
 
 #include "io/file/surface_file.h"
@@ -16,11 +16,11 @@ using ::testing::HasSubstr;
 
 TEST(LegacyVtk, StripsPolygonsNamesAndAttributes) {
   const SurfaceSoup soup = read_surface(corpus() / "io" / "strips.vtk");
-  // CELL_DATA counts lines, polygons, strips; marker 2 has a name, 3 has none.
+  // CELL_DATA counts lines, polygons, strips; marker 2 has a name, marker 3 has none.
   EXPECT_EQ(triangles_by_patch(soup), (Counts{{"left side", 2}, {"patch_3", 2}}));
   for (const auto& t : soup.triangles) {
     const Vec3 normal = cross(soup.points[t[1]] - soup.points[t[0]], soup.points[t[2]] - soup.points[t[0]]);
-    EXPECT_GT(normal.z, 0.0);  // every other triangle of a strip is turned
+    EXPECT_GT(normal.z, 0.0);  // every second triangle of a strip is reversed
   }
 }
 

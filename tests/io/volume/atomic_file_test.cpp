@@ -19,7 +19,7 @@ using test::bytes_of;
 using test::expect_error;
 using test::files_in;
 
-/// While it lives, files of this process cannot grow beyond `n` bytes: a full disk that works as root, too.
+/// Limits files of this process to `n` bytes during its lifetime: simulates a full disk, also for root.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t n) {
@@ -112,7 +112,7 @@ TEST(AtomicFile, CancelLeavesTheOldFile) {
   for (const std::string name : {"mesh.su2", "mesh.vtu", "mesh.cgns", "mesh.adf.cgns", "mesh.taumesh", "mesh.vtkhdf"}) {
     const auto path = old_file(name);
     std::stop_source stop;
-    // The stop comes from the progress of the writing itself, when the temporary file has been begun.
+    // The writer's own progress report triggers the stop, after the temporary file has been started.
     const RunContext context({.threads = 2, .stop = stop.get_token(), .progress = [&](const ProgressState&) { stop.request_stop(); }});
     expect_error(ErrorCode::cancelled, "", [&] { write_volume_file(test::sphere_shell(20), path, context); });
     EXPECT_EQ(bytes_of(path), "old");
@@ -120,7 +120,7 @@ TEST(AtomicFile, CancelLeavesTheOldFile) {
   }
 }
 
-/// Sets a file's time of change back.
+/// Moves the modification time of a file into the past.
 void make_old(const std::filesystem::path& path) {
   std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5));
 }

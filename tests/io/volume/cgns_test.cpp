@@ -18,7 +18,7 @@ using test::write;
 TEST(CgnsRead, SamplesOfEveryVersionAndContainer) {
   STERNA_NEEDS_SHARED_DATA();
   const auto samples = test::shared_data() / "formats";
-  // v46 and pt.mixed.v46 have 64-bit integers; pt.mixed.adf2 is one that the library of version 3.4 writes and does not read.
+  // v46 and pt.mixed.v46 have 64-bit integers; library version 3.4 writes pt.mixed.adf2 but cannot read it.
   for (const std::string file : {"pt.hdf5", "pt.adf", "pt.adf2", "pt.legacybc.adf", "pt.elementrange.hdf5", "pt.mixed", "pt.mixed.nooffset.v254", "pt.hdf5.v46",
                                  "pt.adf.v46", "pt.mixed.v46", "pt.mixed.adf2"}) {
     SCOPED_TRACE(file);
@@ -35,7 +35,7 @@ TEST(CgnsRead, SamplesOfEveryVersionAndContainer) {
 TEST(CgnsRead, RealFiles) {
   STERNA_NEEDS_SHARED_DATA();
   const auto samples = test::shared_data() / "formats";
-  const HybridMesh cylinder = read(samples / "cylinder3D.cgns");  // conditions by lists of nodes
+  const HybridMesh cylinder = read(samples / "cylinder3D.cgns");  // boundary conditions given as node lists
   EXPECT_EQ(cylinder.tetrahedra.size(), 27591u);
   std::vector<std::string> names;
   for (const Patch& patch : cylinder.patches) names.push_back(patch.name);
@@ -117,7 +117,7 @@ TEST(Cgns, NamesThatCgnsCannotTakeAreMappedAndComeBack) {
     EXPECT_THAT(warnings[0], testing::HasSubstr(longer + "/1\" is named \"a patch whose name is longer"));
     EXPECT_EQ(read(file).patches, mesh.patches);
   }
-  mesh.patches[PatchId(0)].name = "Flügel, 右 – 12345678901234567";  // 33 bytes: cut before a character
+  mesh.patches[PatchId(0)].name = "Flügel, 右 – 12345678901234567";  // 33 bytes: truncated before a character
   mesh.patches[PatchId(1)].name = "ZoneBC";
   const auto file = test::scratch() / "names.cgns";
   write(mesh, file);
@@ -145,7 +145,7 @@ TEST(CgnsRead, OtherFilesAreRefused) {
   test::expect_error(ErrorCode::file_malformed, "not CGNS", [&] { read(folder / "vtk.cgns"); });
 }
 
-/// A tetrahedron whose four faces are one section "faces", with a condition that lists some of them.
+/// Reads a tetrahedron whose four faces are one section "faces", with a boundary condition that lists some of them.
 HybridMesh tetrahedron_with(const CgnsOutputNode& condition, std::vector<std::string>* warnings = nullptr) {
   const auto numbers = [](std::vector<std::uint64_t> extents, const std::vector<std::int32_t>& values) {
     return output_numbers(NumberKind::i4, std::move(extents), values);
@@ -193,19 +193,19 @@ TEST(CgnsRead, ConditionsListElementsOrNodesInManyWays) {
                            family = {{"faces", PatchKind::wall}, {"lid", PatchKind::farfield}};
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointRange", {4, 5}), face_center})).patches.raw(), inflow);
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {3})})).patches.raw(), inflow);
-  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointList", {2, 3, 4})})).patches.raw(), inflow);  // nodes
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointList", {2, 3, 4})})).patches.raw(), inflow);  // node numbers
   EXPECT_EQ(tetrahedron_with(condition("FamilySpecified", {points("PointList", {5}), face_center, lid})).patches.raw(), family);
   EXPECT_EQ(tetrahedron_with(condition("BCSymmetryPlane", {points("ElementRange", {2, 5}), lid})).patches.raw(),
             (std::vector<Patch>{{"lid", PatchKind::symmetry}}));
   std::vector<std::string> warnings;
-  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(), inflow);  // numbers without the cells before them
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(), inflow);  // numbers that exclude the cells
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {9})}), &warnings).patches.raw(), (std::vector<Patch>{{"faces", PatchKind::wall}}));
   EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("lists volume cells"), testing::HasSubstr("lists no boundary face")));
   test::expect_error(ErrorCode::file_malformed, "/Base/Zone/ZoneBC/bc/PointList: found the node 5, expected 1 to 4",
                      [&] { tetrahedron_with(condition("BCInflow", {points("PointList", {5})})); });
 }
 
-/// A wrong number at a place that the message must name.
+/// A wrong number at a location that the message must name.
 TEST(CgnsRead, MistakesAreToldWithTheirPath) {
   HybridMesh mesh = test::hexahedron_with_roof();
   const auto file = test::scratch() / "mesh.cgns";

@@ -1,4 +1,4 @@
-// What the readers of CGNS, TAU and VTKHDF share: the image that the helper makes of a file, and the helper's failures.
+// Shared parts of the CGNS, TAU and VTKHDF readers: the image that the helper program makes of a file, and failures of the helper.
 #include <gmock/gmock.h>
 #include <hdf5.h>
 
@@ -23,7 +23,7 @@ const RunContext k_quiet({.threads = 1});
 
 // ---- the image
 
-/// A root with an attribute, a dataset of 2 x 3 numbers, a group with a dataset that has a trouble.
+/// Returns a root with an attribute, a dataset of 2 x 3 numbers, and a group with a dataset that has an error.
 std::string image_bytes() {
   const std::vector<std::int32_t> numbers = {1, 2, 3, 4, 5, 6};
   std::string text;
@@ -54,7 +54,7 @@ std::string image_bytes() {
 
 ContainerImage image_of(const std::string& bytes) { return {nullptr, std::as_bytes(std::span(bytes)), "a.cgns"}; }
 
-/// Touches every value.
+/// Returns a sum over all values, so that every value is accessed.
 std::int64_t sum_of(const ContainerNode& node) {
   std::int64_t sum = 0;
   const auto add = [&](const ContainerValues& values) {
@@ -86,7 +86,7 @@ TEST(ContainerImage, EveryByteChangedOrMissingIsAnImageOrAnError) {
   const std::string whole = image_bytes();
   int n_refused = 0;
   const auto attempt = [&](const std::string& bytes) {
-    const std::string copy(bytes);  // its own block, so that a sanitizer sees its end
+    const std::string copy(bytes);  // a separate block, so that a sanitizer detects reads beyond its end
     try {
       sum_of(image_of(copy).root());
     } catch (const Error& error) {
@@ -107,7 +107,7 @@ TEST(ContainerImage, EveryByteChangedOrMissingIsAnImageOrAnError) {
 
 // ---- the helper
 
-/// A folder where the helper is a shell script.
+/// Creates a folder where the helper is a shell script.
 std::string folder_with_helper(const std::filesystem::path& folder, const std::string& script) {
   std::ofstream(folder / "sterna-read-container") << "#!/bin/sh\n" << script << "\n";
   std::filesystem::permissions(folder / "sterna-read-container", std::filesystem::perms::owner_all);
@@ -142,9 +142,9 @@ TEST(ContainerHelper, AStopEndsIt) {
   test::expect_error(ErrorCode::cancelled, "", [&] { read_container(path, ContainerFormat::hdf5, {}, context, folder); });
 }
 
-// ---- files that the libraries would follow anywhere
+// ---- files with references that the libraries would follow anywhere
 
-/// An HDF5 file that `make` fills; the objects are closed with it.
+/// Returns the image of an HDF5 file that `make` fills; the file's objects are closed with the file.
 template <class Make>
 ContainerImage container_with(const Make& make) {
   const auto path = test::scratch() / "made.h5";

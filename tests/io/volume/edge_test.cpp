@@ -36,7 +36,7 @@ TEST(Edge, SamplesByteForByte) {
   for (const std::string body : {"pt", "mix4"}) {
     SCOPED_TRACE(body);
     const HybridMesh text = read(samples / (body + ".amsh"));
-    EXPECT_NEAR(test::volume_of(text), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
+    EXPECT_NEAR(test::volume_of(text), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // values of docs/method/formats.md, "Sample meshes", to their digits
     EXPECT_NEAR(test::enclosed_volume(text), test::volume_of(text), 1e-14);
     for (const std::string& name : {body + ".bmsh", body + ".v2.bmsh"}) {
       SCOPED_TRACE(name);
@@ -59,12 +59,12 @@ TEST(Edge, ConditionsInBinary) {
   STERNA_NEEDS_SHARED_DATA();
   const auto samples = test::shared_data() / "formats", folder = test::scratch();
   std::filesystem::copy_file(samples / "pt.bmsh", folder / "a.bmsh");
-  EXPECT_EQ(read(folder / "a.bmsh").patches[PatchId(1)], (Patch{"side", PatchKind::wall}));  // no conditions: the name decides
+  EXPECT_EQ(read(folder / "a.bmsh").patches[PatchId(1)], (Patch{"side", PatchKind::wall}));  // no boundary conditions: the kind follows from the name
   std::filesystem::copy_file(samples / "pt.bboc", folder / "a.bboc");
   EXPECT_EQ(read(folder / "a.bmsh").patches[PatchId(1)], (Patch{"side", PatchKind::slip}));
 }
 
-/// Reverses the bytes of each number of a version 1 file.
+/// Reverses the bytes of each number in a version 1 file.
 std::string little_endian(const std::string& big) {
   std::string bytes = big;
   const auto turn = [&](std::size_t at, std::size_t n) {

@@ -1,4 +1,4 @@
-// Every volume format of the table, alone and with every other: a new line of the table takes part by itself.
+// Every volume format of the table, alone and with every other format. New formats of the table are tested automatically.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Variant {
   std::string name() const { return std::string(format->name) + " " + extension; }
 };
 
-/// Of formats that are written and read.
+/// Returns the formats that can be written and read.
 std::vector<Variant> variants() {
   std::vector<Variant> result;
   for (const Format& format : formats()) {
@@ -41,13 +41,13 @@ std::vector<Variant> variants() {
   return result;
 }
 
-/// Writes and reads; what was told on the way.
+/// Writes and reads the mesh; collects the messages.
 HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::filesystem::path& folder, std::vector<std::string>* told = nullptr,
                    Numbering cells = Numbering::lines) {
   const RunContext context({.threads = 2, .log = [told](LogLevel level, std::string_view text) {
                               if (told && level == LogLevel::warning) told->emplace_back(text);
                             }});
-  // "polymesh" is the name of a folder, not an extension; OpenFOAM has one mesh in a folder.
+  // "polymesh" is a folder name, not an extension; an OpenFOAM folder holds one mesh.
   const std::filesystem::path path = variant.extension.starts_with('.') ? folder / variant.extension.substr(1) / ("mesh" + variant.extension)
                                                                         : folder / "case" / "constant" / variant.extension;
   std::filesystem::remove_all(path);
@@ -64,7 +64,7 @@ Loop loop_of(const Nodes& nodes) {
   return loop;
 }
 
-/// Each boundary face, from its lowest node on, with its patch.
+/// Returns each boundary face with its patch, starting at its lowest node.
 std::map<Loop, PatchId> faces_of(const HybridMesh& mesh) {
   std::map<Loop, PatchId> faces;
   for (const auto& face : mesh.boundary_triangles) faces[loop_of(face.nodes)] = face.patch;
@@ -72,7 +72,7 @@ std::map<Loop, PatchId> faces_of(const HybridMesh& mesh) {
   return faces;
 }
 
-/// Each cell as its outward faces: the same however its nodes are numbered.
+/// Returns each cell as its outward faces, independent of the numbering of its nodes.
 std::vector<std::vector<Loop>> cells_of(const HybridMesh& mesh) {
   std::vector<std::vector<Loop>> cells;
   for_each_cell(mesh, [&](const Cell& cell) {
@@ -89,10 +89,10 @@ std::vector<std::vector<Loop>> cells_of(const HybridMesh& mesh) {
   return cells;
 }
 
-/// Of coordinates of about 1 that a format keeps: 17 digits and 64 bits all, 32 bits half an ulp.
+/// Precision of coordinates of about 1: exact with 17 digits or 64 bits, half an ulp with 32 bits.
 double precision_of(const Variant& variant) { return variant.extension == ".lb4.ugrid" || variant.extension == ".b4.ugrid" ? 0x1p-24 : 0.0; }
 
-/// What a mesh is, whatever a file says of it.
+/// Content of a mesh, independent of its storage in a file.
 struct Content {
   Column<NodeId, Point> points;
   std::vector<std::vector<Loop>> cells;
@@ -100,7 +100,7 @@ struct Content {
   explicit Content(const HybridMesh& mesh) : points(mesh.points), cells(cells_of(mesh)), faces(faces_of(mesh)) {}
 };
 
-/// The patch of `mesh` that each patch of `back` is; the same content.
+/// Checks that the content is the same; returns for each patch of `back` the patch of `mesh`.
 std::vector<PatchId> expect_same_content(const HybridMesh& back, const Content& expected, double precision) {
   const Content found(back);
   EXPECT_EQ(found.points.size(), expected.points.size());
@@ -124,7 +124,7 @@ std::vector<PatchId> expect_same_content(const HybridMesh& back, const Content& 
   return patch_of;
 }
 
-/// Names are kept, or a message tells the old and the new one.
+/// Checks that names are kept, or that a message states the old and the new name.
 void expect_names(const HybridMesh& back, const HybridMesh& mesh, const std::vector<PatchId>& patch_of, const std::vector<std::string>& told) {
   EXPECT_EQ(back.patches.size(), mesh.patches.size());
   for (const PatchId patch : back.patches.ids()) {
@@ -156,17 +156,17 @@ TEST(EveryVolumeFormat, KeepsCellsFacesAndNames) {
   }
 }
 
-/// What a patch is after a format that has conditions of its own, or names alone.
+/// Returns the patch kind after reading, for formats with conditions of their own and for formats with names only.
 PatchKind kind_after(const Format& format, const Patch& patch) {
   const bool has_names_only = format.name.starts_with("SU2") || format.name.starts_with("Gmsh") || format.name.starts_with("MSH");
   if (has_names_only) return kind_of_name(patch.name);
   if (patch.kind != PatchKind::interface) return patch.kind;
-  // A disc: three have no condition for it and write a slip wall, with a warning; CGNS says UserDefined, which may be anything.
+  // Disc patches: three formats have no such condition and write a slip wall, with a warning; CGNS writes UserDefined, which may mean anything.
   if (format.name == "TAU" || format.name == "Edge" || format.name.starts_with("UGRID")) return PatchKind::slip;
   return format.name == "CGNS" ? kind_of_name(patch.name) : patch.kind;
 }
 
-/// Layers that end on patches of all kinds, with quads beside triangles, and triangles beside collapsed lines.
+/// Layers that end on patches of all kinds, with quads beside triangles, and triangles beside collapsed growth lines.
 TEST(EveryVolumeFormat, KeepsQuadsOfEveryKindOfPatch) {
   const HybridMesh mesh = test::half_shell_of_all_kinds(5, {.has_collapsed_rim = true});
   const Content content(mesh);
@@ -201,8 +201,8 @@ TEST(EveryVolumeFormat, KeepsLinesWithOwnNumbersOfLayers) {
   }
 }
 
-/// Six-fold volumes of the four tetrahedra at a cell's corners, or of its sub-tetrahedra, as a solver computes them from absolute coordinates, over the product
-/// of the three lengths: a computation of the test's own.
+/// Returns the smallest six-fold volume of the four tetrahedra at a cell's corners, or of its sub-tetrahedra, divided by the product of the three lengths. The
+/// test computes the volumes independently, from absolute coordinates as a solver does.
 double least_volume_of_a_solver(const HybridMesh& mesh) {
   double least = 1.0;
   const auto note = [&](const Point& o, const Point& a, const Point& b, const Point& c) {
@@ -229,7 +229,7 @@ double least_volume_of_a_solver(const HybridMesh& mesh) {
   return least;
 }
 
-/// What a reader of the file computes in double precision is what was proven.
+/// A reader of the file that computes volumes in double precision must get the proven values.
 TEST(EveryVolumeFormat, VolumesInDoublePrecisionArePositiveAfterReading) {
   // A flat layer away from the origin: its first cells are 1e-6 high at coordinates of 100, where single precision steps by 8e-6.
   HybridMesh flat = test::stepped_sphere_shell(4, {.n_layers = 6, .layer_height = 2e-5, .ratio = 1.2});
@@ -256,11 +256,11 @@ TEST(EveryVolumeFormat, VolumesInDoublePrecisionArePositiveAfterReading) {
 TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
   HybridMesh mesh = test::six_patch_mesh();
   const std::array<std::string, 6> names = {"wing of the left side, with its flap and slat tracks",  // longer than 32 bytes, blanks
-                                            "wing of the left side, with its flap and slat rails",   // the same up to there
+                                            "wing of the left side, with its flap and slat rails",   // identical in the first 32 bytes
                                             "Fl\xC3\xBC"
                                             "gel-\xE7\xBF\xBC",  // UTF-8
                                             "Fl\xC3\xBCgel \xC3\xBC"
-                                            "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8 that is cut somewhere
+                                            "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8, truncated
                                             "2nd \"wall\"; (a=b){%}",
                                             "Wall/of\\paths#1"};
   for (std::size_t i = 0; i < names.size(); ++i) mesh.patches[PatchId(static_cast<std::uint64_t>(i))].name = names[i];
@@ -273,7 +273,7 @@ TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
   }
 }
 
-/// The same whatever the numbers are: each cell as its points.
+/// Returns each cell as its points, independent of numbering.
 std::vector<std::vector<std::array<double, 3>>> cells_by_points(const HybridMesh& mesh) {
   std::vector<std::vector<std::array<double, 3>>> cells;
   for_each_cell(mesh, [&](const Cell& cell) {
@@ -286,7 +286,7 @@ std::vector<std::vector<std::array<double, 3>>> cells_by_points(const HybridMesh
   return cells;
 }
 
-/// How often the next prism of a file does not stand on the one before: the number of columns where these are whole.
+/// Counts the prisms of a file that do not stand on the preceding prism: the number of columns if columns are contiguous.
 std::size_t count_stacks(const HybridMesh& mesh) {
   std::size_t n = 0;
   std::vector<NodeId> before;
@@ -301,7 +301,7 @@ std::size_t count_stacks(const HybridMesh& mesh) {
   return n;
 }
 
-/// What line-implicit solvers need of a file: the nodes of each line, and the prisms of each column, follow each other from the wall on.
+/// Requirement of line-implicit solvers: the nodes of each growth line, and the prisms of each column, are consecutive and start at the wall.
 TEST(EveryVolumeFormat, KeepsTheOrderForSolvers) {
   const HybridMesh mesh = test::sphere_shell(6, {.n_layers = 5});
   const RunContext context({.threads = 2});
@@ -318,7 +318,7 @@ TEST(EveryVolumeFormat, KeepsTheOrderForSolvers) {
       if (numbering == Numbering::both) EXPECT_EQ(count_stacks(back), mesh.layers.n_columns());
     }
   }
-  // Where a file has lost the columns, the lines are found by the prisms that stand on walls.
+  // If a file does not store the columns, the growth lines are found from the prisms on walls.
   const HybridMesh found = renumbered(explicit_cells(renumbered(mesh, Numbering::bandwidth, context)), Numbering::both, context);
   EXPECT_TRUE(cells_by_points(found) == given);
   EXPECT_EQ(count_stacks(found), mesh.layers.n_columns());
@@ -333,7 +333,7 @@ TEST(EveryVolumeFormat, EveryPairKeepsCellsFacesAndNames) {
   const Content content(mesh);
   const auto folder = test::scratch();
   for (const Variant& first : variants()) {
-    if (!first.format->extensions.starts_with(first.extension)) continue;  // other extensions of a format read what the first does
+    if (!first.format->extensions.starts_with(first.extension)) continue;  // other extensions of a format read the same content
     const HybridMesh once = through(mesh, first, folder / "once");
     for (const Variant& second : variants()) {
       SCOPED_TRACE(first.name() + " to " + second.name());

@@ -46,12 +46,12 @@ TEST(Fluent, Samples) {
   for (const std::string body : {"pt", "mix4"}) {
     const HybridMesh mesh = read(samples / (body + ".fluent.msh"));
     EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
-    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
+    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // values of docs/method/formats.md, "Sample meshes", to their digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
     EXPECT_EQ(mesh.patches.raw(),
               (std::vector<Patch>{{"wall", PatchKind::wall}, {body == "pt" ? "side" : "symmetry", PatchKind::symmetry}, {"farfield", PatchKind::farfield}}));
     std::filesystem::copy_file(samples / (body + ".fluent.msh"), folder / (body + ".msh"));
-    EXPECT_EQ(read(folder / (body + ".msh")).points, mesh.points);  // told from Gmsh's by what it holds
+    EXPECT_EQ(read(folder / (body + ".msh")).points, mesh.points);  // distinguished from Gmsh's format by content
     const SurfaceSoup wall = read_surface_file(folder / (body + ".msh"), RunContext({.threads = 1}));
     EXPECT_EQ(wall.triangles.size(), body == "pt" ? 1u : 2u);
     EXPECT_EQ(wall.patch_names, std::vector<std::string>{"wall"});
@@ -85,7 +85,7 @@ std::string bytes(std::initializer_list<T> values) {
   return result;
 }
 
-/// A tetrahedron with binary nodes and faces, as Fluent writes them.
+/// Returns a tetrahedron with binary nodes and faces, as written by Fluent.
 std::string binary_tet(bool is_double) {
   const std::string s = is_double ? "30" : "20";
   const std::string nodes = is_double ? bytes<double>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) : bytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});

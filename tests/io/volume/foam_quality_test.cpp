@@ -1,4 +1,4 @@
-// The measures of cell-centred solvers against those that OpenFOAM's checkMesh prints, on real meshes.
+// The measures for cell-centred solvers against the values printed by OpenFOAM's checkMesh, on real meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,13 +14,13 @@
 namespace sterna::io {
 namespace {
 
-/// checkMesh prints all digits here (writePrecision 17); sums of some ten products in another order differ by rounding, which small differences of large
-/// coordinates enlarge.
+/// checkMesh prints all digits here (writePrecision 17). Sums of about ten products in another order differ by rounding, and small differences of large
+/// coordinates amplify this rounding.
 constexpr double k_printed = 1e-9;
-constexpr double k_rounding = 1e-13;              ///< of figures that are quotients of sums of order one
-constexpr double k_determinant_rounding = 1e-16;  ///< of differences of products of order one
+constexpr double k_rounding = 1e-13;              ///< for quotients of sums of order one
+constexpr double k_determinant_rounding = 1e-16;  ///< for differences of products of order one
 
-/// checkMesh words what it finds good and what it finds bad in two ways; -1 where it says neither.
+/// Returns the number after the first label found (checkMesh words good and bad results differently), or -1 if none is found.
 double number_after_one_of(const std::string& output, const std::vector<std::string>& labels) {
   for (const std::string& label : labels)
     if (output.find(label) != std::string::npos) return test::number_after(output, label);
@@ -41,7 +41,7 @@ double beyond_hard(const nlohmann::json& report, const std::string& measure) {
   return std::nan("");
 }
 
-/// "<<Writing 12 faces with ..."
+/// Returns the number in "<<Writing 12 faces with ..."
 double number_before(const std::string& output, const std::string& label) {
   const std::size_t end = output.find(label);
   if (end == std::string::npos) return -1.0;
@@ -72,13 +72,13 @@ void expect_same_figures(const std::string& script, const std::filesystem::path&
   const std::string bad_tets = "***Error in face tets: ";
   const bool has_bad_tets = output->find(bad_tets) != std::string::npos;
   EXPECT_TRUE(has_bad_tets || output->find("Face tets OK.") != std::string::npos) << *output;
-  // What is written is the set of faces; the line above it counts a face once for each of its faults.
+  // The number of written faces is used: the line above counts a face once for each of its faults.
   EXPECT_EQ(has_bad_tets ? number_before(*output, " faces with low quality or negative volume decomposition tets to set") : 0.0,
             beyond_hard(report, "face_tets"))
       << *output;
   const double openness = number_after_one_of(*output, {"Max cell openness =", "***Open cells found, max cell openness:"});
-  if (openness >= 0.0) {                                                              // not printed beside a high aspect ratio
-    EXPECT_NEAR(openness, worst_of(report, "cell_openness"), k_rounding) << *output;  // both are rounding, over the size of the cell
+  if (openness >= 0.0) {                                                              // not printed together with a high aspect ratio
+    EXPECT_NEAR(openness, worst_of(report, "cell_openness"), k_rounding) << *output;  // both are rounding errors relative to the cell size
   }
 }
 
@@ -91,7 +91,7 @@ TEST(FoamQuality, OfAWingAreCheckMeshs) {
                       test::scratch());
 }
 
-/// Cells as tall as wide: determinants that are not tiny.
+/// Cells as tall as wide: the determinants are not tiny.
 TEST(FoamQuality, OfACoarseLayerAreCheckMeshs) {
   STERNA_NEEDS_SHARED_DATA();
   expect_same_figures("local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "meshpy_ka6d_ka-6d.ply").string() +

@@ -1,4 +1,4 @@
-// What OpenFOAM's checkMesh says of the mesh of a real wing, and where the faces are that it does not like.
+// Results of OpenFOAM's checkMesh for the mesh of a real wing, and the locations of the faces that it reports.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t k_far = std::numeric_limits<std::size_t>::max();
 
-/// Cells of the polyMesh by what they are: columns come first, layer by layer; then tetrahedra.
+/// Classifies the cells of the polyMesh: columns come first, layer by layer; then tetrahedra.
 class CellPlaces {
  public:
   CellPlaces(const SternaContent& content, const std::filesystem::path& poly)
@@ -36,13 +36,13 @@ class CellPlaces {
   std::size_t neighbour(std::size_t face) const { return neighbour_.at(face); }
   std::size_t n_inner() const { return neighbour_.size(); }
 
-  /// Steps over faces from the nearest cell of a column at a ridge.
+  /// Returns the number of steps over faces from the nearest cell of a column at a ridge.
   std::size_t distance_of(std::size_t face) const { return std::min(distance_[owner(face)], is_inner(face) ? distance_[neighbour(face)] : k_far); }
-  /// Cells side by side in the layer.
+  /// Returns true if the face separates two neighbouring columns of the layer.
   bool is_side(std::size_t face) const {
     return is_inner(face) && is_of_layer(owner(face)) && is_of_layer(neighbour(face)) && column_of_[owner(face)] != column_of_[neighbour(face)];
   }
-  /// Between the centres of the wall's two triangles below a side and the normal of their edge, radians: what the face of straight prisms would have.
+  /// Returns the angle that the face of straight prisms would have: between the line of the two wall triangles' centres and their edge's normal, radians.
   double angle_on_wall(std::size_t face) const {
     const auto &a = surface_.triangles.raw()[column_of_[owner(face)]], &b = surface_.triangles.raw()[column_of_[neighbour(face)]];
     std::vector<VertexId> common;
@@ -88,12 +88,12 @@ class CellPlaces {
   std::vector<std::size_t> owner_, neighbour_, column_of_, distance_;
 };
 
-/// Two cells from a ridge: where growth lines turn.
+/// Two cells from a ridge, where growth lines change direction.
 constexpr std::size_t k_near = 2;
 
-/// A wing from its STL file to OpenFOAM. Its triangles are up to 30 times longer than wide: 72 % of the wall's edges join centres at more than 70 degrees off
-/// the edge's normal, and straight prisms on them have that angle in every layer. Beyond two cells from a ridge the layer adds no face of its own; tetrahedra
-/// do, few.
+/// A wing from its STL file to OpenFOAM. Its triangles are up to 30 times longer than wide: at 72 % of the wall's edges, the line between centres is more than
+/// 70 degrees off the edge's normal, and straight prisms on them have that angle in every layer. Beyond two cells from a ridge the layer contributes no further
+/// faces; tetrahedra contribute a few.
 TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) {
   STERNA_NEEDS_SHARED_DATA();
   const auto folder = test::scratch();
@@ -101,7 +101,7 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
                              "\", split_angle = 60*deg }\n"
                              "local mesh = volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length }, "
                              "stages = \"case.sterna\" }\n"
-                             "mesh:write{ \"case.bin.foam\", \"text.foam\", numbering = \"lines\" }\n";  // tetrahedra are told by their numbers
+                             "mesh:write{ \"case.bin.foam\", \"text.foam\", numbering = \"lines\" }\n";  // tetrahedra are identified by their numbers
   std::ofstream(folder / "case.lua") << script;
   test::make_foam_case(folder / "case.bin.foam");
   test::make_foam_case(folder / "text.foam");
@@ -111,7 +111,7 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
   const auto binary = test::run_openfoam("checkMesh", {"-case", "case.bin.foam", "-allTopology", "-allGeometry"}, folder);
   STERNA_NEEDS(binary, "the Debian package openfoam");
   EXPECT_GT(test::number_after(*binary, "prisms:"), 4000.0);
-  // Its limit of the aspect ratio is 1000, and wide triangles under thin first cells come near it; quality is the mesh's own, and measured by `sterna check`.
+  // The aspect ratio limit is 1000, and wide triangles under thin first cells approach it. Quality depends on the mesh; `sterna check` measures it.
   const std::vector<std::string> allowed = {"aspect ratio",         "skewness",    "face tets", "small determinant", "Concave cells",
                                             "interpolation weight", "volume ratio"};
   test::expect_clean(*binary, allowed);
@@ -129,7 +129,7 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
   const std::vector<std::size_t> steep = test::read_labels(poly / "sets" / "nonOrthoFaces");
   EXPECT_EQ(static_cast<double>(steep.size()), test::number_after(*output, "non-orthogonal (> 70 degrees) faces:"));
   constexpr double k_limit = 70.0 * std::numbers::pi / 180.0;
-  constexpr double k_share_of_tetrahedra = 0.03;  // 1.6 % here: Delaunay tetrahedra promise no such angle
+  constexpr double k_share_of_tetrahedra = 0.03;  // 1.6 % here: Delaunay tetrahedra guarantee no such angle
   std::size_t n_between_tetrahedra = 0, n_by_wall = 0, n_at_ridges = 0;
   for (const std::size_t face : steep) {
     ASSERT_TRUE(places.is_inner(face));

@@ -21,7 +21,7 @@ TEST(Foam, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();
   for (const std::string name : {"text.foam", "binary.foam"}) {
     SCOPED_TRACE(name);
-    std::filesystem::create_directories(folder / name);  // named as a file in it is
+    std::filesystem::create_directories(folder / name);  // same name as a file in the folder
     for (const HybridMesh& mesh :
          {test::six_patch_mesh(), test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
       test::expect_round_trip(mesh, folder / name / name, CellOrder::rotated);
@@ -36,11 +36,11 @@ TEST(Foam, SamplesByteForByte) {
     SCOPED_TRACE(body);
     HybridMesh mesh = read(samples / (body + ".foam"));
     EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
-    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
+    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // values of docs/method/formats.md, "Sample meshes", to their digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
     EXPECT_EQ(mesh.patches[PatchId(0)], (Patch{"wall", PatchKind::wall}));
     EXPECT_EQ(read(samples / (body + ".foam") / "constant" / "polyMesh/").points, mesh.points);
-    if (body == "mix4") continue;  // its cells are numbered by the generator: hexahedron, prism, pyramid, tetrahedron
+    if (body == "mix4") continue;  // the generator numbers its cells: hexahedron, prism, pyramid, tetrahedron
     write(mesh, folder / "out.text.foam");
     for (const char* const name : {"points", "faces", "owner", "neighbour"})
       EXPECT_EQ(test::bytes_of(folder / "constant" / "polyMesh" / name), test::bytes_of(samples / "pt.foam" / "constant" / "polyMesh" / name));
@@ -144,7 +144,7 @@ TEST(Foam, NeverCrashesOnDamagedFiles) {
   }
 }
 
-/// What ParaView opens and OpenFOAM's tools find: an empty file beside constant/.
+/// The file that ParaView opens and OpenFOAM's tools find: an empty file beside constant/.
 TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
   const auto scratch = test::scratch();
   const auto poly_of = [](const std::filesystem::path& folder) { return folder / "constant" / "polyMesh"; };
@@ -159,7 +159,7 @@ TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
   write(test::six_patch_mesh(), scratch / "case.foam");
   EXPECT_EQ(read(scratch / "case.foam").points, test::six_patch_mesh().points);
 
-  // A folder is a case whatever its name.
+  // A folder is a case regardless of its name.
   std::filesystem::create_directories(scratch / "old.foam");
   write(test::hexahedra_block(2), scratch / "old.foam");
   EXPECT_THAT(test::files_in(scratch / "old.foam"), testing::ElementsAre("constant", "system"));
@@ -168,7 +168,7 @@ TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
   EXPECT_THAT(test::files_in(scratch / "plain"), testing::ElementsAre("constant", "system"));
 }
 
-/// What is written can be looked at by checkMesh at once; settings that are there stay, and a polyMesh alone is no case.
+/// checkMesh can be run on the written case at once; existing settings are kept, and a polyMesh alone does not make a case.
 TEST(Foam, FoldersOfCasesAreMade) {
   const auto scratch = test::scratch();
   for (const std::string name : {"case/", "case", "case"}) write(test::hexahedra_block(2), scratch / name);

@@ -1,4 +1,4 @@
-// Halves of meshes, whose layers end on a plane with quads of patches of every kind: what independent programs read of our files of them.
+// Half meshes whose layers end on a plane with quads of patches of every kind: results of independent programs that read the written files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Seven patches of seven kinds; five of them in the plane, each with quads, and with triangles beside collapsed lines or of tetrahedra.
+/// Returns a mesh with seven patches of seven kinds. Five are in the plane, each with quads, and with triangles beside collapsed growth lines or of tetrahedra.
 HybridMesh half_mesh() { return test::half_shell_of_all_kinds(6, {.shell = {.n_layers = 4}, .has_collapsed_rim = true}); }
 
 using test::write;
@@ -35,7 +35,7 @@ TEST(HalfMesh, HasQuadsAndTrianglesOfEveryKindInItsPlane) {
   EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-12 * test::volume_of(mesh));  // all faces outwards; rounding of sums
 }
 
-/// Numbers of quads and triangles by patch, volumes by kind of cell, and orientation, as meshio, VTK and gmsh find them.
+/// meshio, VTK and gmsh find the same numbers of quads and triangles by patch, volumes by kind of cell, and orientation.
 TEST(HalfMesh, IndependentReadersFindTheSame) {
   const auto folder = test::scratch();
   const HybridMesh mesh = half_mesh();
@@ -93,7 +93,7 @@ TEST(HalfMesh, CheckMeshFindsNothing) {
     EXPECT_THAT(boundary, HasSubstr(line));
 }
 
-/// checkMesh, a potential flow along the plane, and cgnscheck accept halves with planes of one kind and of all.
+/// checkMesh, a potential flow along the plane, and cgnscheck accept halves with planes of one kind and of all kinds.
 TEST(HalfMesh, OtherProgramsAcceptIt) {
   const auto folder = test::scratch();
   write(half_mesh(), folder / "all.sterna");

@@ -1,4 +1,4 @@
-// Volume meshes whose files list no boundary, or a part of it, or points that nothing uses.
+// Volume meshes whose files list no boundary or only a part of it, or points that no cell uses.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ ReadMesh read_with_warnings(const std::filesystem::path& path, io::Incomplete in
   return result;
 }
 
-/// Faces of the boundary by their sorted nodes' places.
+/// Returns the boundary faces as the coordinates of their sorted nodes.
 std::multiset<std::vector<std::array<double, 3>>> faces_of(const HybridMesh& mesh) {
   std::multiset<std::vector<std::array<double, 3>>> faces;
   const auto add = [&](const auto& face) {
@@ -55,7 +55,7 @@ TEST(IncompleteMesh, EveryFormatGetsTheBoundaryThatItsFileLacks) {
   bare.boundary_quads.clear();
   int n = 0;
   for (const io::Format& format : io::formats()) {
-    if (!format.write_volume || !format.read_volume || format.write_numbered) continue;  // those made of faces cannot lack any
+    if (!format.write_volume || !format.read_volume || format.write_numbered) continue;  // face-based formats always store the boundary faces
     const std::string extension(format.extensions.substr(0, format.extensions.find(' ')));
     SCOPED_TRACE(std::string(format.name) + " " + extension);
     const auto path = scratch() / ("bare" + extension);

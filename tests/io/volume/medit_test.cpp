@@ -43,7 +43,7 @@ TEST(Medit, Samples) {
       SCOPED_TRACE(body + variant);
       const HybridMesh mesh = read(samples / (body + variant));
       EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
-      EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
+      EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // values of docs/method/formats.md, "Sample meshes", to their digits
       EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
       EXPECT_EQ(mesh.patches.size(), 3u);
       const SurfaceSoup soup = read_surface_file(samples / (body + variant), RunContext({.threads = 1}));
@@ -55,7 +55,7 @@ TEST(Medit, Samples) {
   EXPECT_GT(cube.tetrahedra.size(), 1000u);
   EXPECT_NEAR(test::enclosed_volume(cube), test::volume_of(cube), 1e-10 * test::volume_of(cube));
   const HybridMesh sphere = read(samples / "sphere_mixed.1.meshb");
-  EXPECT_EQ(sphere.prisms.size(), 3024u);  // as its twin in UGRID
+  EXPECT_EQ(sphere.prisms.size(), 3024u);  // the same as its counterpart in UGRID
   EXPECT_EQ(sphere.tetrahedra.size(), 9072u);
   EXPECT_NEAR(test::enclosed_volume(sphere), test::volume_of(sphere), 1e-12 * test::volume_of(sphere));
 }
@@ -71,7 +71,7 @@ TEST(Medit, Variants) {
   EXPECT_EQ(mesh.patches[PatchId(0)].name, "patch_-5");
 }
 
-/// Turns the numbers of a version 2 file without vertices of integer coordinates; only sections of known shape.
+/// Reverses the bytes of the numbers of a version 2 file without integer coordinates; handles only sections of known layout.
 std::string big_endian(const std::string& little) {
   std::string bytes = little;
   const auto turn = [&](std::size_t at, std::size_t n) {

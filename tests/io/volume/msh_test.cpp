@@ -36,7 +36,7 @@ TEST(MshVolume, Samples) {
     const HybridMesh mesh = read(samples / (name + ".msh"));
     const bool is_pt = name.starts_with("pt");
     EXPECT_EQ(count_cells(mesh).total(), is_pt ? 2 : 4);
-    EXPECT_NEAR(test::volume_of(mesh), is_pt ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of docs/method/formats.md, "Sample meshes", to their digits
+    EXPECT_NEAR(test::volume_of(mesh), is_pt ? 2.0 / 3.0 : 1.983333, 1e-6);  // values of docs/method/formats.md, "Sample meshes", to their digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
     EXPECT_EQ(mesh.patches.size(), 3u);
     EXPECT_THAT(mesh.patches.raw(), testing::Contains(Patch{"farfield", PatchKind::farfield}));

@@ -1,4 +1,4 @@
-// Meshes with periodic sides: what files keep of them, and what other programs say.
+// Meshes with periodic sides: data kept by each file format, and results of other programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using testing::Not;
 
 using test::k_context;
 
-/// A plate with layers and tetrahedra above it, whose sides x = 0 and x = 1 are periodic; each has triangles and quads.
+/// Returns a plate with layers and tetrahedra above them, whose sides x = 0 and x = 1 are periodic; each side has triangles and quads.
 HybridMesh periodic_plate() {
   HybridMesh mesh = test::plate_block(4);
   const PatchId left = mesh.patches.push_back({"left side", PatchKind::interface}), right = mesh.patches.push_back({"right", PatchKind::interface});
@@ -32,7 +32,7 @@ HybridMesh periodic_plate() {
   };
   for (BoundaryTriangle& face : mesh.boundary_triangles) move(face);
   for (BoundaryQuad& face : mesh.boundary_quads) move(face);
-  // The faces of the second side in another order, and from other nodes on.
+  // The faces of the second side are listed in another order and start at other nodes.
   std::ranges::reverse(mesh.boundary_triangles);
   for (BoundaryQuad& face : mesh.boundary_quads)
     if (face.patch == right) std::rotate(face.nodes.begin(), face.nodes.begin() + 1, face.nodes.end());

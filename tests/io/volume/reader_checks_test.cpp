@@ -1,4 +1,4 @@
-// says_where itself: what the tests of damaged files and the fuzz targets accept as a place.
+// Tests says_where: the locations that the tests of damaged files and the fuzz targets accept.
 #include "tests/support/reader_checks.h"
 
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ namespace {
 struct NamedFace {
   std::string patch;
   PatchKind kind;
-  std::vector<NodeId> nodes;  ///< from the lowest on
+  std::vector<NodeId> nodes;  ///< starting at the lowest node
   auto operator<=>(const NamedFace&) const = default;
 };
 
@@ -40,7 +40,7 @@ std::vector<NamedFace> named_faces(const HybridMesh& mesh) {
   return result;
 }
 
-/// Faces of a cell, each from its lowest node on, sorted: the same for all ways to number its nodes.
+/// Returns the sorted faces of a cell, each starting at its lowest node: the same for all numberings of the cell's nodes.
 template <std::size_t N>
 std::vector<std::vector<NodeId>> outward_faces(CellKind kind, const std::array<NodeId, N>& cell) {
   std::vector<std::vector<NodeId>> result;
@@ -132,9 +132,9 @@ void expect_round_trip(const HybridMesh& mesh, const std::filesystem::path& path
   const std::string bytes = all_bytes(path);
   EXPECT_FALSE(bytes.empty());
   expect_same_after_reading(io::read_volume_file(path, RunContext({.threads = 2})), mesh, order, kinds);
-  // Formats with sections by kind do not know columns; formats that store faces number cells as the mesh does.
+  // Formats with sections by kind do not store columns; formats that store faces number cells as in the mesh.
   io::write_volume_file(order == CellOrder::same ? explicit_cells(mesh) : mesh, path, RunContext({.threads = 7}));
-  EXPECT_TRUE(all_bytes(path) == bytes) << "other bytes with other threads, or of explicit cells";  // EXPECT_EQ would print them
+  EXPECT_TRUE(all_bytes(path) == bytes) << "other bytes with other threads, or of explicit cells";  // EXPECT_EQ would print the bytes
 }
 
 void expect_no_crash_on_damage(const std::filesystem::path& path, std::size_t k) {

@@ -125,7 +125,7 @@ TEST(Sterna, VerbsOfTheFormatTable) {
   const TriMesh cube = test::cube(2);
   write_surface_file(cube, folder / "cube.sterna", k_context);
   EXPECT_EQ(read_surface_file(folder / "cube.sterna", k_context).triangles.size(), cube.n_triangles());
-  const HybridMesh boundary = read_volume_file(folder / "cube.sterna", k_context);  // as of every format of volumes that holds a surface alone
+  const HybridMesh boundary = read_volume_file(folder / "cube.sterna", k_context);  // like every volume format whose file holds only a surface
   EXPECT_EQ(boundary.boundary_triangles.size(), cube.n_triangles());
   EXPECT_EQ(boundary.tetrahedra.size() + boundary.prisms.size(), 0u);
   const Everything all;
@@ -198,7 +198,7 @@ TEST(Sterna, DamageIsFound) {
   for (std::size_t n = 1; n < bytes.size(); n += 97) damaged(bytes.substr(0, n));
   damaged(bytes + "x");
   for (std::size_t n = 0; n < bytes.size(); n += 97) {
-    if (n >= 16 && n < 20) continue;  // the version, below
+    if (n >= 16 && n < 20) continue;  // the version is tested below
     std::string text = bytes;
     text[n] = static_cast<char>(text[n] ^ 0x10);
     damaged(text);
@@ -220,7 +220,7 @@ void put_at(std::string& text, std::size_t at, T value) {
   std::memcpy(text.data() + at, &value, sizeof value);
 }
 
-/// Hashes of directory and head as they should be: what a hostile writer would do.
+/// Returns the text with corrected hashes of directory and head, as in a deliberate attack.
 std::string with_right_hashes(std::string text) {
   const auto place = number_at<std::uint64_t>(text, 24);
   put_at(text, 40, hash_bytes(std::string_view(text).substr(place)));

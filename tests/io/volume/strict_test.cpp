@@ -1,5 +1,5 @@
-// Damage with a meaning, to a file of every writer: a coordinate that is no number, a file of half its length. Each is refused with file and place, never read
-// as something else.
+// Invalid but well-formed content in a file of every writer: a coordinate that is not a number, a truncated file of half the length. Each file is refused with
+// its name and a location, and never read as something else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr double k_mark = 0.785398163397448279;  // a coordinate that is found again in the bytes of a file
+constexpr double k_mark = 0.785398163397448279;  // a coordinate that can be found again in the bytes of a file
 using test::k_context;
 
 /// Formats and extensions, for messages.
@@ -32,7 +32,7 @@ struct Case {
   std::string name() const { return std::string(format->name) + (is_volume ? " volume " : " surface ") + extension; }
 };
 
-/// Every extension in which something is written that is read again. Folders (OpenFOAM) are not files.
+/// Returns every extension of formats that are both written and read. Folders (OpenFOAM) are not files.
 std::vector<Case> cases() {
   std::vector<Case> result;
   for (const Format& format : formats()) {
@@ -84,7 +84,7 @@ void expect_refused(const Case& c, const std::filesystem::path& path, const std:
   }
 }
 
-/// Polygons of surfaces whose corners are no numbers are left out (NotFinite.*); a format without polygons of its own refuses the file.
+/// Checks that surface polygons whose corners are not numbers are left out (NotFinite.*); a format without polygons of its own refuses the file.
 void expect_sound_or_refused(const Case& c, const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
   try {
@@ -102,7 +102,7 @@ std::string pattern_of(T value, std::endian order) {
   return bytes;
 }
 
-/// Replaces the mark in whatever way the file spells it. \returns whether it was found
+/// Replaces the mark in any spelling used by the file. \returns true if it was found
 bool replace_mark(std::string& bytes, double by) {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const auto replace = [&](const std::string& from, const std::string& to) {
@@ -118,7 +118,7 @@ bool replace_mark(std::string& bytes, double by) {
     if (at == std::string::npos) continue;
     const std::size_t end = std::min(bytes.find_first_of(" \t\r\n<*", at), bytes.size());
     std::string word = std::isnan(by) ? "nan" : "inf";
-    word.resize(std::max(word.size(), end - at), ' ');  // Nastran counts columns
+    word.resize(std::max(word.size(), end - at), ' ');  // Nastran has fixed columns
     bytes.replace(at, end - at, word);
     return true;
   }
@@ -139,13 +139,13 @@ TEST(Strict, CoordinatesThatAreNoNumbers) {
       else expect_sound_or_refused(c, path, bytes);
     }
   }
-  EXPECT_EQ(packed, (std::set<std::string>{".sterna", ".vtp", ".vtu"}));  // LZ4, zlib: fuzzers get there
+  EXPECT_EQ(packed, (std::set<std::string>{".sterna", ".vtp", ".vtu"}));  // LZ4 or zlib data: covered by the fuzzers
 }
 
 TEST(Strict, HalfAFile) {
   for (const Case& c : cases()) {
-    if (c.format->name == "OBJ") continue;     // has neither counts nor an end: half of it is a smaller one
-    if (c.extension == ".adf.cgns") continue;  // ends in free space, which may be cut off
+    if (c.format->name == "OBJ") continue;     // has neither counts nor an end mark: half of the file is a smaller valid file
+    if (c.extension == ".adf.cgns") continue;  // ends in free space, which may be truncated
     SCOPED_TRACE(c.name());
     const auto path = write_case(c);
     const std::string good = test::bytes_of(path);

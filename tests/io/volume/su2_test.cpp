@@ -60,7 +60,7 @@ TEST(Su2Write, WorkedExampleByteForByte) {
 TEST(Su2Write, ColumnsAndExplicitCellsGiveTheSameFile) {
   const HybridMesh columns = test::mixed_mesh();
   const CellCounts counts = count_cells(columns);
-  ASSERT_GT(counts.pyramids, 0);  // or the test would not show much
+  ASSERT_GT(counts.pyramids, 0);  // otherwise the test would prove little
   const auto folder = test::scratch();
   write(columns, folder / "columns.su2");
   write(explicit_cells(columns), folder / "explicit.su2");
@@ -92,7 +92,7 @@ TEST(Su2Write, NamesThatSu2CannotTakeAreChangedWithAWarning) {
   EXPECT_THAT(text, testing::HasSubstr("NMARK= 3\nMARKER_TAG= left_wing__a_\n"));
   EXPECT_THAT(text, testing::HasSubstr("MARKER_TAG= SEND_RECEIVE_2\n"));
   EXPECT_THAT(text, testing::HasSubstr("MARKER_TAG= patch_3\n"));
-  EXPECT_THAT(text, testing::Not(testing::HasSubstr("unused")));  // no faces, no marker
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("unused")));  // no faces, so no marker
   ASSERT_EQ(log.size(), 3u);
   EXPECT_THAT(log[0], testing::HasSubstr("\"left wing (a)\" is written as marker \"left_wing__a_\""));
 }
@@ -125,7 +125,7 @@ TEST(Su2, RoundTripToTheBit) {
     write(mesh, first);
     const HybridMesh back = read(first);
     HybridMesh expected = explicit_cells(mesh);
-    for (Patch& patch : expected.patches) patch.kind = patch.name == "farfield" ? PatchKind::farfield : PatchKind::wall;  // the file has no kinds
+    for (Patch& patch : expected.patches) patch.kind = patch.name == "farfield" ? PatchKind::farfield : PatchKind::wall;  // the file stores no kinds
     expect_equal(back, expected);
     EXPECT_EQ(back.boundary_triangles.size(), mesh.boundary_triangles.size());
     EXPECT_EQ(back.boundary_quads.size(), mesh.boundary_quads.size());
@@ -161,7 +161,7 @@ TEST(Su2Read, Variants) {
   same(text);
   same("% comment\n\n" + replaced(text, "NELEM= 2", "\n% between\n  NELEM = 2"));
   same(replaced(text, "NPOIN= 7", "NPOIN=7 7"));
-  same(text.substr(0, text.size() - 1));  // no line end at the end
+  same(text.substr(0, text.size() - 1));  // no line end at the end of the file
   same(text + "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0 0 0\n0 0 0\n0 0 0\nFFD_NBOX= 0\n");
   same("AOA_OFFSET= 1.5\n" + text);
   same(replaced(text, "0.25 0.25 2\n", "2.5D-1 +0.25 0.2e1 6\n\n"));
@@ -197,7 +197,7 @@ TEST(Su2Read, EveryKindIsFlipped) {
   for (HybridMesh mesh : {test::hexahedron_with_roof(), test::mixed_mesh()}) {
     mesh = explicit_cells(mesh);
     const double volume = test::volume_of(mesh);
-    for (Point& p : mesh.points) p.x = -p.x;  // a mirror turns every cell and face inside out
+    for (Point& p : mesh.points) p.x = -p.x;  // mirroring inverts every cell and face
     const auto path = test::scratch() / "mesh.su2";
     write(mesh, path);
     const HybridMesh back = read(path);
@@ -207,7 +207,7 @@ TEST(Su2Read, EveryKindIsFlipped) {
 }
 
 TEST(Su2Read, WarpedValidPrismsStay) {
-  // Valid by the exact test, but of negative volume when its sides are cut along the wrong diagonals: only the exact formula tells its winding.
+  // Valid by the exact test, but of negative volume if its sides are cut along the wrong diagonals: only the exact formula gives the right winding.
   HybridMesh mesh;
   const WedgePoints p = {{{-1.38, 1.26, -0.04}, {2.57, 1.04, -0.21}, {-0.27, 1.22, -0.07}, {-0.82, -0.99, 0.2}, {0.97, 1.42, 2.05}, {-0.38, -0.34, 0.69}}};
   ASSERT_TRUE(is_wedge_valid(p));
@@ -261,7 +261,7 @@ TEST(Su2Read, MistakesHaveTheirLine) {
 }
 
 TEST(Su2Read, TheFirstMistakeIsTold) {
-  // Whatever the threads do: the error of the first chunk of lines.
+  // The error of the first chunk of lines is reported for any number of threads.
   std::string text = "NDIME= 3\nNPOIN= 100000\n";
   for (int i = 0; i < 100000; ++i) text += i == 30000 || i == 70000 ? "0 x 0\n" : "0 0 0\n";
   text += "NELEM= 0\nNMARK= 0\n";
@@ -292,7 +292,7 @@ TEST(Su2Read, Samples) {
   EXPECT_EQ(count_cells(mesh).total(), 4);
   EXPECT_EQ(mesh.boundary_triangles.size(), 8u);
   EXPECT_EQ(mesh.boundary_quads.size(), 6u);
-  EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
+  EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // value of docs/method/formats.md, "Sample meshes", to its digits
   EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
 
   mesh = read(samples / "two.multizone.su2");

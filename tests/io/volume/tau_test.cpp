@@ -28,11 +28,11 @@ TEST(Tau, SamplesByteForByte) {
     EXPECT_NEAR(test::volume_of(mesh), volume, 1e-14);
     EXPECT_NEAR(test::enclosed_volume(mesh), volume, 1e-14);
     write(mesh, folder / name);
-    if (name != "pt.classic.grid") {  // which is CDF-1
+    if (name != "pt.classic.grid") {  // this file is CDF-1
       EXPECT_EQ(test::bytes_of(folder / name), test::bytes_of(samples / name));
     }
     std::string mapping = test::bytes_of((folder / name).replace_extension(".bmap"));
-    const std::string option = " Write surface data (0/1): 1\n";  // which the samples leave out
+    const std::string option = " Write surface data (0/1): 1\n";  // missing in the samples
     mapping.erase(mapping.find(option), option.size());
     EXPECT_EQ(mapping, test::bytes_of((samples / name).replace_extension(".bmap")));
   }
@@ -71,7 +71,7 @@ TEST(Tau, RoundTripInCdf5) {
   EXPECT_THAT(*test::output_of_tool("ncdump", {"-v", "marker", file.string()}), testing::HasSubstr("marker = 1, 2, 3, 4, 5, 6 ;"));
 }
 
-/// The same grid through Debian's library: other versions, groups in heaps, packed chunks.
+/// The same grid written with Debian's library: other versions, groups in heaps, compressed chunks.
 TEST(TauRead, OtherKindsOfNetcdf) {
   const auto folder = test::scratch(), file = folder / "mesh.grid";
   const HybridMesh mesh = test::mesh_of_six_patches();
@@ -90,7 +90,7 @@ TEST(TauRead, OtherKindsOfNetcdf) {
 }
 
 TEST(TauRead, HeapsOfManyNames) {
-  // 700 attributes and variables beside the mesh fill several rows of a heap and a B-tree of two levels.
+  // 700 attributes and variables besides the mesh fill several rows of a heap and a B-tree of two levels.
   std::string text =
       "netcdf many {\ndimensions:\n n = 1 ;\n no_of_points = 1 ;\nvariables:\n double points_xc(no_of_points), points_yc(no_of_points), "
       "points_zc(no_of_points) ;\n";

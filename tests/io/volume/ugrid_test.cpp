@@ -22,7 +22,7 @@ TEST(UgridRead, Samples) {
     EXPECT_NEAR(test::enclosed_volume(mesh), 2.0 / 3.0, 1e-15);
     mesh = read(samples / ("mix4" + variant + ".ugrid"));
     EXPECT_EQ(mesh.pyramids.size(), 1u);
-    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // value of docs/method/formats.md, "Sample meshes", to its digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
   }
   const HybridMesh sphere = read(samples / "sphere_mixed.1.lb8.ugrid");
@@ -40,7 +40,7 @@ TEST(UgridRead, NeverCrashesOnCutFiles) {
 
 using test::write;
 
-/// The sample's patches in the order of its numbers, which reading (order of appearance) does not keep.
+/// Returns the mesh with the sample's patches in the order of their numbers; reading orders patches by appearance.
 HybridMesh with_patches_of_mapbc(HybridMesh mesh, const std::vector<std::string>& names) {
   Column<PatchId, Patch> sorted;
   std::vector<PatchId> place(mesh.patches.size());
@@ -106,8 +106,8 @@ TEST(UgridWrite, AnIndependentReaderFindsTheSame) {
     EXPECT_EQ(report->number("points"), static_cast<double>(mesh.points.size()));
     EXPECT_EQ(report->number("cells.wedge"), static_cast<double>(count_cells(mesh).prisms));
     EXPECT_EQ(report->number("cells.tetra"), static_cast<double>(count_cells(mesh).tetrahedra));
-    const double tolerance = name == "mesh.ugrid" ? 1e-8 : 1e-15;                // of a volume of 0.0087; meshio reads the text in single precision
-    EXPECT_NEAR(report->number("enclosed"), -test::volume_of(mesh), tolerance);  // inwards, as NASA's tools have it
+    const double tolerance = name == "mesh.ugrid" ? 1e-8 : 1e-15;                // for a volume of 0.0087; meshio reads the text in single precision
+    EXPECT_NEAR(report->number("enclosed"), -test::volume_of(mesh), tolerance);  // inwards, as in NASA's tools
     EXPECT_NEAR(report->number("volume.wedge") + report->number("volume.pyramid") + report->number("volume.tetra"), test::volume_of(mesh), tolerance);
   }
 }

@@ -41,7 +41,7 @@ double cell_volume(const HybridMesh& mesh, const Cell& cell) {
   return volume;
 }
 
-/// Sums of some 1e5 terms, in other orders than ours: 1e-12 is a hundred times what rounding leaves.
+/// Sums of about 1e5 terms in different orders: 1e-12 is a hundred times the rounding error.
 constexpr double k_volume_tolerance = 1e-12;
 
 }  // namespace
@@ -105,7 +105,7 @@ void expect_same_mesh(const IndependentReport& report, const HybridMesh& mesh) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double low = NAN, high = NAN;
     bounds >> low >> high;
-    EXPECT_EQ(low, box.min[axis]);  // to the bit: coordinates survive the round trip
+    EXPECT_EQ(low, box.min[axis]);  // exactly equal: coordinates survive the round trip
     EXPECT_EQ(high, box.max[axis]);
   }
 
@@ -155,9 +155,9 @@ double enclosed_volume(const HybridMesh& mesh) {
 }
 
 HybridMesh mixed_mesh() {
-  // A plate of 6 x 6 squares: vertex j * 7 + i. Line 0 is a corner; 24, 25, 32 are one triangle inside.
+  // A plate of 6 x 6 squares: vertex j * 7 + i. Growth line 0 is at a corner; 24, 25, 32 form one inner triangle.
   HybridMesh mesh = plate_block(6, {.n_layers = 4, .collapsed = {0, 24, 25, 32}});
-  // Coordinates that are no short decimals.
+  // Coordinates that need all digits.
   for (Point& p : mesh.points) p = {p.x / 3.0, p.y / 7.0, p.z / 11.0};
   return mesh;
 }
@@ -167,7 +167,7 @@ HybridMesh mesh_of_six_patches() {
   const auto add = [&](const char* name, PatchKind kind) { return mesh.patches.push_back({name, kind}); };
   const PatchId symmetry = add("symmetry", PatchKind::symmetry), inflow = add("engine_intake", PatchKind::inflow),
                 outflow = add("engine_exhaust", PatchKind::outflow);
-  // The sides of the plate by where they lie: y = 0 is the symmetry plane, x = 0 and its opposite are flown through.
+  // The sides of the plate by location: y = 0 is the symmetry plane; x = 0 and the opposite side are inflow and outflow.
   Box box;
   for (const Point& p : mesh.points) box.add(p);
   const auto lies_at = [&](std::span<const NodeId> nodes, std::size_t axis, double place) {
@@ -213,7 +213,7 @@ std::optional<std::string> output_of_tool(const std::string& program, const std:
 }
 
 void expect_survives_damage(const std::filesystem::path& victim, const std::string& name, std::size_t n_attempts) {
-  // In memory, where there is room: some thousand files are written.
+  // Files are written to memory if possible: there are some thousand of them.
   const std::filesystem::path folder = std::filesystem::is_directory("/dev/shm")
                                            ? std::filesystem::path("/dev/shm") / ("sterna_volume_test_" + std::to_string(::getpid()))
                                            : scratch() / "damaged";
@@ -240,12 +240,12 @@ void expect_survives_damage(const std::filesystem::path& victim, const std::stri
   constexpr std::string_view k_changes = "\x01\x80\xff\x10\x55";
   std::size_t n = 0;
   for (std::size_t i = 0; i < bytes.size(); i += step_of_changes) {
-    if (bytes[i] == ' ') continue;  // padding, mostly
+    if (bytes[i] == ' ') continue;  // mostly padding
     std::string damaged = bytes;
     damaged[i] = static_cast<char>(damaged[i] ^ k_changes[n++ % k_changes.size()]);
     attempt(damaged, "byte " + std::to_string(i) + " changed");
   }
-  std::error_code ignored;  // a few kB may remain in memory; no reason to fail
+  std::error_code ignored;  // a few kB may remain in memory; this is not a test failure
   std::filesystem::remove_all(folder, ignored);
 }
 

@@ -1,4 +1,4 @@
-// The quality of cells that `sterna check --cells` writes against VTK's MeshQuality.
+// The cell quality written by `sterna check --cells` against VTK's MeshQuality.
 #include <gtest/gtest.h>
 
 #include <fstream>

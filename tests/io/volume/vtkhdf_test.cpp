@@ -27,7 +27,7 @@ TEST(VtkHdfRead, Samples) {
     EXPECT_NEAR(test::enclosed_volume(mesh), 2.0 / 3.0, 1e-15);
     mesh = read(test::shared_data() / "formats" / ("mix4" + version + ".vtkhdf"));
     EXPECT_EQ(count_cells(mesh).total(), 4);
-    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // value of docs/method/formats.md, "Sample meshes", to its digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
   }
 }
@@ -49,7 +49,7 @@ TEST(VtkHdfWrite, VtkFindsTheSame) {
     for (const PatchId patch : mesh.patches.ids())
       EXPECT_EQ(report->number("field.patch:" + std::string(to_string(mesh.patches[patch].kind)) + ":" + mesh.patches[patch].name), patch.value() + 1.0);
     for (int layer = 1; layer <= mesh.layers.n_layers; ++layer) EXPECT_GT(report->number("layer." + std::to_string(layer)), 0.0);
-    EXPECT_GT(report->number("vtk.smallest"), 0.0);  // VTK's own opinion of the windings
+    EXPECT_GT(report->number("vtk.smallest"), 0.0);  // VTK's own check of the windings
   }
 }
 
@@ -66,7 +66,7 @@ TEST(VtkHdf, NamesComeBackWhole) {
   EXPECT_EQ(read(file).patches, mesh.patches);
 }
 
-/// Two partitions: a tetrahedron each, ids and offsets of their own.
+/// Two partitions: one tetrahedron each, with ids and offsets of their own.
 TEST(VtkHdfRead, PartitionsAreJoined) {
   const auto dataset = [](std::string name, OutputArray array) {
     return Hdf5OutputNode{.name = std::move(name), .is_dataset = true, .array = std::move(array)};
@@ -117,7 +117,7 @@ TEST(VtkHdfRead, NeverCrashesOnDamagedFiles) {
   write(test::hexahedron_with_roof(), file);
   test::expect_survives_damage(file, "damaged.vtkhdf", test::k_few_attempts);
   if (test::has_shared_data())
-    test::expect_survives_damage(test::shared_data() / "formats/pt.vtkhdf", "damaged.hdf", test::k_few_attempts);  // groups of the old style, no checksums
+    test::expect_survives_damage(test::shared_data() / "formats/pt.vtkhdf", "damaged.hdf", test::k_few_attempts);  // old-style groups, no checksums
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Independent, VtuReaders, testing::Values("vtk", "meshio
 
 TEST_P(VtuReaders, Agree) {
   const auto path = test::scratch() / "mesh.vtu";
-  // The last one has arrays of several compressed blocks.
+  // The last mesh has arrays of several compressed blocks.
   for (const HybridMesh& mesh : {test::mixed_mesh(), test::hexahedron_with_roof(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     write(mesh, path);
     const auto report = test::read_independently(GetParam(), path);
@@ -34,9 +34,9 @@ TEST_P(VtuReaders, Agree) {
     }
     if (report->has("vtk.volume")) {
       const double volume = test::volume_of(mesh);
-      // VTK cuts cells with warped quads into tets of its own choice: equal in the sum to some percent of the warp only, and to rounding where quads are flat.
+      // VTK cuts cells with warped quads into tets of its own choice: volumes agree to a few percent of the warp, and to rounding if quads are flat.
       EXPECT_NEAR(report->number("vtk.volume"), volume, 1e-3 * volume);
-      EXPECT_GT(report->number("vtk.smallest"), 0.0);  // VTK's own opinion of the windings
+      EXPECT_GT(report->number("vtk.smallest"), 0.0);  // VTK's own check of the windings
     }
   }
 }
@@ -92,7 +92,7 @@ TEST(VtuRead, RoundTripToTheBit) {
     EXPECT_EQ(back.pyramids, expected.pyramids);
     EXPECT_EQ(back.hexahedra, expected.hexahedra);
     EXPECT_EQ(back.tetrahedra, expected.tetrahedra);
-    EXPECT_EQ(back.patches, expected.patches);  // with their kinds
+    EXPECT_EQ(back.patches, expected.patches);  // including their kinds
     ASSERT_EQ(back.boundary_triangles.size(), mesh.boundary_triangles.size());
     for (std::size_t f = 0; f < back.boundary_triangles.size(); ++f) {
       EXPECT_EQ(back.boundary_triangles[f].nodes, mesh.boundary_triangles[f].nodes);
@@ -107,10 +107,10 @@ using test::replaced;
 
 TEST(Vtu, EveryPackingHasTheSameContent) {
   const auto folder = test::scratch();
-  // The second has arrays of several blocks.
+  // The second mesh has arrays of several blocks.
   for (const HybridMesh& mesh : {test::six_patch_mesh(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     for (const std::string name : {"mesh.vtu", "mesh.raw.vtu", "mesh.lz4.vtu"}) {
-      if (mesh.layers.n_columns() > 1000 && name != "mesh.lz4.vtu") continue;  // time
+      if (mesh.layers.n_columns() > 1000 && name != "mesh.lz4.vtu") continue;  // to save time
       SCOPED_TRACE(name);
       write(mesh, folder / name);
       test::expect_same_after_reading(read(folder / name), mesh, test::CellOrder::same);
@@ -140,13 +140,13 @@ TEST(VtuRead, Samples) {
     EXPECT_EQ(count_cells(mesh).total(), 4);
     EXPECT_EQ(mesh.boundary_triangles.size(), 8u);
     EXPECT_EQ(mesh.boundary_quads.size(), 6u);
-    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of docs/method/formats.md, "Sample meshes", to its digits
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // value of docs/method/formats.md, "Sample meshes", to its digits
   }
   const std::string lzma = replaced(test::bytes_of(samples / "pt.rawlz4.vtu"), "vtkLZ4DataCompressor", "vtkLZMADataCompressor");
   test::expect_error(ErrorCode::unsupported_format, "vtkLZMADataCompressor", [&] { read(test::write_text("lzma.vtu", lzma)); });
 }
 
-/// A tetrahedron with one marked face, as text.
+/// A tetrahedron with one marked face, in text form.
 constexpr const char* k_tet =
     "<?xml version=\"1.0\"?>\n<!-- made by hand --><VTKFile type='UnstructuredGrid' byte_order='LittleEndian'><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"4\" NumberOfCells=\"3\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "

@@ -42,7 +42,7 @@ double area_of(const FaceMesh& mesh) {
   return area;
 }
 
-/// Uses of every edge; each directed edge may occur once.
+/// Returns the use count of every edge; each directed edge may occur once.
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_edges(const FaceMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const TriangleVertices& v : mesh.triangles)
@@ -50,7 +50,7 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_edges(const Face
   return edges;
 }
 
-/// What every mesh of a face has to be: manifold, its free edges exactly the border's segments, inner vertices on the surface to the bit.
+/// Checks the requirements of every face mesh: manifold, free edges identical to the border's segments, inner vertices exactly on the surface.
 void expect_sound(const FaceMesh& mesh, const Surface& surface, const FaceBorder& border) {
   const auto edges = directed_edges(mesh);
   std::int64_t n_free = 0;
@@ -93,7 +93,7 @@ TEST_P(Shapes, AreSoundAndWellShaped) {
     expect_sound(mesh, *shape.surface, border);
     EXPECT_LE(mesh.report.n_outside_20_130, shape.n_narrow)
         << "angles " << mesh.report.min_angle / k_degree << " .. " << mesh.report.max_angle / k_degree << " at " << format_point(mesh.report.worst_place);
-    // Equilateral triangles of the wanted edge cover the face: fewer than a third off would need edges 15 % longer.
+    // Number of equilateral triangles of the target edge length that cover the face; 0.75 of this number corresponds to edges 15 % longer.
     const double ideal = area_of(mesh) / (0.25 * std::numbers::sqrt3 * shape.size * shape.size / (factor * factor));
     EXPECT_GT(static_cast<double>(mesh.triangles.size()), 0.75 * ideal);
   }
@@ -105,7 +105,7 @@ TEST_P(Shapes, AreaConvergesWithOrderTwo) {
   SCOPED_TRACE(shape.name);
   const double coarse = std::abs(area_of(mesh_shape(shape, shape.size)) - shape.area);
   const double fine = std::abs(area_of(mesh_shape(shape, 0.5 * shape.size)) - shape.area);
-  // Exact on planes; else a quarter by theory, with a margin since the meshes are not similar.
+  // Planes are exact; on other surfaces theory gives a quarter. The margin accounts for meshes that are not similar.
   EXPECT_LT(fine, std::max(0.35 * coarse, 1e-12));
 }
 
@@ -121,8 +121,8 @@ INSTANTIATE_TEST_SUITE_P(FaceMesh, Shapes, testing::Range(0, static_cast<int>(te
                          [](const auto& info) { return test::face_shapes()[static_cast<std::size_t>(info.param)].name; });
 
 TEST(FaceMesh, TrianglesAreNearlyEquilateral) {
-  // Measured: radius ratio 0.992 to 0.996, 1 % of angles below 44 to 47 degrees, 88 to 95 % vertices of six neighbours. Before fronts advanced where there is
-  // most room these were 0.96, 41 and 60 %; the limits are halfway to where a front that loses its shape would lead.
+  // Measured: radius ratio 0.992 to 0.996, 1 % of angles below 44 to 47 degrees, 88 to 95 % of vertices with six neighbours. Before fronts advanced where there
+  // is most room, these were 0.96, 41 and 60 %. The limits are halfway to the values of a front that loses its shape.
   for (const test::FaceShape& shape : test::face_shapes()) {
     if (shape.name != "sphere" && shape.name != "bump" && shape.name != "torus" && shape.name != "wing") continue;
     SCOPED_TRACE(shape.name);
@@ -134,7 +134,7 @@ TEST(FaceMesh, TrianglesAreNearlyEquilateral) {
   }
 }
 
-/// A polygon in the plane z = 0.
+/// Returns the border of a polygon in the plane z = 0.
 FaceBorder plane_border(const std::vector<std::vector<Uv>>& loops) {
   FaceBorder border;
   for (const auto& loop : loops) {
@@ -183,7 +183,7 @@ TEST(FaceMesh, BorderFinerThanTheInsideGrows) {
 }
 
 TEST(FaceMesh, CoarseBorderAndHugeSizesEnd) {
-  // A triangle, a square with a size larger than itself, a sliver a million times longer than wide, and a border much coarser than the inside wants.
+  // A triangle, a square with a target size above its own, a sliver a million times longer than wide, and a border much coarser than the target size inside.
   for (const auto& loop : {std::vector<Uv>{{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1e-6}, {0, 1e-6}}}) {
     for (const double size : {100.0, 0.05}) {
       const FaceBorder border = plane_border({loop});
@@ -217,7 +217,7 @@ TEST(FaceMesh, SphereWithPolesHasTheTopologyOfOne) {
   const FaceBorder border = test::box_border(sphere, box, 0.25);
   const FaceMesh mesh = mesh_face(
       sphere, border, [](Uv, const Point&) { return 0.25; }, coarse_curvature(), k_context);
-  // Joined along its seam it is closed: equal points become one vertex.
+  // Joined along its seam, the mesh is closed: equal points become one vertex.
   std::map<std::tuple<double, double, double>, int> number;
   for (const Point& p : mesh.points) number.emplace(std::tuple{p.x, p.y, p.z}, static_cast<int>(number.size()));
   std::map<std::pair<int, int>, int> edges;
@@ -236,7 +236,7 @@ TEST(FaceMesh, SphereWithPolesHasTheTopologyOfOne) {
     EXPECT_TRUE(edges.contains({edge.second, edge.first}));
   }
   EXPECT_EQ(static_cast<std::int64_t>(used.size()) - static_cast<std::int64_t>(edges.size() / 2) + static_cast<std::int64_t>(mesh.triangles.size()), 2);
-  // No fan of slivers at a pole: as many triangles as around any other vertex.
+  // A pole has no slivers around it: the number of triangles is that of any other vertex.
   std::map<int, int> valence;
   for (const auto& [edge, n] : edges) ++valence[edge.first];
   EXPECT_LE(std::max_element(valence.begin(), valence.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->second, 9);
@@ -276,13 +276,13 @@ TEST(FaceMesh, LimitAndWrongSizesAreErrors) {
 
 TEST(CurvatureSizes, OfRoundSurfaces) {
   const SphereSurface sphere(Frame{}, 2.0);
-  // Where both principal curvatures are equal, their difference is the root of a rounding error.
+  // Where both principal curvatures are equal, their difference is the square root of a rounding error.
   EXPECT_NEAR(largest_curvature(sphere.derivatives({1.0, 0.4})), 0.5, 1e-7);
   const CylinderSurface cylinder(Frame{}, 0.25, {k_full_turn, {0, 1}});
   EXPECT_NEAR(largest_curvature(cylinder.derivatives({1.0, 0.4})), 4.0, 1e-12);
   const TorusSurface torus(Frame{}, 1.0, 0.2);
   EXPECT_NEAR(largest_curvature(torus.derivatives({1.0, 0.0})), 5.0, 1e-12);
-  // The chord of the angle: 30 degrees of radius 2.
+  // The chord of the angle: 30 degrees at radius 2.
   CurvatureSizes sizes(sphere, sphere.domain());
   sizes.limit({.angle = 30.0 * k_degree});
   EXPECT_NEAR(sizes({1.0, 0.3}), 4.0 * std::sin(15.0 * k_degree), 1e-7);

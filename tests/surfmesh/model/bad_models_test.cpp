@@ -1,4 +1,4 @@
-// Models that are wrong, or hard: each gives a sound mesh or an error with faces and places.
+// Faulty or difficult models: each gives a sound mesh or an error with faces and locations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ ErrorInfo failure_of(const Model& model, const SurfaceMeshOptions& options) {
 TEST(BadModels, AFaceThatCannotBeMeshedStaysAHole) {
   Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
   Border& border = model.faces[FaceId(2)].borders.front();
-  std::swap(border[0].parameter, border[2].parameter);  // it crosses itself in the parameters
+  std::swap(border[0].parameter, border[2].parameter);  // the border crosses itself in the parameters
   SurfaceMeshOptions options = edges_and_crossings(0.5);
   EXPECT_THAT(failure_of(model, options).problem, HasSubstr("1 of 6 faces cannot be meshed"));
   EXPECT_THAT(failure_of(model, options).hint, HasSubstr("failed_faces"));
@@ -82,7 +82,7 @@ TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
   }
   EXPECT_THAT(info.hint, AllOf(HasSubstr("union{"), HasSubstr("crossings = \"warn\""), Not(HasSubstr("mend"))));
   EXPECT_FALSE(info.geometry.triangles.empty());
-  // The same with a warning; and as advised.
+  // The same model with a warning, and then with the advised change.
   const SurfaceMesh kept = mesh_model(model, edges_and_crossings(0.2, "warn"), {}, k_context);
   EXPECT_GT(kept.report.n_crossings, 0);
   EXPECT_EQ(kept.report.crossings.size(), 4u);
@@ -93,7 +93,7 @@ TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
 }
 
 TEST(BadModels, SolidsThatTouchAreToBeUnitedAtOnce) {
-  // Finer triangles do not part what coincides: one round, also on curved faces.
+  // Finer triangles cannot separate coincident faces: one round only, also on curved faces.
   const Model boxes = both(make_box("left", {0, 0, 0}, {1, 1, 1}), make_box("right", {1, 0.1, 0.2}, {2, 0.9, 0.7}));
   const Model tubes = both(make_cylinder("outer", {0, 0, 0}, {3, 0, 0}, 0.5), make_cylinder("inner", {1, 0, 0}, {2, 0, 0}, 0.5));
   for (const Model* model : {&boxes, &tubes}) {
@@ -103,11 +103,11 @@ TEST(BadModels, SolidsThatTouchAreToBeUnitedAtOnce) {
 }
 
 TEST(BadModels, SolidsThatOnlyRunNearToEachOtherArePartedByFinerTriangles) {
-  // A rod in a hole 4 mm wider: facets of 0.35 m would cross.
+  // A rod in a hole that is 4 mm wider: facets of 0.35 m would cross.
   SurfaceMeshOptions options = edges_and_crossings(0.35);
   options.curvature_angle = 0.7;
   const Model rod = make_cylinder("rod", {-1, 0, 0}, {1, 0, 0}, 0.5), ring = make_cylinder("pipe", {-0.9, 0, 0}, {0.9, 0, 0}, 0.504);
-  // Only the skins of both: the pipe's ends would be crossed by the rod.
+  // Only the lateral surfaces of both: the rod would cross the ends of the pipe.
   Model model = both(rod, ring);
   Column<FaceId, ModelFace> faces;
   for (const ModelFace& face : model.faces)
@@ -141,7 +141,7 @@ TEST(BadModels, AbsurdSizesEndAtOnceWithTheirCount) {
 }
 
 TEST(BadModels, FacesThatAreALineAreAbsorbed) {
-  // afem_f16 has sixteen of them: borders that go along a line and back on the other side of a surface without width.
+  // afem_f16 has sixteen such faces: their borders go along a line and back on the other side of a surface without width.
   ModelBuilder builder({.name = "thread"});
   const CornerId a = builder.corner({0, 0, 0}), b = builder.corner({1, 0, 0});
   const EdgeId edge = builder.straight_edge(a, b);
@@ -160,7 +160,7 @@ TEST(BadModels, FacesThatAreALineAreAbsorbed) {
   EXPECT_THAT(mesh.report.absorbed.front().what, AllOf(HasSubstr("thread"), HasSubstr("line")));
 }
 
-/// A closed tube about x whose skin has two circles for borders and no seam; `n` edges in each circle.
+/// Returns a closed tube about x whose lateral surface has two circles as borders and no seam; `n` edges in each circle.
 Model tube_without_seam(int n) {
   const double pi = std::numbers::pi;
   const auto skin = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 0.5,
@@ -182,7 +182,7 @@ Model tube_without_seam(int n) {
       const Interval range{2 * pi * k / n, 2 * pi * (k + 1) / n};
       model.corners.push_back({circle->point(range.from), 1e-9});
       const EdgeId edge = model.edges.push_back({circle, range, at(end * n + k), at(end * n + (k + 1) % n), 1e-9, ""});
-      // The front runs with u, the back against it: the face lies on the left of both.
+      // The front circle runs with u, the rear circle against u: the face lies on the left of both.
       around.push_back({edge, end == 1, std::make_shared<ParameterLine>(Uv{0.0, x}, Uv{1.0, 0.0}, range)});
       inside.push_back({edge, false, std::make_shared<ParameterArc>(Uv{0, 0}, Uv{0.5, 0}, Uv{0, 0.5}, range)});
     }
@@ -210,7 +210,7 @@ TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
     for (const TriangleVertices& v : mesh.mesh.triangles) volume += dot(mesh.mesh.points[v[0]], cross(mesh.mesh.points[v[1]], mesh.mesh.points[v[2]])) / 6.0;
     // A prism of 16 sides has 1 - sin(2 pi / 16) / (2 pi / 16) = 2.6 % less than the cylinder.
     EXPECT_NEAR(volume, std::numbers::pi * 0.25 * 3.0, 0.035 * 2.356);
-    // The seam's vertices are the face's own: on no edge, and on the surface.
+    // The vertices on the seam belong to the face: they are on no edge, and on the surface.
     for (const VertexId v : mesh.mesh.points.ids())
       EXPECT_LT(distance(model.faces[mesh.places[v].face].surface->point(mesh.places[v].at), mesh.mesh.points[v]), 1e-12);
   }
@@ -231,7 +231,7 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
                                corner,
                                1e-9,
                                ""});
-    // To the north of the one, to the south of the other.
+    // One face lies to the north of its circle, the other to the south.
     model.faces.push_back({.surface = surface,
                            .borders = {{{edge, v < 0.0, std::make_shared<ParameterLine>(Uv{0.0, v}, Uv{1.0, 0.0}, Interval{0.0, 2 * std::numbers::pi})}}},
                            .component = ComponentId(std::uint64_t{0}),
@@ -243,14 +243,14 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
   expect_joined(model, mesh);
   EXPECT_GT(mesh.report.share_20_130, 0.99) << to_text(mesh.report);
   for (const FaceMeshSummary& face : mesh.report.faces) {
-    // 2 pi (1 - sin v) of a sphere of radius one.
+    // 2 pi (1 - sin v) for a sphere of radius one.
     EXPECT_NEAR(face.area, 2 * std::numbers::pi * (1.0 - (face.name == "north" ? std::sin(0.5) : std::sin(0.3))), 0.05) << face.name;
   }
 }
 
 TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
-  // A pointed cone of two halves: the last triangle of both would have the same three corners (found on the core of simpletest-pylon-nacelle).
-  const double pi = std::numbers::pi, slope = 0.4;  // failed at any size
+  // A pointed cone of two halves: the last triangles of both would have the same three corners (found on the core of simpletest-pylon-nacelle).
+  const double pi = std::numbers::pi, slope = 0.4;  // used to fail at any size
   const auto surface = std::make_shared<ConeSurface>(Frame{}, slope, std::atan(slope), ParameterBox{{0.0, 2 * pi}, {-1.0 / std::cos(std::atan(slope)), 0.0}});
   ASSERT_LT(distance(surface->point({0.0, surface->domain().v.from}), {0, 0, -1}), 1e-12);
   ModelBuilder builder({.name = "cone", .kind = ComponentKind::body});
@@ -270,7 +270,7 @@ TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
 }
 
 TEST(BadModels, EdgesOffTheirFacesAreNamed) {
-  // A side of the box is moved away from its edges by more than any tolerance.
+  // A side of the box is moved from its edges by more than any tolerance.
   Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
   EXPECT_TRUE(mesh_model(model, edges_and_crossings(0.25), {}, k_context).report.loose_edges.empty());
   const Model moved = make_box("box", {-1e-4, 0, 0}, {1.0001, 1, 1});
@@ -293,7 +293,7 @@ TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
   const SurfaceMesh fine = mesh_model(model, options, {}, k_context);
   EXPECT_EQ(fine.report.share_normals, 1.0);
   EXPECT_FALSE(fine.report.worst_normal_face.is_valid());
-  // No edge may be shorter than 0.5 m: it spans 0.5 rad.
+  // No edge may be shorter than 0.5 m, which spans 0.5 rad.
   options.curvature_angle = 0.05;
   options.min_edge = 0.5;
   const SurfaceMesh coarse = mesh_model(model, options, {}, k_context);
@@ -304,7 +304,7 @@ TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
 
 TEST(BadModels, HolesThatTouchTheBorderAndLinesForFacesInFiles) {
   STERNA_NEEDS_SHARED_DATA();
-  // Two holes touch the rim of a tube in a point each; sixteen faces of the F-16 are lines.
+  // Two holes touch the end circle of a tube in one point each; sixteen faces of the F-16 degenerate to lines.
   for (const auto& [file, n_absorbed] : {std::pair{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 0u}, std::pair{"afem_f16_F-16.stp", 16u}}) {
     SCOPED_TRACE(file);
     const Model model = io::read_cad(test::shared_data() / "cad" / file, {}, k_context).model;
@@ -316,7 +316,7 @@ TEST(BadModels, HolesThatTouchTheBorderAndLinesForFacesInFiles) {
   }
 }
 
-/// Every free edge of the model is a chain of boundary edges of the mesh through its vertices in order, and there are no others.
+/// Checks that every free edge of the model is a chain of mesh boundary edges through its vertices in order, and that no other boundary edges exist.
 void expect_loops_of_free_edges(const Model& model, const SurfaceMesh& surface) {
   const TriMesh& mesh = surface.mesh;
   std::set<std::pair<VertexId, VertexId>> boundary;
@@ -373,7 +373,7 @@ TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
 
 TEST(BadModels, ASurfaceThatFoldsIsNamedWithItsPlace) {
   STERNA_NEEDS_SHARED_DATA();
-  // The lip of the nacelle: du and dv are parallel at y = -0.511 and the normal turns over.
+  // The lip of the nacelle: du and dv are parallel at y = -0.511, and the normal reverses.
   SurfaceMeshOptions options = edges_and_crossings(0.1);
   options.curvature_angle = 0.4;
   const ErrorInfo info = failure_of(io::read_cad(test::shared_data() / "cad" / "tigl_nacelle_nacelle.stp", {}, k_context).model, options);

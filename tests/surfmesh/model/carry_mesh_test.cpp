@@ -1,5 +1,5 @@
-// A surface mesh carried to a deformed model: the same triangles on the new surface, measured and proved like one that is made there; refused where it would
-// not be good.
+// A surface mesh carried to a deformed model: the same triangles on the new surface, measured and proved like a mesh made there. The transfer is refused where
+// the mesh would not be good.
 #include "surfmesh/model/carry_mesh.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 using test::k_context;
 
-/// Swept and tapered, with round tips and a blunt trailing edge; its outer section turned nose-up.
+/// Returns a swept and tapered wing with round tips and a blunt trailing edge; its outer section is rotated nose-up.
 Model twisted_wing(double twist) {
   Wing wing{.name = "W", .is_symmetric = true, .trailing_edge = 0.01};
   for (const double y : {4.0, 1.5, 0.0}) {
@@ -34,7 +34,7 @@ Model twisted_wing(double twist) {
   return make_wing(wing);
 }
 
-/// With poles at nose and tail.
+/// Returns a body with poles at nose and tail.
 Model body() {
   Body body{.name = "B"};
   for (const double x : {-2.0, -0.6, 0.8, 3.6, 5.0}) body.frames.push_back({.name = "x", .center = {x, 0.0, 0.0}, .height = 1.0, .width = 1.0});
@@ -49,7 +49,7 @@ Model bent(const Model& model, double by) {
 StructuredMesh mesh_of(const Model& model, double max_edge = 0.2) {
   SurfaceMeshOptions options;
   options.max_edge = max_edge;
-  options.leading_edge_chordwise = 0.02;  // bands: stretched triangles come along
+  options.leading_edge_chordwise = 0.02;  // bands: stretched triangles are carried too
   options.leading_edge_stretch = 5.0;
   return {structure_of(model), mesh_model(model, options, {}, k_context)};
 }
@@ -69,7 +69,7 @@ TEST(CarryMesh, OnItsOwnModelItIsTheMesh) {
     const SurfaceMeshReport &was = from.mesh.report, &now = again.mesh->report;
     EXPECT_NEAR(now.min_angle, was.min_angle, 1e-9);
     EXPECT_NEAR(now.max_angle, was.max_angle, 1e-9);
-    EXPECT_NEAR(now.max_smooth_angle, was.max_smooth_angle, 1e-9);  // seams and creases are told apart again
+    EXPECT_NEAR(now.max_smooth_angle, was.max_smooth_angle, 1e-9);  // seams and creases are classified again
     EXPECT_NEAR(now.share_normals, was.share_normals, 1e-12);
     EXPECT_EQ(now.least_angles, was.least_angles);
     EXPECT_EQ(now.loose_edges.size(), was.loose_edges.size());
@@ -108,7 +108,7 @@ TEST(CarryMesh, IsRefusedWithAPlaceWhereItWouldNotBeGood) {
   const CarriedMesh result = carried(from, bent(twisted_wing(0.0), 1.0));
   EXPECT_FALSE(result.mesh);
   EXPECT_THAT(result.objection, HasSubstr("would be"));
-  EXPECT_GT(std::abs(result.place.y), 1.0);  // at the tips, where it bends most
+  EXPECT_GT(std::abs(result.place.y), 1.0);  // at the tips, where the bending is largest
   const CarriedMesh long_wing = carried(from, deformed(twisted_wing(0.0),
                                                        std::make_shared<FunctionMap>(
                                                            [](const Point& p) {

@@ -1,4 +1,4 @@
-// A real surface mesh follows its model through a deflection that is known at scattered points: file, map, deformed model, vertices evaluated anew.
+// A real surface mesh follows its model through a deflection known at scattered points: file, map, deformed model, vertices evaluated again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// What a structural solver gives of a wing of 2 m half span: deflections along two spars.
+/// Writes the output of a structural solver for a wing of 2 m half span: deflections along two spars.
 std::filesystem::path displacements(double tip) {
   const std::filesystem::path path = test::scratch() / "deflection.txt";
   std::ofstream file(path);
@@ -37,7 +37,7 @@ Vec3 normal_of(const TriMesh& mesh, TriangleId t) {
   return cross(mesh.points[v[1]] - mesh.points[v[0]], mesh.points[v[2]] - mesh.points[v[0]]);
 }
 
-/// The same mesh on another model of the same faces.
+/// Returns the same mesh evaluated on another model with the same faces.
 TriMesh reevaluated(const SurfaceMesh& surface, const Model& model) {
   TriMesh result = surface.mesh;
   for (const VertexId v : result.points.ids()) result.points[v] = model.faces[surface.places[v].face].surface->point(surface.places[v].at);
@@ -57,12 +57,12 @@ TEST(DeformedMesh, AMeshedWingBendsByItsFileOfDisplacements) {
   EXPECT_EQ(moved.triangles, surface.mesh.triangles);
   EXPECT_EQ(moved.triangle_patch, surface.mesh.triangle_patch);
   for (const VertexId v : moved.points.ids())
-    ASSERT_LE(distance(moved.points[v], map->point(surface.mesh.points[v])), 1e-6);  // vertices on edges: within the edge's tolerance
+    ASSERT_LE(distance(moved.points[v], map->point(surface.mesh.points[v])), 1e-6);  // for vertices on edges: the edge's tolerance
   double tip = 0.0;
   for (const Point& p : moved.points) tip = std::max(tip, p.z);
   EXPECT_NEAR(tip, 0.25, 0.05);
   for (const TriangleId t : moved.triangles.ids()) ASSERT_GT(dot(normal_of(moved, t), normal_of(surface.mesh, t)), 0.0);
-  // The share that chords cut off stays what it was.
+  // The relative volume cut off by chords is unchanged.
   const double before = volume_of(surface.mesh) / model_measures(wing, context).total.volume,
                after = volume_of(moved) / model_measures(bent, context).total.volume;
   EXPECT_NEAR(after, before, 1e-3);

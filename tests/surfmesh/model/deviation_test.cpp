@@ -1,4 +1,4 @@
-// Distances and turns against models with known answers; a node moved off and a facet turned are found where they are.
+// Distances and angles against models with known values; a displaced node and a rotated facet are located correctly.
 #include "surfmesh/model/deviation.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ struct Made {
   Deviation measure(const TriMesh& mesh, const RunContext& context = k_context) const { return measure_deviation(mesh, surface.mesh, wall, {}, context); }
 };
 
-/// One triangle about a point, on the first patch of the mesh.
+/// Returns one triangle about a point, on the first patch of the mesh.
 TriMesh triangle(const TriMesh& like, const std::array<Point, 3>& points) {
   TriMesh mesh;
   for (const Point& p : points) mesh.points.push_back(p);
@@ -48,11 +48,11 @@ TEST(Deviation, OfABallIsZeroAndItsFacetsTurnByHalfTheCurvatureAngle) {
   const Deviation d = ball.measure(ball.surface.mesh);
   EXPECT_EQ(d.n_nodes, static_cast<std::int64_t>(ball.surface.mesh.n_vertices()));
   EXPECT_EQ(d.n_facets, static_cast<std::int64_t>(ball.surface.mesh.n_triangles()));
-  EXPECT_EQ(d.n_without, 0);  // the poles are no centroids, and beside them there are normals
+  EXPECT_EQ(d.n_without, 0);  // no centroid is at a pole, and normals exist beside the poles
   EXPECT_LE(d.distance.worst, 1e-14);
   EXPECT_EQ(d.distance.state, GateState::pass);
   EXPECT_EQ(d.normal.state, GateState::pass);
-  // A facet is parallel to the sphere at its circumcentre; the centroid is away from that by less than an edge of 12 degrees.
+  // A facet is parallel to the sphere at its circumcentre; the centroid differs from the circumcentre by less than an edge of 12 degrees.
   double exact = 0.0;
   for (const TriangleId t : ball.surface.mesh.triangles.ids()) {
     const auto p = corners(ball.surface.mesh, t);
@@ -88,7 +88,7 @@ TEST(Deviation, AMovedNodeAndATurnedFacetAreFoundWithTheirValues) {
 }
 
 TEST(Deviation, FacesEndAtTheirBorders) {
-  // Beyond an edge of the box the planes go on, the faces do not.
+  // Beyond an edge of the box the planes continue, but the faces do not.
   const Made box(make_box("box", {0, 0, 0}, {1, 1, 1}), edges_of(0.3, 0.2));
   const double e = 1e-4;
   const auto off = [&](const Point& p) { return box.measure(triangle(box.surface.mesh, {p, p, p})).distance.worst; };
@@ -107,7 +107,7 @@ TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0), small(-8.0, -1.0);
   for (int i = 0; i < 300; ++i) {
-    // About the surface, the rims above all, as far off as it comes.
+    // Points near the surface, mainly near its edges, at distances of 1e-8 to 0.1.
     const double angle = std::numbers::pi * any(random), scale = std::pow(10.0, small(random));
     const double r = (i % 3 == 0 ? std::abs(any(random)) : 1.0) + scale * any(random),
                  x = (i % 2 == 0 ? 2.0 : 2.0 * std::abs(any(random))) + scale * any(random);
@@ -117,7 +117,7 @@ TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
 }
 
 TEST(Deviation, WingsWithSharpTrailingEdgesCompareEachSideWithItsOwn) {
-  // NACA 0006 with its last coefficient such that both sides end in one point.
+  // NACA 0006 with a modified last coefficient, so that both sides end in one point.
   const auto half_thickness = [](double x) { return 0.3 * (0.2969 * std::sqrt(x) - x * (0.1260 + x * (0.3516 - x * (0.2843 - x * 0.1036)))); };
   Wing wing{.name = "wing", .is_symmetric = true, .is_cubic = true};
   for (const double y : {3.0, 1.5, 0.0}) {
@@ -132,12 +132,12 @@ TEST(Deviation, WingsWithSharpTrailingEdgesCompareEachSideWithItsOwn) {
   const Made made(make_wing(wing), {});
   const Deviation d = made.measure(made.surface.mesh);
   EXPECT_LE(d.distance.worst, 1e-14);
-  // The other side would be 170 degrees off. What is off are the strips that close the tips: at their sharp ends the model turns within less than the shortest
-  // edge.
+  // The other side would be 170 degrees off. The largest angles belong to the strips that close the tips: at their sharp ends the model turns within less than
+  // the shortest edge.
   EXPECT_LT(d.normal.worst, 45 * k_degree);
   EXPECT_GT(d.normal.share_within, 0.998);  // 0.9988 here: the strips
   for (const GatePlace& place : d.normal.places) EXPECT_GT(std::abs(place.position.y), 3.0) << place.what;
-  // The same for any number of threads.
+  // The result is the same for any number of threads.
   for (const int threads : {2, 7}) {
     const Deviation other = made.measure(made.surface.mesh, RunContext({.threads = threads}));
     EXPECT_EQ(other.distance.worst, d.distance.worst);
@@ -168,7 +168,7 @@ TEST(Deviation, OfRealCad) {
     EXPECT_GT(d.normal.share_within, 0.95);
     std::printf("%s: %lld nodes, off %.2g L; normals worst %.1f deg, %.2f %% within 10 deg, %lld beyond 30 deg\n", file, static_cast<long long>(d.n_nodes),
                 d.distance.worst, d.normal.worst / k_degree, 100.0 * d.normal.share_within, static_cast<long long>(d.normal.n_beyond_hard));
-    // A node inside a face moved along the facets' normal by a known distance.
+    // A node inside a face, moved along the facets' normal by a known distance.
     TriMesh moved = made.surface.mesh;
     const double off = 1e-4 * d.length;
     for (const VertexId v : moved.points.ids()) {

@@ -5,7 +5,7 @@
 
 namespace sterna::test {
 
-/// Edges of at most `size` that turn by at most `angle`, radians.
+/// Returns options for edges of at most `size` that turn by at most `angle`, radians.
 inline surfmesh::SurfaceMeshOptions edges_of(double size, double angle = 0.5) {
   surfmesh::SurfaceMeshOptions options;
   options.max_edge = size;

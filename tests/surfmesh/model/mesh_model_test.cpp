@@ -73,7 +73,7 @@ TEST(MeshModel, AreaAndVolumeConvergeWithOrderTwo) {
   struct Case {
     const char* name;
     Model model;
-    double size, area, volume;  ///< area 0: not known
+    double size, area, volume;  ///< area 0: unknown
   };
   for (const Case& c :
        {Case{"sphere", make_ball(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi},
@@ -89,7 +89,7 @@ TEST(MeshModel, AreaAndVolumeConvergeWithOrderTwo) {
       areas.push_back(area_of(mesh.mesh));
       volumes.push_back(volume_of(mesh.mesh));
     }
-    // Errors, or where the result is not known their differences, are a quarter by theory; the meshes are not similar.
+    // In theory, refinement reduces errors to a quarter; without a known result, differences are compared. The meshes are not similar.
     const double end_area = c.area > 0.0 ? c.area : areas[2], end_volume = c.area > 0.0 ? c.volume : volumes[2];
     const double limit = c.area > 0.0 ? 0.33 : 0.27;  // (1/4 - 1/16) / (1 - 1/16) = 1/5
     EXPECT_LT(end_area - areas[1], limit * (end_area - areas[0])) << areas[0] << " " << areas[1] << " " << areas[2];
@@ -117,7 +117,7 @@ TEST(MeshModel, TrailingEdgesThatAreAllButSharpBecomeLines) {
       if (model.faces[face.face].role == FaceRole::trailing_edge) n += face.n_triangles;
     return std::pair(n, mesh.report);
   };
-  // min_edge is 2 mm; a twentieth of it counts as nothing.
+  // min_edge is 2 mm; a twentieth of min_edge is treated as zero.
   const auto [n_blunt, blunt] = mesh_of(0.004);
   EXPECT_GT(n_blunt, 1000);
   EXPECT_TRUE(blunt.absorbed.empty());
@@ -208,7 +208,7 @@ TEST(MeshModel, CadFilesCloseAndKeepTheirVolume) {
   }
 }
 
-/// The largest distance of triangles' middles from the model.
+/// Returns the largest distance of triangle centroids from the model.
 double chord_error_of(const Model& model, const SurfaceMesh& mesh) {
   const ModelWall wall(model, mesh);
   double most = 0.0;
@@ -239,7 +239,7 @@ TEST(MeshModel, AChordErrorIsMetAlsoOnPolesAndSharpEnds) {
       const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
       expect_sound(model, mesh);
       EXPECT_LE(chord_error_of(model, mesh), error) << name << ", " << mesh.mesh.n_triangles() << " triangles";
-      EXPECT_LT(mesh.mesh.n_triangles(), 400'000u) << name;  // it was told to be 1e20
+      EXPECT_LT(mesh.mesh.n_triangles(), 400'000u) << name;  // the predicted number used to be 1e20
     }
 }
 
@@ -254,7 +254,7 @@ TEST(MeshModel, AChordErrorIsMetOnRealModels) {
     const Model model = path.extension() == ".smx" ? make_components(read_smx(path, k_context).aircraft, k_context) : io::read_cad(path, {}, k_context).model;
     SurfaceMeshOptions options;
     options.chord_error = c.error;
-    options.crossings = "warn";  // parts as they are: only distances count
+    options.crossings = "warn";  // parts are left as they are: only distances are tested
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     const double most = chord_error_of(model, mesh);
     EXPECT_LE(most, c.error) << c.file << ", " << mesh.mesh.n_triangles() << " triangles";
@@ -273,7 +273,7 @@ TEST(MeshModel, TheDefaultNacellesLipIsResolved) {
   }
 }
 
-/// The floor under edges at a round tip's thin end stays in coarse members, so what is smooth in the member of 1 is smooth in them.
+/// The lower size limit at a round tip's thin end is kept in coarse members, so edges that are smooth in member 1 are smooth in all members.
 TEST(MeshModel, CoarseMembersKeepRoundTipsSmooth) {
   Wing wing{.name = "W", .is_symmetric = true, .trailing_edge = 0.0007};
   for (const double y : {1.2, 0.0})
@@ -297,10 +297,10 @@ TEST(MeshModel, AChordErrorThatNeedsAbsurdlyManyTrianglesIsRefusedAtOnce) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::overflow);
-    // 36 pi m^2 by 3^(1/2) / 4 x 6 R (0.6 e): edges are up to a third longer than they are wanted
+    // 36 pi m^2 by 3^(1/2) / 4 x 6 R (0.6 e): edges are up to a third longer than their target
     EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("chord_error = 1e-09 m asks for about 2.4e+10 triangles"), testing::HasSubstr("min_edge")));
   }
-  // Where a min_edge is given, that is what is wanted.
+  // If min_edge is given, it is the target.
   options.max_edge = 1.0;
   options.min_edge = 0.5;
   EXPECT_GT(mesh_model(make_ball(3.0), options, {}, k_context).mesh.n_triangles(), 100u);
@@ -316,7 +316,7 @@ TEST(BackgroundSizes, IsTheLeastOfItsSources) {
     double exact = 0.3;
     for (const SizeSite& s : sources) exact = std::min(exact, s.size + 0.2 * distance(p, s.point));
     EXPECT_GE(field(p, 0.3), exact);
-    // Sources of one cell become the least of them: at most its diagonal away.
+    // Sources of one cell are merged to the smallest one, which is at most the cell's diagonal away.
     EXPECT_LE(field(p, 0.3), 1.35 * exact);
   }
 }

@@ -1,4 +1,4 @@
-// What a surface mesh still knows of its model: where points on its triangles belong, and how far it turns at smooth places.
+// Model data stored with a surface mesh: where points on its triangles belong, and the largest turn at smooth locations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
       weights[b] = 0.75;
       const Point on_edge = wall.nearest(0.25 * p[a] + 0.75 * p[b], t, weights);
       EXPECT_LT(distance_to_can(on_edge), 1e-12);
-      // A triangle's edge on the rim is an arc of less than 60 degrees; other edges between points of the rim run across the cap.
+      // A triangle's edge on the end circle is an arc of less than 60 degrees; other edges between points of the circle run across the cap.
       if (!is_on_rim(p[a]) || !is_on_rim(p[b]) || p[a].x != p[b].x || distance(p[a], p[b]) > 0.6) continue;
       EXPECT_TRUE(is_on_rim(on_edge)) << format_point(on_edge);
       ++n_rim;
@@ -59,7 +59,7 @@ TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
 
 TEST(SmoothAngle, IsThatOfTheSkinAndNotOfTheRim) {
   const Model can = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
-  // Edges of a regular polygon turn by its angle; the curvature angle bounds it. The rims turn by 90 degrees.
+  // Edges of a regular polygon turn by its angle, which the curvature angle bounds. The end circles turn by 90 degrees.
   for (const double angle : {10.0 * k_degree, 20.0 * k_degree}) {
     const SurfaceMeshReport report = mesh_model(can, edges_of(1.0, angle), {}, k_context).report;
     EXPECT_GT(report.max_smooth_angle, 0.5 * angle);
@@ -77,7 +77,7 @@ TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
   const Model pod = make_body(body, ComponentKind::body);
   ASSERT_GT(pod.faces.size(), 2u);
   const SurfaceMesh surface = mesh_model(pod, edges_of(0.2, 15.0 * k_degree), {}, k_context);
-  // Nothing on it is a crease, so the largest turn of all edges is the smooth one.
+  // The surface has no crease, so the largest turn of all edges is the largest smooth turn.
   const Topology topology(surface.mesh, k_context);
   const auto normal = [&](HalfedgeId h) {
     const auto p = corners(surface.mesh, triangle_of(h));
@@ -90,7 +90,7 @@ TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
   EXPECT_LT(largest, 40.0 * k_degree);
 }
 
-/// Warnings about sharp turns that meshing gives.
+/// Returns the warnings about sharp turns from meshing.
 std::string turn_warnings(const Model& model, const SurfaceMeshOptions& options = {}) {
   std::string warnings;
   const RunContext context({.threads = 2, .log = [&](LogLevel level, std::string_view line) {
@@ -119,7 +119,7 @@ TEST(SmoothAngle, RoundTipsGiveNoWarning) {
       }
 }
 
-/// The nose of a thin wing that tapers has a radius of 3 mm at the tip, and the mean chord asks for 12 mm at least.
+/// The nose of a thin tapered wing has a radius of 3 mm at the tip, while the mean chord gives a size of at least 12 mm.
 TEST(SmoothAngle, NosesOfThinTaperedWingsAreResolved) {
   Wing wing = tapered_wing("0004", std::nullopt, 1.5);
   wing.sections.front().leading_edge = {7.0, 4.9, 0.0};
@@ -128,7 +128,7 @@ TEST(SmoothAngle, NosesOfThinTaperedWingsAreResolved) {
   EXPECT_EQ(turn_warnings(make_wing(wing)), "");
 }
 
-/// A rod with edges longer than its radius is a prism of few sides over all its length, which is no spot.
+/// A rod with edges longer than its radius is a prism of few sides over its whole length, so the sharp turn is not local.
 TEST(SmoothAngle, LongPlacesThatTurnSharplyGiveAWarning) {
   SurfaceMeshOptions options = edges_of(0.2, 90.0 * k_degree);
   options.min_edge = 0.2;

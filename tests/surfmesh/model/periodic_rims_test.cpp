@@ -1,4 +1,4 @@
-// Borders of sides that are each other's image are cut alike: bars and wings through both sides of a duct, corners on one side only, bands, two directions.
+// Borders of periodic sides are discretised identically: bars and wings through both sides of a duct, corners on one side only, bands, two directions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ using testing::HasSubstr;
 
 Model through_duct(const std::vector<Model>& bodies) { return test::through_duct(bodies); }
 
-/// Along y, farther than the duct is wide; unless it is slanted, the same on both sides.
+/// Returns a bar along y, longer than the duct is wide; unless the bar is slanted, its sections on both sides are equal.
 Model bar(double slant = 0.0) { return make_cylinder("bar", {-slant, -1.0, 0.0}, {slant, 1.0, 0.0}, 0.25); }
 
 Model blade(double trailing_edge) { return test::blade(trailing_edge, "2412", 0.06); }
@@ -45,7 +45,7 @@ SurfaceMeshOptions alike(double max_edge, const std::string& pairs = "tunnel_lef
   return options;
 }
 
-/// Vertices of edges between a patch and others, and the edges.
+/// Vertices of edges between a patch and other patches, and these edges.
 struct PatchBorder {
   std::vector<Point> points;
   std::vector<std::array<Point, 2>> edges;
@@ -69,7 +69,7 @@ PatchBorder border_of(const TriMesh& mesh, const std::string& name) {
   return border;
 }
 
-/// Every vertex and every edge has its image, within rounding, or what the boolean left its corners apart.
+/// Checks that every vertex and every edge has its image, within rounding or within the corner tolerance of the boolean operation.
 void expect_images(const TriMesh& mesh, const std::string& first, const std::string& second, const Vec3& way, std::size_t n_least) {
   constexpr double k_off = 1e-9;
   const PatchBorder here = border_of(mesh, first), there = border_of(mesh, second);
@@ -113,11 +113,11 @@ TEST(PeriodicRims, ABarThroughBothSides) {
   expect_closed(mesh.mesh);
   expect_images(mesh.mesh, "tunnel_left", "tunnel_right", {0, 1, 0}, 60);
   EXPECT_GT(mesh.report.share_20_130, 0.999);
-  EXPECT_EQ(n_stops(rims_of(model, alike(0.15))), 2u);  // the boolean leaves a corner at another place of each side
+  EXPECT_EQ(n_stops(rims_of(model, alike(0.15))), 2u);  // the boolean operation leaves a corner at a different location of each side
 }
 
 TEST(PeriodicRims, WingsWithSharpBluntAndNearlySharpTrailingEdges) {
-  for (const double trailing_edge : {0.0, 2e-4, 0.01}) {  // the second is absorbed: which of its corners stays is the same on both sides
+  for (const double trailing_edge : {0.0, 2e-4, 0.01}) {  // the second edge is absorbed: both sides keep the same corner
     const Model model = through_duct({blade(trailing_edge)});
     const SurfaceMesh mesh = mesh_model(model, alike(0.1), {}, k_context);
     expect_closed(mesh.mesh);
@@ -133,7 +133,7 @@ TEST(PeriodicRims, BandsAndStripsEndAtThem) {
   options.trailing_edge_cells = 3.0;
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   EXPECT_GT(mesh.report.bands.n_triangles, 100);
-  EXPECT_EQ(mesh.report.bands.n_strips, 2);  // of the halves of the wing
+  EXPECT_EQ(mesh.report.bands.n_strips, 2);  // on the halves of the wing
   expect_closed(mesh.mesh);
   expect_images(mesh.mesh, "tunnel_left", "tunnel_right", {0, 1, 0}, 80);
 }
@@ -156,7 +156,7 @@ TEST(PeriodicRims, PairsInTwoDirectionsShareEdges) {
 }
 
 TEST(PeriodicRims, CornersOfOneSideOnlyAreVerticesOfBoth) {
-  // Two halves, turned against each other, so that their seams lie at other places.
+  // Two halves, rotated against each other, so that their seams lie at different locations.
   Model left = make_cylinder("bar", {0.0, -1.0, 0.0}, {0.0, 0.0, 0.0}, 0.25), right = make_cylinder("bar", {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.25);
   right = transformed(right, rotation({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.7));
   const Model model = through_duct({left, right});
@@ -169,7 +169,7 @@ TEST(PeriodicRims, CornersOfOneSideOnlyAreVerticesOfBoth) {
 }
 
 TEST(PeriodicRims, OpenEndsInTwoPlanesAreSidesByTheNamesOfThePlanes) {
-  // What is left of a wing between two planes: volume_mesh closes the planes of its ends by patches of these names.
+  // The remainder of a wing between two planes: volume_mesh closes the end planes by patches of these names.
   Model wing = through_duct({blade(0.01)});
   Column<FaceId, ModelFace> left;
   for (const ModelFace& face : wing.faces)

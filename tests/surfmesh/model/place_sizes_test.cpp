@@ -1,4 +1,4 @@
-// What places ask for: sources of the user, gaps, thin parts, factors of wings, strips at tips, intersections.
+// Local size limits: user sources, gaps, thin parts, wing factors, strips at tips, intersections.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ SurfaceMeshOptions plain_edges(double size) {
   return options;
 }
 
-/// Mean length of edges of triangles whose middle is within.
+/// Returns the mean edge length of triangles whose centroid is within the given region.
 double mean_edge(const SurfaceMesh& mesh, const std::function<bool(const Point&)>& is_within) {
   double sum = 0.0, n = 0.0;
   for (const TriangleId t : mesh.mesh.triangles.ids()) {
@@ -48,7 +48,7 @@ SurfaceMesh meshed(const Model& model, const SurfaceMeshOptions& options, const 
   return mesh_model(model, options, {}, asked, context);
 }
 
-/// A plate with 10 m sides.
+/// Returns a plate with 10 m sides.
 Model slab(double low, double high) { return make_box("slab", {0, 0, low}, {10, 10, high}); }
 
 TEST(PlaceSizes, SourcesOfTheUserAreMetAndGrow) {
@@ -63,7 +63,7 @@ TEST(PlaceSizes, SourcesOfTheUserAreMetAndGrow) {
   EXPECT_NEAR(mean_edge(mesh, at(0.0, 0.4)), 0.05, 0.01);
   EXPECT_NEAR(mean_edge(mesh, at(1.9, 2.1)), 0.05 + 0.2 * 1.5, 0.07);
   EXPECT_GT(mean_edge(mesh, [](const Point& p) { return p.z < 0.01 && distance(p, {0, 0, 0}) < 2.0; }), 0.75);
-  // The next finer mesh has half the lengths there, too.
+  // The next finer mesh has half the lengths at this location, too.
   options.refinement = 2.0;
   EXPECT_NEAR(mean_edge(meshed(model, options, asked), at(0.0, 0.4)), 0.025, 0.005);
 }
@@ -90,7 +90,7 @@ TEST(PlaceSizes, GapsHaveTheirCells) {
   options.gap_cells = 2.0;
   const SurfaceMesh mesh = meshed(model, options);
   EXPECT_NEAR(mean_edge(mesh, in_gap), 0.15, 0.03);
-  // Around the rim sizes grow again, and inside the plates nothing counts as a gap.
+  // Near the outer edges sizes grow again, and inside the plates no gap is detected.
   EXPECT_GT(mean_edge(mesh, [](const Point& p) { return (p.z < 0.01 || p.z > 2.29) && p.x > 3 && p.x < 7 && p.y > 3 && p.y < 7; }), 0.7);
 }
 
@@ -101,7 +101,7 @@ TEST(PlaceSizes, ThinPartsHaveShortEdges) {
   EXPECT_GT(mean_edge(meshed(model, options), inner), 0.6);
   options.thickness_factor = 1.5;
   EXPECT_NEAR(mean_edge(meshed(model, options), inner), 0.3, 0.06);
-  options.min_edge = 0.5;  // a limit for what thin parts ask for
+  options.min_edge = 0.5;  // a lower limit for the sizes from thin parts
   EXPECT_GT(mean_edge(meshed(model, options), inner), 0.4);
 }
 
@@ -135,13 +135,13 @@ TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
     EXPECT_LT(mean_edge(trailing, strip(1.8, 1.9)), 0.7 * plain);
     EXPECT_GT(mean_edge(trailing, strip(0.9, 1.1)), 0.8 * plain);
     options.trailing_edge_factor = 1.0;
-    // The nose is a round of millimetres, which has short edges anyhow: what is asked for shows behind it.
+    // The nose has a radius of millimetres and therefore short edges in any case; the effect of the option is visible behind the nose.
     const double behind_nose = mean_edge(meshed(model, options), strip(0.3, 0.4));
     options.leading_edge_factor = 0.2;
     const SurfaceMesh leading = meshed(model, options);
     EXPECT_LT(mean_edge(leading, strip(0.3, 0.4)), 0.75 * behind_nose);
     EXPECT_GT(mean_edge(leading, strip(1.8, 1.9)), 0.8 * plain);
-    // Rules for patches overrule.
+    // Rules for patches override the general options.
     const std::vector<PatchSurfaceOptions> rules = {{.names = "W*", .leading_edge_factor = 1.0}};
     EXPECT_NEAR(mean_edge(mesh_model(model, options, rules, k_context), strip(0.3, 0.4)), behind_nose, 0.02 * behind_nose);
     options.leading_edge_factor = 1.0;
@@ -154,7 +154,7 @@ TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
 }
 
 TEST(PlaceSizes, ComponentsMeetInShorterEdges) {
-  // A box of two components: its faces at x = 0 belong to another one.
+  // A box of two components: its faces at x = 0 belong to the second component.
   Model model = make_box("body", {0, 0, 0}, {4, 4, 4});
   const ComponentId other = model.components.push_back({.name = "other", .kind = ComponentKind::unknown});
   for (const FaceId f : model.faces.ids())

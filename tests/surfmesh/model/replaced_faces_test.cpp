@@ -1,4 +1,4 @@
-// Faces whose triangles repair replaced: what came through is counted, the rest is named with its distance.
+// Faces whose triangles repair replaced: retained triangles are counted, the other faces are reported with their distance.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using test::k_context;
 
 constexpr double k_radius = 0.5;
 
-/// The triangles about the vertex nearest to a point are missing.
+/// Returns the surface without the triangles about the vertex nearest to a point.
 SurfaceSoup with_hole(const TriMesh& mesh, const Point& at) {
   VertexId nearest(std::uint64_t{0});
   for (const VertexId v : mesh.points.ids())

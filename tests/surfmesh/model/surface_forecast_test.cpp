@@ -1,4 +1,4 @@
-// The number of triangles that is predicted, against those that are made, and its cause.
+// The predicted number of triangles against the actual number, and the reported cause.
 #include "surfmesh/model/surface_forecast.h"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(SurfaceForecast, TheCauseIsTheRuleThatAsksForMost) {
   EXPECT_THAT(fine.largest.front().advice, HasSubstr("max_edge"));
   EXPECT_GE(fine.largest[0].n_triangles, fine.largest[1].n_triangles);
 
-  // A blade as thin as a foil: edges along it are twice as long as it is thick.
+  // A blade as thin as foil: edges along the blade are twice as long as its thickness.
   const SurfaceForecast thin = forecast_surface(make_box("blade", {0, 0, 0}, {1, 0.5, 2e-4}), {}, {}, {}, k_context);
   EXPECT_THAT(thin.largest.front().rule, HasSubstr("0.0002 m")) << thin.n_triangles;
   EXPECT_THAT(thin.largest.front().advice, HasSubstr("min_edge"));

@@ -22,10 +22,10 @@ using std::numbers::pi;
 using test::k_context;
 constexpr double k_growth = 0.2;
 
-/// A repeatable number in [0, 1).
+/// Returns a repeatable number in [0, 1).
 double share_of(int i, double by) { return std::abs(std::sin(by * (i + 1.0))) * 1e4 - std::floor(std::abs(std::sin(by * (i + 1.0))) * 1e4); }
 
-/// The field of a model whose faces want `largest` edges, with what edges ask for changed by `ask`.
+/// The size field of a model whose faces have the target size `largest`, with the sizes required by edges changed by `ask`.
 struct Field {
   const Model& model;
   Column<EdgeId, EdgeSamples> edges;
@@ -44,14 +44,14 @@ struct Field {
     std::vector<AbsorbedPart> absorbed;
     topology = absorb_small_parts(model, edges, sizes, absorbed);
     add_sources(model, edges, topology, options, sizes, k_context);
-    for (auto& asked : sizes.edge_sizes)  // lengths of short edges: not what is tested here
+    for (auto& asked : sizes.edge_sizes)  // lengths of short edges are not tested here
       for (double& size : asked) size = largest;
   }
   void ask(EdgeId e, std::size_t sample, double size) {
     sizes.edge_sizes[e][sample] = size;
     sizes.sources.push_back({edges[e].samples[sample].point, size});
   }
-  /// One size all along an edge.
+  /// Sets one size along a whole edge.
   void ask_along(EdgeId e, double size) {
     for (double& s : sizes.edge_sizes[e]) s = size;
     const ModelEdge& edge = model.edges[e];
@@ -65,7 +65,7 @@ struct Field {
 struct Difference {
   double largest = 0.0;
   double mean = 0.0;
-  std::string place;  ///< of the largest
+  std::string place;  ///< where `largest` occurs
 };
 Difference difference_on(const Model& model, FaceId f, const ParameterBox& box, const SurfaceSizes& field,
                          const std::function<double(Uv, const Point&)>& exact) {
@@ -93,7 +93,7 @@ Model plate(const std::string& name, double z) {
   return builder.model();
 }
 
-/// The outside of a tube along z: edges are the lower circle, the seam, the upper circle.
+/// Returns the outside of a tube along z: edges are the lower circle, the seam, the upper circle.
 Model open_tube(double radius, double length) {
   ModelBuilder builder({.name = "tube", .kind = ComponentKind::unknown});
   const ParameterBox box{k_full_turn, {0.0, length}};
@@ -145,7 +145,7 @@ TEST(SurfaceSizes, SourcesInSpaceAreMetOnTheFace) {
   const SurfaceSizes made = field.made({{source, 0.002}});
   const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), made,
                                        [&](Uv, const Point& p) { return std::min(0.3, 0.002 + k_growth * distance(p, source)); });
-  EXPECT_LT(off.largest, 0.15) << off.place;  // within a cell of the place itself
+  EXPECT_LT(off.largest, 0.15) << off.place;  // within a cell of the location itself
   EXPECT_LT(off.mean, 0.01);
 }
 
@@ -194,7 +194,7 @@ TEST(SurfaceSizes, NothingCrossesAGap) {
 TEST(SurfaceSizes, SizesRunAroundTheEdgeOfABoxAndNotThroughIt) {
   const Model model = make_box("box", {0, 0, 0}, {1, 1, 0.02});
   Field field(model, 0.3, 0.2);
-  // The middle of an edge of the face z = 0.02 at x = 0; below it the way is 0.02 longer.
+  // The middle of an edge of the face z = 0.02 at x = 0; from the face below, the path is 0.02 longer.
   for (const EdgeId e : model.edges.ids()) {
     const auto& samples = field.edges[e].samples;
     const Point& p = samples[samples.size() / 2].point;
@@ -227,7 +227,7 @@ TEST(SurfaceSizes, ChangeNoFasterThanTheGrowthSays) {
     const Uv b{std::clamp(a.u + 2.0 * size * std::cos(turn) / std::cos(a.v), 0.0, 2.0 * pi), a.v + 2.0 * size * std::sin(turn)};
     if (std::abs(b.v) > 0.5 * pi) continue;
     const Point q = surface.point(b);
-    // Bilinear values are off by 5 % here and there, up or down.
+    // Bilinear values deviate by up to 5 % in both directions.
     EXPECT_LE(made.on_face(k_first_face, b, q), (size + k_growth * 2.0 * size) * 1.12);
   }
 }

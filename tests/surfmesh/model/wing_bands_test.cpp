@@ -1,4 +1,4 @@
-// Bands of stretched triangles along leading and trailing edges, and strips of cells on blunt trailing edges: what they promise, measured on the triangles
+// Bands of stretched triangles along leading and trailing edges, and strips of cells on blunt trailing edges: their guarantees, measured on the triangles
 // themselves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ using testing::HasSubstr;
 
 using test::k_context;
 
-/// Swept and tapered, kinked at 0 and 1.5 m; round tips.
+/// Returns a swept and tapered wing, kinked at 0 and 1.5 m, with round tips.
 Model swept_wing(double trailing_edge) {
   Wing wing{.name = "W", .is_symmetric = true, .trailing_edge = trailing_edge};
   for (const double y : {4.0, 1.5, 0.0}) {
@@ -75,7 +75,7 @@ void expect_on_surfaces(const Model& model, const SurfaceMesh& surface) {
 
 bool is_side(FaceRole role) { return role == FaceRole::upper || role == FaceRole::lower; }
 
-/// Edges between an upper and a lower side that look forward; or those at the other end of them, at sides.
+/// Edges between an upper and a lower side that face forward, or the edges at their other end.
 enum class Which { leading, trailing };
 std::set<EdgeId> edges_of(const Model& model, Which which) {
   std::set<EdgeId> result;
@@ -94,7 +94,7 @@ std::set<EdgeId> edges_of(const Model& model, Which which) {
   return result;
 }
 
-/// Heights of the triangles that stand on edges, of those in rows.
+/// Returns the heights of the triangles on the edges, for triangles in rows.
 std::vector<double> first_heights(const SurfaceMesh& surface, const std::set<EdgeId>& edges, const Model& model, std::size_t* n_isotropic = nullptr) {
   std::vector<double> result;
   const auto is_on = [&](VertexId v) { return surface.edge_places[v].edge.is_valid() && edges.contains(surface.edge_places[v].edge); };
@@ -114,7 +114,7 @@ std::vector<double> first_heights(const SurfaceMesh& surface, const std::set<Edg
   return result;
 }
 
-/// Lengths of the segments of the edge that ends nearest to `end`, from there.
+/// Returns the segment lengths of the edge that ends nearest to `end`, starting there.
 std::vector<double> segments_from(const Model& model, const SurfaceMesh& surface, const std::set<EdgeId>& all, Point end) {
   Point nearest{1e300, 0.0, 0.0};
   std::set<EdgeId> edges;
@@ -139,11 +139,11 @@ void expect_bands(const Model& model, const SurfaceMesh& surface, double chordwi
   expect_on_surfaces(model, surface);
   const BandSummary& bands = surface.report.bands;
   EXPECT_THAT(bands.notes, testing::IsEmpty());
-  // Rows turn by up to 2 degrees beside the borders that they lean to, which makes cells there up to so much higher than rows are apart.
+  // Rows are inclined by up to 2 degrees near inclined borders, which makes cells there higher than the row distance by up to this factor.
   constexpr double k_growth_tolerance = 1.02;
   EXPECT_LE(bands.max_growth, 1.2 * k_growth_tolerance);
   EXPECT_GE(bands.max_growth, 1.19);
-  // Whole numbers of segments: a little less; rows around a nose spread: a little more.
+  // Whole numbers of segments reduce the stretch slightly; rows that spread around a nose increase it slightly.
   EXPECT_GE(bands.max_stretch, 0.9 * stretch);
   EXPECT_LE(bands.max_stretch, 1.1 * stretch);
   for (const Which which : {Which::leading, Which::trailing}) {
@@ -154,7 +154,7 @@ void expect_bands(const Model& model, const SurfaceMesh& surface, double chordwi
     EXPECT_LT(n_isotropic, heights.size() / 8);
   }
   EXPECT_EQ(std::count(surface.is_band.begin(), surface.is_band.end(), 1), bands.n_triangles);
-  EXPECT_GT(surface.report.share_20_130, 0.998);  // what is outside stands at the tips' sharp ends
+  EXPECT_GT(surface.report.share_20_130, 0.998);  // the triangles outside the range are at the tips' sharp ends
 }
 
 TEST(WingBands, StretchedRowsAlongBothEdgesOfASweptWing) {
@@ -214,7 +214,7 @@ TEST(WingBands, EndAtTheFuselage) {
   const Model model = cad::unite(std::vector<Model>{fuselage(), swept_wing(0.0)}, {}, k_context).model;
   const SurfaceMesh surface = mesh_model(model, banded(0.003, 8.0), {}, k_context);
   expect_bands(model, surface, 0.003, 8.0);
-  // Where the leading edge meets it sizes are small in both directions.
+  // Near the leading edge sizes are small in both directions.
   const std::vector<double> lengths = segments_from(model, surface, edges_of(model, Which::leading), {0.25, 0.5, 0.0});
   EXPECT_LT(*std::min_element(lengths.begin(), lengths.begin() + 5), 2.0 * 0.003);
 }

@@ -1,4 +1,4 @@
-// The number of triangles that is predicted, against those that remesh_surface() makes.
+// The predicted number of triangles against the number that remesh_surface() makes.
 #include "surfmesh/remesh/remesh_forecast.h"
 
 #include <gtest/gtest.h>

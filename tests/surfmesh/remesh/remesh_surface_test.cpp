@@ -1,4 +1,4 @@
-// What remeshing promises, measured on the triangles themselves: closed, manifold, clear of itself, patches, features, angles, distance, the same bytes.
+// Guarantees of remeshing, measured on the triangles: closed, manifold, no self-crossings, patches, features, angles, distance, identical bytes.
 #include "surfmesh/remesh/remesh_surface.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, st
 
 std::int64_t n_crossings(const TriMesh& mesh) { return find_crossings(mesh, k_context).total; }
 
-/// Manifold (or Topology throws), every vertex used by one fan, closed as the input was, clear of itself, the same patches.
+/// Checks that the mesh is manifold (or Topology throws), has one fan per vertex, is closed like the input, has no crossings, and keeps the patches.
 void expect_sound(const TriMesh& wall, const TriMesh& mesh) {
   const Topology before(wall, k_context), after(mesh, k_context);
   EXPECT_EQ(after.n_boundary_halfedges() == 0, before.n_boundary_halfedges() == 0);
@@ -58,7 +58,7 @@ double farthest_from_sphere(const TriMesh& mesh, double radius) {
   return most;
 }
 
-/// A wing of one airfoil, chord 1, span 4, of strips 4 long: needles. Patches: wing, tips. The trailing edge is sharp.
+/// Returns a wing of one airfoil, chord 1, span 4, of strips 4 long (sliver triangles). Patches: wing, tips. The trailing edge is sharp.
 TriMesh strip_wing(int n) {
   TriMesh mesh;
   mesh.patches = Column<PatchId, Patch>{{"wing", PatchKind::wall}, {"tip", PatchKind::wall}};
@@ -106,7 +106,7 @@ TEST(RemeshSurface, CoarseSphereComesNearerToTheSphere) {
     EXPECT_GT(smooth.report.mean_radius_ratio, 0.93);
     EXPECT_EQ(smooth.report.n_needles, 0);
     EXPECT_EQ(smooth.report.n_lines, 0);
-    // Vertices of the flat one are on the given triangles.
+    // Vertices of the flat mesh are on the given triangles.
     EXPECT_LT(flat.report.to_input.max, 0.02 * 2.0);
   }
 }
@@ -152,7 +152,7 @@ TEST(RemeshSurface, NeedlesOfAWingGoAndItsEdgesStay) {
   EXPECT_GT(result.report.angle_quantile_1, 20.0 * k_degree);
   EXPECT_LT(result.report.to_input.max, 2e-3 * result.report.length);
   EXPECT_LT(result.report.from_input.max, 2e-3 * result.report.length);
-  // The trailing edge: vertices exactly there, along all of it.
+  // Vertices lie exactly on the trailing edge, along all of it.
   std::vector<double> along;
   for (const Point& p : result.mesh.points)
     if (std::abs(p.x - 1.0) < 1e-12 && std::abs(p.z) < 1e-12) along.push_back(p.y);
@@ -160,14 +160,14 @@ TEST(RemeshSurface, NeedlesOfAWingGoAndItsEdgesStay) {
   ASSERT_GT(along.size(), 10u);
   EXPECT_EQ(along.front(), -2.0);
   EXPECT_EQ(along.back(), 2.0);
-  // Tips stay plane, and theirs.
+  // Tips stay plane and keep their patch.
   for (const TriangleId t : result.mesh.triangles.ids()) {
     if (result.mesh.triangle_patch[t] != PatchId(1)) continue;
     for (const Point& p : corners(result.mesh, t)) EXPECT_EQ(std::abs(p.y), 2.0);
   }
 }
 
-/// The first row beside a straight line along y, away from its ends, is as high as asked for.
+/// Checks that the first row beside a straight line along y, away from its ends, has the requested height.
 void expect_first_row(const TriMesh& mesh, double x, double height) {
   int n = 0;
   const auto is_on = [&](const Point& q) { return std::hypot(q.x - x, q.z) < 1e-9; };
@@ -200,7 +200,7 @@ TEST(RemeshSurface, RowsAtTheTrailingEdge) {
 }
 
 TEST(RemeshSurface, RowsAtNoses) {
-  // The nose of the coarse wing is an edge that bends, that of the fine one is smooth, in the refined one nothing lies on it.
+  // The nose of the coarse wing is a kinked edge, the nose of the fine wing is smooth; in the refined wing no feature lies on the nose.
   TriMesh shifted = strip_wing(61);
   for (Point& p : shifted.points) p = {p.x + 0.05 * p.y * p.y, p.y, p.z};
   for (const TriMesh& wall : {strip_wing(24), strip_wing(60), shifted}) {
@@ -214,7 +214,7 @@ TEST(RemeshSurface, RowsAtNoses) {
     EXPECT_LT(result.report.rows.max_stretch, 10.0 * 1.4);
   }
   expect_first_row(remeshed(strip_wing(60), {.leading_edge_chordwise = 0.002}).mesh, 0.0, 0.002);
-  // By a patch's rule, and only there.
+  // Set by a patch's rule, and applied only there.
   const RemeshResult by_rule = remeshed(strip_wing(24), {}, {{.names = "wing", .leading_edge_chordwise = 0.002}});
   EXPECT_GT(by_rule.report.rows.n_columns, 200);
 }
@@ -294,7 +294,7 @@ TEST(RemeshSurface, HalfKeepsItsRim) {
 }
 
 TEST(RemeshSurface, NoTriangleLiesInTheRimsPlane) {
-  // Half of a spindle: two corners at pointed ends, where rims meet at a small angle.
+  // Half of a spindle: two corners at pointed ends, where boundary edges meet at a small angle.
   TriMesh half;
   half.patches.push_back({.name = "wall"});
   constexpr int k_along = 10, k_around = 6;
@@ -339,21 +339,21 @@ TEST(RemeshSurface, SameBytesForAnyThreads) {
 TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
   const TriMesh wall = test::sphere(8);
   const auto demanding = [&](const RemeshDemand& demand) { return remesh_surface(wall, {}, {}, {}, demand, k_context); };
-  // Met: the same as without.
+  // Limits that are met: the result is the same as without limits.
   const RemeshResult free = remeshed(wall), met = demanding({.most_needles = 0, .least_angle = 10.0 * k_degree});
   EXPECT_EQ(free.mesh.points, met.mesh.points);
   EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
   test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles, 0 % of the triangles",
                      [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
-  // A sphere of 8 squares a side is a hundredth of its diameter inside of the one that comes out.
+  // A sphere of 8 squares a side lies inside the remeshed one by a hundredth of its diameter.
   test::expect_error(ErrorCode::geometry_failed, "from the given ones, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
   EXPECT_EQ(free.mesh.points, demanding({.largest_distance = 0.1}).mesh.points);
   test::expect_error(ErrorCode::geometry_failed, "of their edges from the given ones", [&] { demanding({.largest_distance_of_edge = 1e-4}); });
-  // Edges that span 40 degrees of a sphere of finer triangles.
+  // Edges that span 40 degrees of a sphere with finer triangles.
   const TriMesh fine = test::sphere(24);
   test::expect_error(ErrorCode::geometry_failed, "of the area is turned by more than 10 degrees",
                      [&] { remesh_surface(fine, {.max_edge = 0.7, .min_edge = 0.7, .curvature_angle = 1.0}, {}, {}, {.more_turned = 0.005}, k_context); });
-  // A blunt edge of two corners 1e-4 apart: corners stay, so the needles beside them do.
+  // A blunt edge of two corners 1e-4 apart: corners are kept, so the slivers beside them remain.
   TriMesh wedge = test::cube(1);
   for (Point& p : wedge.points)
     if (p.x == 1.0) p.z = 1e-4 * p.z;
@@ -362,7 +362,7 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
                      [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 0.0, .least_angle = 0.0}, k_context); });
 }
 
-/// A box of 1 m by 1e-12 m by 1e-12 m.
+/// Returns a box of 1 m by 1e-12 m by 1e-12 m.
 TriMesh line_like_box() {
   TriMesh box = test::cube(1);
   for (Point& p : box.points) p = {p.x, 1e-12 * p.y, 1e-12 * p.z};
@@ -400,7 +400,7 @@ TEST(RemeshSurface, Refusals) {
 
 struct RealFile {
   const char* name;
-  double distance;  ///< over the length, both ways: what it is now with a third more
+  double distance;  ///< distance over the length, both ways: the current value plus a third
   RemeshOptions options = {};
 };
 

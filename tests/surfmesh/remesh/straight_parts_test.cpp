@@ -1,4 +1,4 @@
-// Straight edges and flat faces that fine arcs continue tangentially, as CAD exports them: remeshing must not bow them.
+// Straight edges and flat faces, continued tangentially by fine arcs as in CAD exports: remeshing must not bend them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +19,10 @@ using test::k_context;
 using test::k_degree;
 using test::k_pi;
 
-/// Of the length: what "straight" and "flat" mean here.
+/// Tolerance for "straight" and "flat", relative to the length.
 constexpr double k_flat = 1e-12;
 
-/// Triangles by their points, equal points once; outwards.
+/// Builds triangles from points, merging equal points; normals outwards.
 class ShapeBuilder {
  public:
   void add(const Point& a, const Point& b, const Point& c) {
@@ -52,14 +52,14 @@ class ShapeBuilder {
   std::map<std::tuple<double, double, double>, VertexId> vertices_;
 };
 
-/// Cosine and sine of a share of a quarter turn, exact at both ends.
+/// Returns the cosine and sine of a fraction of a quarter turn, exact at both ends.
 std::pair<double, double> quarter(int i, int n) {
   if (i == 0) return {1.0, 0.0};
   if (i == n) return {0.0, 1.0};
   return {std::cos(0.5 * k_pi * i / n), std::sin(0.5 * k_pi * i / n)};
 }
 
-/// A rectangle about the origin with rounded corners.
+/// Returns a rectangle about the origin with rounded corners.
 std::vector<Point> rounded_ring(double a, double b, double r, int n) {
   std::vector<Point> ring;
   for (int q = 0; q < 4; ++q)
@@ -74,7 +74,7 @@ std::vector<Point> rounded_ring(double a, double b, double r, int n) {
 
 Point raised(Point p, double z) { return {p.x, p.y, z}; }
 
-/// Between two rings of as many points each, or without the inner one: the hole goes through.
+/// Returns a plate between two rings with equal numbers of points (the inner ring is a through hole), or without the inner one.
 TriMesh plate(const std::vector<Point>& outer, const std::vector<Point>& inner, double thickness) {
   ShapeBuilder builder;
   const std::size_t n = outer.size();
@@ -86,7 +86,7 @@ TriMesh plate(const std::vector<Point>& outer, const std::vector<Point>& inner, 
     builder.quad(outer[j], outer[i], inner[i], inner[j]);
     builder.quad(raised(outer[i], thickness), raised(outer[j], thickness), raised(inner[j], thickness), raised(inner[i], thickness));
   }
-  // The shortest diagonal first.
+  // The shortest diagonal is used first.
   std::vector<Point> left = outer;
   while (inner.empty() && left.size() > 2) {
     const std::size_t m = left.size();
@@ -102,7 +102,7 @@ TriMesh plate(const std::vector<Point>& outer, const std::vector<Point>& inner, 
   return builder.result();
 }
 
-/// All edges and corners rounded; flat faces are two triangles each.
+/// Returns a box with all edges and corners rounded; flat faces are two triangles each.
 TriMesh rounded_box(double a, double b, double c, double r, int n) {
   ShapeBuilder builder;
   std::vector<std::vector<Point>> rings;
@@ -123,7 +123,7 @@ TriMesh rounded_box(double a, double b, double c, double r, int n) {
   return builder.result();
 }
 
-/// About x, with `n` sides; flat at the ends where the radius there is not zero.
+/// Returns a body of revolution about x with `n` sides; its ends are flat where the radius there is not zero.
 TriMesh turned(const std::vector<std::pair<double, double>>& profile, int n) {
   ShapeBuilder builder;
   const auto at = [&](std::size_t k, int i) {
@@ -151,7 +151,7 @@ void expect_same_box(const TriMesh& before, const TriMesh& after) {
 
 TriMesh new_triangles(const TriMesh& wall, const RemeshOptions& options = {}) { return remesh_surface(wall, options, {}, {}, k_context).mesh; }
 
-/// Largest deviation of points, by the part of the shape they are on.
+/// Largest deviation of points, separately for flat and curved parts of the shape.
 struct PartDeviation {
   double flat = 0.0, curved = 0.0;
   std::int64_t n_flat = 0, n_curved = 0;
@@ -197,7 +197,7 @@ TEST(StraightParts, SlottedPlateStaysStraightAndFlat) {
   for (const Point& p : made.points) {
     if (p.z <= 0.0 || p.z >= 0.03) continue;
     if (std::abs(p.x) < 0.25) side.add(true, std::abs(p.y) > 0.15 ? std::abs(p.y) - 0.25 : std::abs(p.y) - 0.05);
-    // Nothing of the faces has left their planes.
+    // No point of the flat faces has left its plane.
     const double x = std::abs(p.x), y = std::abs(p.y);
     if (x < 0.43 && y < 0.18 && (x > 0.32 || y > 0.07)) face.add(true, 1.0);
   }
@@ -239,7 +239,7 @@ TEST(StraightParts, TubeBetweenRoundedEndsStaysACylinder) {
   EXPECT_GT(ends.n_flat, 50);
   EXPECT_LT(ends.flat, k_flat * k_long);
   EXPECT_GT(side.n_curved, 500);
-  EXPECT_LT(side.curved, 0.02 * k_radius * (1.0 - std::cos(k_pi / k_sides)));  // 0.0157 m = 8 of these before
+  EXPECT_LT(side.curved, 0.02 * k_radius * (1.0 - std::cos(k_pi / k_sides)));  // previously 0.0157 m = 8 of these
 }
 
 TEST(StraightParts, ConeBesideAFineArcStaysStraight) {

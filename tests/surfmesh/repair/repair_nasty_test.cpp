@@ -1,4 +1,4 @@
-// Real surfaces with real defects: what repair accepts is proved, what it refuses says why and what to try.
+// Real surfaces with real defects: accepted repairs are proved; refusals state the reason and a remedy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 TEST(RepairNasty, WhatIsNotASheetIsRepaired) {
   STERNA_NEEDS_SHARED_DATA();
-  // Sheets and shells whose openings are as large as they are: nothing is inside of them.
+  // Open surfaces and shells whose openings are as large as the surface itself: they enclose nothing.
   const std::set<std::string> beyond = {"cgal_data_b9_mesh.off", "cgal_data_degtri_sliding.off", "nasty_meshlab_non_manif_hole.ply"};
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(shared_data() / "surfaces" / "nasty")) files.insert(entry.path().filename().string());

@@ -1,4 +1,4 @@
-// Each class of defect on shapes made here: what repair makes of it is closed, oriented and clear of itself, encloses what it should, and tells what was done.
+// Each class of defect on synthetic shapes: the repaired surface is closed, oriented, without crossings, encloses the right region; changes are reported.
 #include "surfmesh/repair/repair_surface.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using surfmesh::RepairKind;
 using surfmesh::RepairOptions;
 using surfmesh::RepairResult;
 
-/// Proves what the header promises, closed or half.
+/// Repairs and proves the guarantees of the header, for closed and half surfaces.
 RepairResult repaired(const std::vector<SurfaceSoup>& soups, const RepairOptions& options = {}, int threads = 2) {
   const RunContext context = quiet(threads);
   RepairResult result = surfmesh::repair_surface(soups, {}, options, context);
@@ -127,7 +127,7 @@ TEST(RepairSurface, CurvedHolesAreFilledRound) {
   RepairOptions options;
   options.half = "off";
   options.hole = 1.0;
-  // A flat lid would lose the cap's height of 0.1; a fair surface keeps most of it.
+  // A flat lid would lose the cap's height of 0.1; a fair surface keeps most of this height.
   const RepairResult result = repaired({without(soup_of(whole), cap)}, options);
   double top = 0.0;
   for (const Point& p : result.mesh.points) top = std::max(top, p.z);
@@ -168,11 +168,11 @@ TEST(RepairSurface, SeamsAreZippedWithinTheGap) {
   EXPECT_NEAR(volume_of(result.mesh), 1.0, 1e-3);
   RepairOptions narrow;
   narrow.gap = 1e-4;
-  EXPECT_EQ(repaired({soup}, narrow).report.count(RepairKind::zipped), 0);  // filled instead
+  EXPECT_EQ(repaired({soup}, narrow).report.count(RepairKind::zipped), 0);  // the gap is filled instead
 }
 
 TEST(RepairSurface, TJunctionsAreSplit) {
-  // The top of a cube of 2 x 2 squares is one of 3 x 3: its rim has other vertices.
+  // The top of a cube of 2 x 2 squares is replaced by one of 3 x 3: its boundary has other vertices.
   SurfaceSoup soup;
   soup.patch_names = {""};
   const auto add_part = [&](const TriMesh& mesh, bool is_top) {
@@ -237,14 +237,14 @@ TEST(RepairSurface, SmallPartsAreDroppedWhereSomethingIsRepaired) {
 
 TEST(RepairSurface, ClosedPartsWithoutThicknessAreDropped) {
   SurfaceSoup soup = without(cube_soup(), {0});
-  const Point a{3, 0, 0}, b{3, 4, 0}, c{3, 2, 1e-14}, d{3, 1, 0.5};  // four facets, nearly in one plane
+  const Point a{3, 0, 0}, b{3, 4, 0}, c{3, 2, 1e-14}, d{3, 1, 0.5};  // four facets, nearly coplanar
   for (const auto& t : {std::array{a, b, d}, std::array{b, a, c}, std::array{b, c, d}, std::array{c, a, d}}) add_facet(soup, t[0], t[1], t[2]);
   const RepairResult result = repaired({soup});
   EXPECT_NEAR(volume_of(result.mesh), 1.0, 1e-12);
   for (const Point& p : result.mesh.points) EXPECT_LE(p.x, 1.0);
 }
 
-/// Like what cutting had left of an airliner (afem_777 of the shared data): engines refused the mesh, and remeshing halved its edges without end.
+/// Similar to the remains of cutting an airliner (afem_777 of the shared data): engines refused the mesh, and remeshing halved its edges endlessly.
 TEST(RepairSurface, PartsAsThinAsALineAreDropped) {
   SurfaceSoup soup = cube_soup({0, -5, -5}, 20.0);
   const Point a{22.429632991580142, -4.474867651151577, -1.4976376603497434}, b{22.531284837491086, -4.620135054854745, -1.4720450933317424},
@@ -277,7 +277,7 @@ TEST(RepairSurface, HalfModelsAreRecognised) {
       EXPECT_EQ(result.report.half->is_above, axis != 2);
       EXPECT_EQ(result.mesh.n_triangles(), half.n_triangles());
       EXPECT_LE(result.report.moved, 2.0 * off + 1e-15);
-      // What half makes of it is what it is.
+      // half_of() leaves the result unchanged.
       const TriMesh again = half_of(result.mesh, {.axis = result.report.half->axis, .at = result.report.half->at, .keep = axis == 2 ? "-" : "+"}, quiet());
       EXPECT_EQ(again.points, result.mesh.points);
       EXPECT_EQ(again.triangles, result.mesh.triangles);
@@ -306,7 +306,7 @@ TEST(RepairSurface, AStopIsHonoured) {
   EXPECT_EQ(error_of([&] { surfmesh::repair_surface({without(cube_soup(), {0})}, {}, {}, context); }).code(), ErrorCode::cancelled);
 }
 
-/// Holes, copies, turned facets, cracks: by a seed.
+/// Returns the soup with holes, copies, flipped facets and cracks, controlled by a seed.
 SurfaceSoup torn(SurfaceSoup soup, std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto share = [&] { return static_cast<double>(random()) / static_cast<double>(std::mt19937::max()); };
@@ -322,7 +322,7 @@ SurfaceSoup torn(SurfaceSoup soup, std::uint32_t seed) {
     } else if (what < 0.06) {
       std::swap(soup.triangles[t][1], soup.triangles[t][2]);
     } else if (what < 0.10) {
-      Vec3& p = soup.points[soup.triangles[t][0]];  // of this facet alone
+      Vec3& p = soup.points[soup.triangles[t][0]];  // of this facet only
       p += 2e-4 * Vec3{share() - 0.5, share() - 0.5, share() - 0.5};
     }
   }

@@ -1,4 +1,4 @@
-// Wraps of shapes and of torn real surfaces: whatever goes in, what comes out is closed, manifold, clear of itself, near the input, and told about.
+// Wraps of shapes and of torn real surfaces: every result is closed, manifold, without crossings, near the input, and documented in the report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ WrapResult wrap(const std::vector<SurfaceSoup>& soups, const WrapOptions& option
   return surfmesh::wrap_surface(soups, options, quiet(threads));
 }
 
-/// Six patches, one for each side.
+/// Returns a cube with six patches, one for each side.
 TriMesh sided_cube(int n) {
   TriMesh mesh = cube(n);
   mesh.patches.clear();
@@ -47,7 +47,7 @@ bool has_message(const WrapResult& result, const std::string& part) {
   return std::any_of(result.report.messages.begin(), result.report.messages.end(), [&](const std::string& m) { return m.find(part) != std::string::npos; });
 }
 
-/// m, the farthest vertex of `mesh` from `surface`.
+/// Returns the distance of the farthest vertex of `mesh` from `surface`, m.
 double farthest(const TriMesh& mesh, const TriMesh& surface) {
   const TriangleTree tree(surface, quiet());
   double d = 0.0;
@@ -102,7 +102,7 @@ TEST(Wrap, BodiesThatOverlapBecomeOneAndBodiesApartStayApart) {
   EXPECT_EQ(apart.report.n_components, 2);
 }
 
-/// A cube whose upper side has a square window of a quarter of its edge.
+/// Returns a cube whose upper side has a square window of a quarter of its edge.
 SurfaceSoup cube_with_window(double unit = 1.0) {
   SurfaceSoup soup = soup_of(cube(8));
   SurfaceSoup open = soup;
@@ -136,7 +136,7 @@ TEST(Wrap, OpeningsUpToTheGapAreClosedAndWiderOnesAreLeaksWithAPlace) {
   EXPECT_TRUE(has_message(leaking, "leak"));
 }
 
-/// The part of a sphere beyond a plane, its rim off the plane by `rough`.
+/// Returns the part of a sphere beyond a plane; its boundary deviates from the plane by `rough`.
 SurfaceSoup half_sphere(std::size_t axis, bool is_above, double rough) {
   const TriMesh mesh = sphere(16);
   SurfaceSoup soup;
@@ -194,7 +194,7 @@ TEST(Wrap, AnAutomaticGapIsTheLeastThatClosesWhatIsOpen) {
 }
 
 TEST(Wrap, WhereNoGapClosesAnAutomaticOneStaysAndIsToldOnce) {
-  // A bowl: its opening is as wide as itself.
+  // A bowl: its opening is as wide as the bowl.
   const WrapResult bowl = wrap({half_sphere(2, false, 0.0)}, {.edge = 0.08, .half = "never"});
   expect_stitched(bowl.mesh);
   EXPECT_EQ(bowl.report.gap, 0.16) << "twice the edge: a wider one is of no use";
@@ -264,7 +264,7 @@ TEST(Wrap, TheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-/// STERNA_TORN=200 for the long form (target torn_long).
+/// Number of torn surfaces. STERNA_TORN=200 selects the long form (target torn_long).
 int n_torn() {
   const char* text = std::getenv("STERNA_TORN");
   return text ? std::atoi(text) : 5;
@@ -282,7 +282,7 @@ TEST(WrapTorn, ShapesTornAtRandomComeBack) {
     how.gaps = seed % 4;
     WrapResult result = wrap({tear(whole, how)}, {.edge = length / 20, .gap = 0.15 * length});
     expect_stitched(result.mesh);
-    // Holes that run into each other are wider than the gap (seeds 137 and 191): told as a leak, closed by the wider gap that the message asks for.
+    // Merged holes are wider than the gap (seeds 137 and 191): reported as a leak, and closed with the wider gap that the message recommends.
     if (!result.report.leaks.empty()) {
       EXPECT_GT(seed, 5);
       result = wrap({tear(whole, how)}, {.edge = length / 20, .gap = 0.3 * length});
