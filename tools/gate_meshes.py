@@ -20,7 +20,7 @@ print("counts", wall.triangles, wall.length)
 """
 LAYERS = "first_height = {height}*wall.length, "
 Y_PLUS = "first_height = y_plus{ 1, mach = 0.2, altitude = 0, length = wall.length }, "
-SMALL, LARGE = 1500, 3000  # triangles of the wall
+SMALL, LARGE = 1100, 2400  # triangles of the wall
 
 
 class Body:
@@ -101,7 +101,7 @@ local wall = surface_mesh{{ half(aircraft{{ shape }}), max_edge = {edge}, curvat
 """
 
 
-def wing(width: float = 0.04, airfoil: str = "naca0021", span: float = 1.2, edge: float = 0.15, least: float = 0.025) -> str:
+def wing(width: float = 0.05, airfoil: str = "naca0021", span: float = 1.2, edge: float = 0.19, least: float = 0.034) -> str:
     return WING.format(width=width, airfoil=airfoil, span=span, edge=edge, least=least)
 
 
@@ -130,7 +130,7 @@ def damaged(of: str, kind: str, amount: float, **strength: float) -> Mesh:
     return Mesh(name, of=of, damage=(kind, amount, strength), what=f"{kind}: {words}; " + (f"{amount:.0f} locations" if amount > 1 else f"{100 * amount:g} %"))
 
 
-BASES = [Mesh("wing", lambda _: wing() + VOLUME.format(first="first_height = 2e-4, ", more=""), what="the wing that is damaged"),
+BASES = [Mesh("wing", lambda _: wing() + VOLUME.format(first="first_height = 3e-4, ", more=""), what="the wing that is damaged"),
          sound(BODIES[0], SMALL, LAYERS.format(height=1e-4), "_small")]
 DAMAGES = [
     [("lean", 4, {"degrees": d}) for d in (80, 85, 89, 89.9)],
@@ -150,15 +150,15 @@ DAMAGES = [
 SECOND = [("lean", 4, {"degrees": 89}), ("lean", 0.1, {"degrees": 89}), ("flatten", 4, {"share": 1e-3}), ("flatten", 0.01, {"share": 0.01}), ("layer_jump", 1.0, {"ratio": 20}),
           ("layer_jump", 0.01, {"ratio": 1000}), ("compress", 0.1, {"factor": 0.1}), ("last_layer", 1.0, {"factor": 0.1})]
 BY_OPTIONS = [
-    made("wing_growth_1.5", wing(), "first_height = 2e-4, max_growth = 1.5", "layers grow by 1.5"),
-    made("wing_growth_2", wing(), "first_height = 2e-4, max_growth = 2", "layers grow by 2"),
-    made("wing_growth_3", wing(), "first_height = 2e-4, max_growth = 3", "layers grow by 3"),
-    made("wing_low_layer", wing(), "first_height = 2e-4, layers = 12", "12 layers: last cells far too low for the tetrahedra"),
-    made("wing_lower_layer", wing(), "first_height = 2e-4, layers = 8, max_growth = 1.1", "8 layers that grow by 1.1: last cells lower still"),
-    made("wing_high_layer", wing(), "first_height = 2e-4, layers = 12, total_height = 0.35", "12 layers, 0.35 m high: last cells far too high"),
-    made("wing_sharp_9pc", wing(0.0, "naca0009", edge=0.13, least=0.02), "first_height = 2e-4", "sharp trailing edge of a section of 9 %", ""),
-    made("wing_sharp_6pc", wing(0.0, "naca0006", edge=0.13, least=0.02), "first_height = 2e-4", "sharp trailing edge of a section of 6 %", ""),
-    made("wing_sharp_3pc", wing(0.0, "naca0003", edge=0.13, least=0.02), "first_height = 2e-4", "sharp trailing edge of a section of 3 %", ""),
+    made("wing_growth_1.5", wing(), "first_height = 3e-4, max_growth = 1.5", "layers grow by 1.5"),
+    made("wing_growth_2", wing(), "first_height = 3e-4, max_growth = 2", "layers grow by 2"),
+    made("wing_growth_3", wing(), "first_height = 3e-4, max_growth = 3", "layers grow by 3"),
+    made("wing_low_layer", wing(), "first_height = 3e-4, layers = 12", "12 layers: last cells far too low for the tetrahedra"),
+    made("wing_lower_layer", wing(), "first_height = 3e-4, layers = 8, max_growth = 1.1", "8 layers that grow by 1.1: last cells lower still"),
+    made("wing_high_layer", wing(), "first_height = 3e-4, layers = 12, total_height = 0.35", "12 layers, 0.35 m high: last cells far too high"),
+    made("wing_sharp_9pc", wing(0.0, "naca0009", edge=0.19, least=0.034), "first_height = 3e-4", "sharp trailing edge of a section of 9 %", ""),
+    made("wing_sharp_6pc", wing(0.0, "naca0006", edge=0.19, least=0.034), "first_height = 3e-4", "sharp trailing edge of a section of 6 %", ""),
+    made("wing_sharp_3pc", wing(0.0, "naca0003", edge=0.19, least=0.034), "first_height = 3e-4", "sharp trailing edge of a section of 3 %", ""),
 ]
 
 
