@@ -159,6 +159,9 @@ def lean(grid: Grid, count: int, degrees: float, deepest: int = 12) -> int:
         ring = grid.patch_around(start)
         if not ring or used & set(ring):
             continue
+        first = max(length(minus(grid.points[grid.lines[n][1]], grid.points[n])) for n in ring)
+        if math.tan(math.radians(degrees)) * first > EDGE_SHARE * min(grid.wall_edge(n) for n in ring):  # the first cells must be able to lean so far
+            continue
         normal = unit(grid.normals[start])
         along = cross(normal, (1.0, 0.0, 0.0) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0))
         along = unit(along)

@@ -122,11 +122,13 @@ def damaged(of: str, kind: str, amount: float, **strength: float) -> Mesh:
     return Mesh(name, of=of, damage=(kind, amount, strength), what=f"{kind}: {words}; " + (f"{amount:.0f} locations" if amount > 1 else f"{100 * amount:g} %"))
 
 
-BASES = [Mesh("wing", lambda _: wing() + VOLUME.format(first="first_height = 5e-4, ", more=""), what="the wing that is damaged"),
+THIN = "first_height = 2e-5, "  # cells so thin that first cells can lean by 89.5 degrees without meeting their neighbours
+BASES = [Mesh("thin_wing", lambda _: wing() + VOLUME.format(first=THIN, more=""), what="the same with thinner first cells"),
+         Mesh("wing", lambda _: wing() + VOLUME.format(first="first_height = 5e-4, ", more=""), what="the wing that is damaged"),
          sound(BODIES[0], SMALL, LAYERS.format(height=1e-4), "_small")]
 DAMAGES = [
-    [("lean", 4, {"degrees": d}) for d in (85, 89, 89.9)],
-    [("lean", 0.1, {"degrees": d}) for d in (80, 85, 89)],
+    [("lean", 4, {"degrees": 85})],
+    [("lean", 0.1, {"degrees": d}) for d in (80, 85)],
     [("flatten", 4, {"share": s}) for s in (0.1, 1e-3, 1e-5)],
     [("flatten", 0.01, {"share": s}) for s in (0.1, 0.01)],
     [("shorten", 0.01, {"share": 0.02})],
@@ -150,7 +152,8 @@ MORE_DAMAGES = [  # between those above in strength
     [("layer_jump", 0.01, {"ratio": 20})],
     [("last_layer", 0.01, {"factor": 0.005})],
 ]
-ON_BODY = [("lean", 0.1, {"degrees": 89}), ("flatten", 0.01, {"share": 0.01}), ("layer_jump", 1.0, {"ratio": 20}), ("compress", 0.1, {"factor": 0.1}), ("last_layer", 1.0, {"factor": 0.1})]
+ON_THIN = [("lean", 4, {"degrees": 89}), ("lean", 0.1, {"degrees": 89}), ("lean", 4, {"degrees": 89.5}), ("lean", 0.1, {"degrees": 85}), ("lean", 0.1, {"degrees": 89.5})]
+ON_BODY = [("flatten", 0.01, {"share": 0.01}), ("layer_jump", 1.0, {"ratio": 20}), ("compress", 0.1, {"factor": 0.1}), ("last_layer", 1.0, {"factor": 0.1})]
 BY_OPTIONS = [
     made("wing_growth_1.5", wing(), "first_height = 5e-4, max_growth = 1.5", "layers grow by 1.5"),
     made("wing_growth_2", wing(), "first_height = 5e-4, max_growth = 2", "layers grow by 2"),
@@ -170,7 +173,7 @@ def all_meshes() -> list[Mesh]:
         return [damaged("wing", kind, amount, **strength) for group in groups for kind, amount, strength in group]
     bodies = {body.name: body for body in BODIES}
     sound_ones = [sound(body, SMALL, LAYERS.format(height=1e-4), "_small") for body in BODIES[1:]]
-    first, turns = on_wing(DAMAGES) + BY_OPTIONS, []
+    first, turns = [damaged("thin_wing", kind, amount, **strength) for kind, amount, strength in ON_THIN] + on_wing(DAMAGES) + BY_OPTIONS, []
     for i in range(max(len(first), len(sound_ones))):
         turns += first[i:i + 1] + sound_ones[i:i + 1]
     large = [sound(bodies[name], LARGE, LAYERS.format(height=1e-4), "_large") for name in LARGE_BODIES]

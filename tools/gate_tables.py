@@ -1,6 +1,10 @@
 """The tables of `tools/verify_gates`, from its results."""
+import math
+import re
+
 OUTCOMES = ("converges", "stalls", "diverges")
 VERDICTS = ("pass", "warn", "FAIL", "INVALID")
+NEAR = 0.01  # of the length: how near a location is to that where a run begins to diverge
 MOVED = 2.0  # percent of drag, beyond which a damaged mesh has visibly spoilt the solution
 # Gates that cell-centred solvers use, in the order of the table; forms of the same cells that only node-centred solvers use are left out.
 MEASURES = ["scaled_jacobian", "stack_growth", "interface_height", "interface_volume", "stack_angle", "first_height", "coverage", "collapsed", "layer_step", "min_dihedral", "max_dihedral", "tet_growth",
@@ -90,6 +94,23 @@ def verdict_table(results: list[dict], bases: dict[str, dict]) -> None:
         print(f"| {name} | {len(rows)} | {len(by_outcome['converges'])} | {n_moved} | {len(by_outcome['stalls'])} | {len(by_outcome['diverges'])} | {100 * len(spoilt) / len(rows):.0f} % |")
 
 
+def extremes(result: dict) -> list[str]:
+    """Measures one of whose worst locations is where the run began to diverge (within NEAR of the length)."""
+    found = re.search(r"first at \(([-+.\de]+), ([-+.\de]+), ([-+.\de]+)\)", result["says"])
+    if not found:
+        return []
+    origin = [float(x) for x in found.groups()]
+    return [name for name, measure in result["measures"].items() if any(math.dist(origin, place) < NEAR * result["length"] for place in measure["places"])]
+
+
+def divergence_table(results: list[dict]) -> None:
+    print("| mesh | verdict | iteration | measures with one of their ten worst values where the divergence began |\n|---|---|---|---|")
+    for result in results:
+        if result["outcome"] == "diverges":
+            values = [f"{name} {number(result['measures'][name]['worst'])}" for name in extremes(result)]
+            print(f"| {result['name']} | {verdict(result)} | {result['iterations']:.0f} | {', '.join(values) or '-'} |")
+
+
 def print_tables(results: list[dict]) -> None:
     bases = {result["name"]: result for result in results}
     sound = [result for result in results if not result["of"]]
@@ -97,6 +118,8 @@ def print_tables(results: list[dict]) -> None:
     for title, rows in (("Sound meshes", sound), ("Damaged meshes and meshes by other options", damaged)):
         print(f"\n{title}:\n")
         mesh_table(rows, bases)
+    print("\nWhere runs diverge:\n")
+    divergence_table(results)
     print("\nGates:\n")
     gate_table(results, bases)
     for title, rows in (("all", results), ("sound", sound), ("damaged", damaged)):
