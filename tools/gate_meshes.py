@@ -21,7 +21,7 @@ print("counts", wall.triangles, wall.length)
 """
 LAYERS = "first_height = {height}*wall.length, "
 Y_PLUS = "first_height = y_plus{ 1, mach = 0.2, altitude = 0, length = wall.length }, "
-SMALL, LARGE = 800, 1500  # triangles of the wall
+SMALL, LARGE = 500, 800  # triangles of the wall
 
 
 class Body:
@@ -84,7 +84,7 @@ BODIES = [
     of_script("fighter", "04_fighter_with_stores.lua", "model:write"),
     of_model("widebody", "read_smx", "smx/widebody.smx"),
 ]
-LARGE_BODIES = ["geom2", "wing_body", "bwb", "airplane", "cessna", "swept_wing", "caturbs", "m6_sharp", "lab_plane", "duct", "first_mesh", "fandisk", "m6_cpacs"]
+LARGE_BODIES = ["first_mesh", "geom2", "wing_body", "bwb", "airplane", "cessna", "swept_wing", "caturbs", "m6_sharp", "lab_plane", "duct", "fandisk", "m6_cpacs"]
 FINE_BODIES = ["wing_body", "first_mesh", "m6_cpacs"]  # with y+ 1 at the small size
 
 # A wing whose trailing edge has a width: its mesh has no gate beyond a hard limit for cell-centred solvers. The small wing is the one of --short.
@@ -178,7 +178,7 @@ def all_meshes() -> list[Mesh]:
         turns += first[i:i + 1] + sound_ones[i:i + 1]
     large = [sound(bodies[name], LARGE, LAYERS.format(height=1e-4), "_large") for name in LARGE_BODIES]
     fine = [sound(bodies[name], SMALL, Y_PLUS, "_y1") for name in FINE_BODIES]
-    return BASES + turns + large[:6] + fine + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[6:]
+    return BASES + turns + large[:7] + fine + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[7:]
 
 
 SHORT_WING = wing(0.05, "naca0021", 0.8, 0.22, 0.04)
