@@ -133,7 +133,7 @@ std::vector<std::uint64_t> GateScan::decide(std::vector<std::uint64_t> own, doub
   return ids;
 }
 
-GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
+GateResult GateScan::judge(std::int64_t n_forced, double forced_weight, double own_weight) const {
   GateResult result;
   result.measure = measure_;
   result.limits = limits_;
@@ -148,6 +148,7 @@ GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
   }
   result.worst = value_of(worst_.front());
   result.share_within = total_ > 0.0 ? within_ / total_ : 0.0;
+  result.share_beyond_hard = total_ > 0.0 ? own_weight / total_ : 0.0;
   // What is forced counts as if it kept its limits.
   const bool is_usual_missed = !is_none(limits_.usual) && within_ + forced_weight < limits_.usual_share * total_;
   result.is_hard_missed = n_forced < result.n_beyond_hard;
@@ -165,7 +166,8 @@ GateState state_for(const GateResult& gate, Consumer consumer) {
   // G8: where the growth asked for is beyond the default limit it is the limit, usual and hard.
   const bool is_own_limit = gate.limits.hard != info.limits.hard && gate.limits.hard != gate.limits.usual;
   const Evidence evidence = info.evidence.of(consumer);
-  const bool may_fail = consumer == Consumer::cell_centred || is_own_limit || evidence == Evidence::definition || evidence == Evidence::measured;
+  const bool has_evidence = evidence == Evidence::definition || evidence == Evidence::measured;
+  const bool may_fail = is_own_limit || (has_evidence && gate.share_beyond_hard > info.fail_share);
   return may_fail ? GateState::fail : GateState::warn;
 }
 

@@ -75,7 +75,7 @@ enum class Evidence : std::uint8_t {
   none,        ///< there is no hard limit, or the consumer does not use the measure
   definition,  ///< beyond it the mesh cannot be used, or is not what was asked for
   measured,    ///< runs of a solver; the source names the page
-  cited,       ///< a program's or guideline's limit that no run has tested here
+  cited,       ///< a program's or guideline's limit for which no run here is evidence: beyond it the gate warns
 };
 /// "definition", ...; "" for none
 std::string_view to_string(Evidence evidence);
@@ -117,6 +117,7 @@ struct MeasureInfo {
   HistogramClasses classes;  ///< in SI and radians
   Consumers consumers;       ///< whose solutions depend on it
   LimitEvidence evidence;    ///< of the hard limit
+  double fail_share = 0.0;   ///< share of what is counted that must be beyond the hard limit before the gate FAILs; 0: one item is enough
 };
 
 /// The table of docs/quality_gates.md, in the order of Measure.
@@ -178,6 +179,7 @@ struct GateResult {
   std::string reason;                        ///< why it was not checked
   double worst = 0.0;
   double total = 0.0;                ///< number of items, or m^2 where areas are counted
+  double share_beyond_hard = 0.0;    ///< share of it beyond the hard limit, without what is forced
   double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
   std::int64_t n_beyond_hard = 0;    ///< items
   std::int64_t n_forced = 0;         ///< of them, proven to be forced by the given boundary: they do not FAIL
@@ -192,8 +194,8 @@ struct GateResult {
   std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
 
-/// What a result says to one kind of solver: beyond a hard limit FAIL, but warn where the consumer is node-centred and the limit is neither by definition, nor
-/// measured, nor the user's own. not_checked where the consumer does not use the measure.
+/// What a result says to one kind of solver. Beyond a hard limit: FAIL where the limit is by definition or measured and more than MeasureInfo::fail_share is
+/// beyond it, or where the limit is the user's own; else warn. not_checked where the consumer does not use the measure.
 GateState state_for(const GateResult& gate, Consumer consumer);
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
@@ -260,7 +262,7 @@ class GateScan {
     }
     for (const Item& item : worst_)
       if (item.badness <= hard_ && is_notable(item)) list(places, item, {});
-    GateResult result = judge(n_forced, forced_weight);
+    GateResult result = judge(n_forced, forced_weight, own_weight);
     result.places = std::move(places);
     result.forced = std::move(forced);
     const std::vector<std::uint64_t> deciding = decide(std::move(own), own_weight, result);
@@ -286,7 +288,7 @@ class GateScan {
   bool is_notable(const Item& item) const;
   /// Worst first; equal ones by ascending id.
   std::vector<Beyond> beyond_hard() const;
-  GateResult judge(std::int64_t n_forced, double forced_weight) const;
+  GateResult judge(std::int64_t n_forced, double forced_weight, double own_weight) const;
 
   Measure measure_;
   GateLimits limits_;
