@@ -163,8 +163,7 @@ GateState state_for(const GateResult& gate, Consumer consumer) {
   const MeasureInfo& info = info_of(gate.measure);
   if (gate.state == GateState::not_checked || !info.consumers.has(consumer)) return GateState::not_checked;
   if (!gate.is_hard_missed) return gate.is_soft_missed ? GateState::warn : GateState::pass;
-  // G8: where the growth asked for is beyond the default limit it is the limit, usual and hard.
-  const bool is_own_limit = gate.limits.hard != info.limits.hard && gate.limits.hard != gate.limits.usual;
+  const bool is_own_limit = gate.limits.hard != info.limits.hard;
   const Evidence evidence = info.evidence.of(consumer);
   const bool has_evidence = evidence == Evidence::definition || evidence == Evidence::measured;
   const bool may_fail = is_own_limit || (has_evidence && gate.share_beyond_hard > info.fail_share);

@@ -257,6 +257,10 @@ TEST(Gates, GrowthBeyondTheRequestWarnsAndWithoutRequestIsMeasuredAgainstTheDefa
   const CheckReport report = checked(mesh);
   EXPECT_TRUE(report.gate(Measure::stack_growth).is_hard_missed);
   EXPECT_EQ(report.gate(Measure::stack_growth).places.front().what, "line 5, patch plate");
+  // A request beyond the hard limit does not lift it.
+  HybridMesh steep = regular_plate(3, {.n_layers = 4, .layer_height = 0.1, .ratio = 2.0});
+  ask_for(steep, 0.1 / 15.0, 0.1, 2.0);
+  EXPECT_EQ(checked(steep).gate(Measure::stack_growth).state, GateState::warn);
 }
 
 TEST(Gates, EachLineIsMeasuredAgainstWhatWasAskedOfIt) {
