@@ -185,5 +185,5 @@ SHORT_WING = wing(0.05, "naca0021", 0.8, 0.22, 0.04)
 
 
 def short_meshes() -> list[Mesh]:
-    base = Mesh("wing", lambda _: SHORT_WING + VOLUME.format(first="first_height = 5e-4, ", more=""), what="a small wing")
+    base = Mesh("wing", lambda _: SHORT_WING + VOLUME.format(first=THIN, more=""), what="a small wing")
     return [base, damaged("wing", "lean", 4, degrees=89), damaged("wing", "flatten", 4, share=1e-3)]
