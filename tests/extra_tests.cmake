@@ -69,6 +69,9 @@ set_tests_properties(verify_flow PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST
 # Two aircraft as foam_case writes the case stay bounded; all twelve, whole runs: tools/verify_flow aircraft.
 add_test(NAME verify_aircraft COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_flow aircraft --short --data ${STERNA_TEST_DATA} --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_aircraft)
 set_tests_properties(verify_aircraft PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 200)
+# The bed on which limits of gates are compared with runs (docs/measurements/gates.md): a small wing, sound and damaged. The whole experiment: tools/verify_gates.
+add_test(NAME verify_gates COMMAND ${CMAKE_SOURCE_DIR}/tools/verify_gates --short --sterna $<TARGET_FILE:sterna> --folder ${CMAKE_BINARY_DIR}/scratch/verify_gates)
+set_tests_properties(verify_gates PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 COST 50)
 
 # A browser without network uses every control of report pages.
 add_test(NAME report_page_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/run_browser_test ${CMAKE_BINARY_DIR} fixtures)

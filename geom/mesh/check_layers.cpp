@@ -353,12 +353,13 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
   put(Measure::collapsed, collapsed, total);
 }
 
-/// Replaces the default growth limit by the requested growth.
+/// The growth that was asked for replaces the default limit of most lines, up to the hard limit: a wing whose layers grew by 2, as asked for, had 10 % more
+/// drag.
 GateTable with_requested_growth(GateTable limits, const HybridMesh& mesh) {
   GateLimits& growth = limits[Measure::stack_growth];
   if (mesh.request.is_known() && growth.usual == info_of(Measure::stack_growth).limits.usual) {
     growth.usual = mesh.request.max_growth * (1.0 + k_growth_slack);
-    growth.hard = std::max(growth.hard, growth.usual);
+    if (growth.hard < growth.usual) growth.usual = growth.hard;  // not where the hard limit is none
   }
   return limits;
 }

@@ -49,7 +49,8 @@ std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   const auto limit = [&](double value) { return std::string(info.is_low_bad ? ">= " : "<= ") + shown_text(info, value); };
-  if (!std::isnan(limits.hard)) add("hard " + limit(limits.hard));
+  const bool has_share = info.fail_share > 0.0 && limits.hard == info.limits.hard;
+  if (!std::isnan(limits.hard)) add("hard " + limit(limits.hard) + (has_share ? print_text(" but on %g %%", 100.0 * info.fail_share) : ""));
   if (!std::isnan(limits.target)) add("target " + limit(limits.target));
   if (!std::isnan(limits.usual)) add(limit(limits.usual) + print_text(" on %g %%", 100.0 * limits.usual_share));
   return text;
@@ -149,7 +150,8 @@ Json to_json(const GateResult& gate) {
   json["limits"] = {{"hard", number(in_report_unit(info, gate.limits.hard))},
                     {"target", number(in_report_unit(info, gate.limits.target))},
                     {"usual", number(in_report_unit(info, gate.limits.usual))},
-                    {"usual_share", std::isnan(gate.limits.usual) ? Json(nullptr) : Json(gate.limits.usual_share)}};
+                    {"usual_share", std::isnan(gate.limits.usual) ? Json(nullptr) : Json(gate.limits.usual_share)},
+                    {"fail_share", std::isnan(gate.limits.hard) ? Json(nullptr) : Json(info.fail_share)}};
   json["evidence"] = evidence_json(info);
   if (gate.state == GateState::not_checked) {
     json["reason"] = gate.reason;
@@ -160,6 +162,7 @@ Json to_json(const GateResult& gate) {
   json["total"] = gate.total;
   json["share_within"] = gate.share_within;
   json["beyond_hard"] = gate.n_beyond_hard;
+  json["share_beyond_hard"] = gate.share_beyond_hard;
   json["forced"] = gate.n_forced;
   json["beyond_target"] = gate.n_beyond_target;
   json["too_small"] = gate.n_too_small;

@@ -17,7 +17,10 @@ using M = Measure;
 // The coverage limit is 99 % of the whole wall. A limit of 99.5 % for the wing needs a script that identifies the wing patch.
 constexpr Consumers k_of_both{};
 constexpr LimitEvidence k_no_limit{Evidence::none, Evidence::none, ""};
-constexpr LimitEvidence k_proposal{Evidence::cited, Evidence::cited, "a proposal of this project, which no run has tested yet"};
+constexpr LimitEvidence k_proposal{Evidence::cited, Evidence::cited, "a proposal of this project; runs converge beyond it (docs/measurements/gates.md)"};
+constexpr LimitEvidence k_flat_by_runs{Evidence::measured, Evidence::cited,
+                                       "docs/measurements/gates.md: runs with more than 0.1 % beyond it diverged or moved drag"};
+constexpr double k_flat_share = 0.001;  // four flat tetrahedra in 50 000 moved drag by 0.5 %, 0.1 % and more spoilt every run
 constexpr LimitEvidence k_by_model{Evidence::definition, Evidence::definition, "the model that the mesh is of"};
 
 constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
@@ -141,7 +144,8 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0.2, k_nan, 0.02, 0.99},
      {0, 0.5, 50},
      k_of_both,
-     {Evidence::definition, Evidence::definition, "the first height that was asked for"}},
+     {Evidence::definition, Evidence::definition, "the first height that was asked for, on 99 % of the lines"},
+     0.01},
     {M::boundary_layer,
      "G12",
      "boundary_layer",
@@ -166,7 +170,8 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {5 * k_degree, 12 * k_degree, k_nan, 1.0},
      {0, k_right, 45},
      k_of_both,
-     k_proposal},
+     k_flat_by_runs,
+     k_flat_share},
     {M::max_dihedral,
      "G14",
      "max_dihedral",
@@ -177,7 +182,8 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {170 * k_degree, 155 * k_degree, k_nan, 1.0},
      {60 * k_degree, 180 * k_degree, 60},
      k_of_both,
-     {Evidence::cited, Evidence::cited, "FUN3D and Pointwise: largest angles below 170 to 178 degrees"}},
+     k_flat_by_runs,
+     k_flat_share},
     {M::tet_growth,
      "G15",
      "tet_growth",
@@ -188,7 +194,8 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {20, k_nan, 4, 0.999},
      {1, 0x1p8, 48, 6},
      k_of_both,
-     k_proposal},
+     k_flat_by_runs,
+     k_flat_share},
     {M::edge_ratio,
      "G16",
      "edge_ratio",
@@ -208,10 +215,10 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      "inner faces",
      true,
      false,
-     {90 * k_degree, 70 * k_degree, 65 * k_degree, 0.999},
+     {88 * k_degree, 70 * k_degree, 65 * k_degree, 0.999},
      {0, k_right, 45},
      k_cell_centred_alone,
-     {Evidence::measured, Evidence::none, "docs/heights.md: OpenFOAM diverged at 89.97 degrees; checkMesh: 90"}},
+     {Evidence::measured, Evidence::none, "docs/measurements/gates.md: OpenFOAM converged up to 87.7 degrees, diverged from 88.9 degrees on"}},
     {M::skewness,
      "OF",
      "skewness",

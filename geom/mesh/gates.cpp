@@ -133,7 +133,7 @@ std::vector<std::uint64_t> GateScan::decide(std::vector<std::uint64_t> own, doub
   return ids;
 }
 
-GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
+GateResult GateScan::judge(std::int64_t n_forced, double forced_weight, double own_weight) const {
   GateResult result;
   result.measure = measure_;
   result.limits = limits_;
@@ -148,7 +148,8 @@ GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
   }
   result.worst = value_of(worst_.front());
   result.share_within = total_ > 0.0 ? within_ / total_ : 0.0;
-  // Forced items count as if they met their limits.
+  result.share_beyond_hard = total_ > 0.0 ? own_weight / total_ : 0.0;
+  // What is forced counts as if it kept its limits.
   const bool is_usual_missed = !is_none(limits_.usual) && within_ + forced_weight < limits_.usual_share * total_;
   result.is_hard_missed = n_forced < result.n_beyond_hard;
   result.is_soft_missed = worst_within_ > target_ || is_usual_missed;
@@ -162,10 +163,10 @@ GateState state_for(const GateResult& gate, Consumer consumer) {
   const MeasureInfo& info = info_of(gate.measure);
   if (gate.state == GateState::not_checked || !info.consumers.has(consumer)) return GateState::not_checked;
   if (!gate.is_hard_missed) return gate.is_soft_missed ? GateState::warn : GateState::pass;
-  // G8: a requested growth ratio beyond the default limit replaces it, usual and hard.
-  const bool is_own_limit = gate.limits.hard != info.limits.hard && gate.limits.hard != gate.limits.usual;
+  const bool is_own_limit = gate.limits.hard != info.limits.hard;
   const Evidence evidence = info.evidence.of(consumer);
-  const bool may_fail = consumer == Consumer::cell_centred || is_own_limit || evidence == Evidence::definition || evidence == Evidence::measured;
+  const bool has_evidence = evidence == Evidence::definition || evidence == Evidence::measured;
+  const bool may_fail = is_own_limit || (has_evidence && gate.share_beyond_hard > info.fail_share);
   return may_fail ? GateState::fail : GateState::warn;
 }
 

@@ -72,10 +72,10 @@ inline constexpr Consumers k_cell_centred_alone{.cell_centred = true, .node_cent
 
 /// Justification of a hard limit.
 enum class Evidence : std::uint8_t {
-  none,        ///< no hard limit, or the consumer does not use the measure
-  definition,  ///< beyond the limit the mesh is unusable, or does not meet the request
-  measured,    ///< solver runs; the source names the page
-  cited,       ///< limit of a program or guideline, not tested by runs here
+  none,        ///< there is no hard limit, or the consumer does not use the measure
+  definition,  ///< beyond it the mesh cannot be used, or is not what was asked for
+  measured,    ///< runs of a solver; the source names the page
+  cited,       ///< a program's or guideline's limit for which no run here is evidence: beyond it the gate warns
 };
 /// Returns "definition", ...; "" for none.
 std::string_view to_string(Evidence evidence);
@@ -115,8 +115,9 @@ struct MeasureInfo {
   bool is_low_bad;           ///< limits are lower bounds
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
-  Consumers consumers;       ///< solver classes whose solutions depend on the measure
-  LimitEvidence evidence;    ///< evidence for the hard limit
+  Consumers consumers;       ///< whose solutions depend on it
+  LimitEvidence evidence;    ///< of the hard limit
+  double fail_share = 0.0;   ///< share of what is counted that must be beyond the hard limit before the gate FAILs; 0: one item is enough
 };
 
 /// The table of docs/quality_gates.md, in the order of Measure.
@@ -177,23 +178,24 @@ struct GateResult {
   bool is_soft_missed = false;               ///< the target or the usual limit is missed
   std::string reason;                        ///< why the gate was not checked
   double worst = 0.0;
-  double total = 0.0;                ///< number of items, or m^2 for area-weighted measures
-  double share_within = 0.0;         ///< fraction of `total` within limits.usual; within limits.target if there is no usual limit
-  std::int64_t n_beyond_hard = 0;    ///< number of items
-  std::int64_t n_forced = 0;         ///< subset of n_beyond_hard proven to be forced by the given boundary: these items do not FAIL
-  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual if there is no target; includes items beyond the hard limit
-  // The following members describe the deciding items: items beyond the hard limit that are not forced, or if there are none, items beyond the target.
-  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values below or above the ideal
-  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none if items have no location, or are too many to be kept
-  double share_beyond = 0.0;                      ///< share of the wall area for area-weighted measures, else of the fluid volume
-  GateExtent extent;                              ///< nodes and cells of the deciding items; empty after check()
-  std::vector<GatePlace> places;                  ///< the ten worst that miss a limit and are not forced (any, for a measure without limits), worst first
-  std::vector<GatePlace> forced;                  ///< the ten worst forced items, worst first
-  std::vector<double> histogram;                  ///< items, or m^2, in each class of MeasureInfo::classes; empty if the measure has no histogram
+  double total = 0.0;                ///< number of items, or m^2 where areas are counted
+  double share_beyond_hard = 0.0;    ///< share of it beyond the hard limit, without what is forced
+  double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
+  std::int64_t n_beyond_hard = 0;    ///< items
+  std::int64_t n_forced = 0;         ///< of them, proven to be forced by the given boundary: they do not FAIL
+  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual where there is no target; those beyond the hard limit are among them
+  // Of the items that decide: those beyond the hard limit that are not forced, or where there are none those beyond the target.
+  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values on either side of what they should be
+  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none where items have no place, or are too many to be kept
+  double share_beyond = 0.0;                      ///< of the wall's area where areas are counted, else of the fluid's volume
+  GateExtent extent;                              ///< of them; empty after check()
+  std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
+  std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
+  std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
 
-/// Returns the state of a result for one solver class. A value beyond a hard limit FAILs. It only warns if the consumer is node-centred and the limit is
-/// neither by definition, nor measured, nor set by the user. Returns not_checked if the consumer does not use the measure.
+/// What a result says to one kind of solver. Beyond a hard limit: FAIL where the limit is by definition or measured and more than MeasureInfo::fail_share is
+/// beyond it, or where the limit is the user's own; else warn. not_checked where the consumer does not use the measure.
 GateState state_for(const GateResult& gate, Consumer consumer);
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. The result of merging does not depend on how items were distributed
@@ -260,7 +262,7 @@ class GateScan {
     }
     for (const Item& item : worst_)
       if (item.badness <= hard_ && is_notable(item)) list(places, item, {});
-    GateResult result = judge(n_forced, forced_weight);
+    GateResult result = judge(n_forced, forced_weight, own_weight);
     result.places = std::move(places);
     result.forced = std::move(forced);
     const std::vector<std::uint64_t> deciding = decide(std::move(own), own_weight, result);
@@ -287,7 +289,7 @@ class GateScan {
   bool is_notable(const Item& item) const;
   /// Returns the items beyond the hard limit, worst first; ties by ascending id.
   std::vector<Beyond> beyond_hard() const;
-  GateResult judge(std::int64_t n_forced, double forced_weight) const;
+  GateResult judge(std::int64_t n_forced, double forced_weight, double own_weight) const;
 
   Measure measure_;
   GateLimits limits_;

@@ -109,7 +109,7 @@ inline constexpr std::size_t k_members<GatePlace> = 4;
 template <>
 inline constexpr std::size_t k_members<GateExtent> = 3;
 template <>
-inline constexpr std::size_t k_members<GateResult> = 20;
+inline constexpr std::size_t k_members<GateResult> = 21;
 template <>
 inline constexpr std::size_t k_members<Consumers> = 2;
 template <>

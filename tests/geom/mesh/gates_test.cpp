@@ -38,9 +38,15 @@ TEST(Gates, PassWarnAndFailByHardTargetAndUsualLimits) {
   EXPECT_EQ(state_of(1, {}), GateState::pass);
   EXPECT_EQ(state_of(999, {4.1}), GateState::pass);  // 99.9 %
   EXPECT_EQ(state_of(998, {4.1}), GateState::warn);
-  EXPECT_EQ(state_of(9999, {20.1}), GateState::fail);
-  EXPECT_EQ(state_of(9999, {20.0}), GateState::pass);  // a value equal to the limit passes
-  EXPECT_EQ(state_of(9999, {std::numeric_limits<double>::quiet_NaN()}), GateState::fail);
+  EXPECT_EQ(state_of(9999, {20.1}), GateState::warn);  // FAIL beyond 0.1 %
+  EXPECT_EQ(state_of(998, {20.1, 20.1}), GateState::fail);
+  EXPECT_EQ(state_of(9999, {20.0}), GateState::pass);  // a limit itself is kept
+  EXPECT_EQ(state_of(9999, {std::numeric_limits<double>::quiet_NaN()}), GateState::warn);
+  const MeasureInfo& angle = info_of(Measure::non_orthogonality);  // upper: hard 88 degrees, by runs
+  const auto state_at = [&](double degrees) { return judged_of(angle, angle.limits, 0, {degrees * k_degree}).state; };
+  EXPECT_EQ(state_at(87.9), GateState::warn);
+  EXPECT_EQ(state_at(88.1), GateState::fail);
+  EXPECT_EQ(state_at(std::numeric_limits<double>::quiet_NaN()), GateState::fail);
   const MeasureInfo& target = info_of(Measure::skewness);  // upper: hard 20, target 4
   EXPECT_EQ(judged_of(target, target.limits, 9999, {4.1}).state, GateState::warn);
 
@@ -53,7 +59,7 @@ TEST(Gates, PassWarnAndFailByHardTargetAndUsualLimits) {
   EXPECT_EQ(judged(scan).n_too_small, 1);
 }
 
-TEST(Gates, ALimitForNodeCentredSolversWithoutEvidenceOfItsOwnWarns) {
+TEST(Gates, ALimitWithoutEvidenceWarns) {
   const MeasureInfo& nodes = info_of(Measure::sub_volume_ratio);  // upper: hard 1e5
   const GateResult cited = judged_of(nodes, nodes.limits, 9, {100001.0});
   EXPECT_TRUE(cited.is_hard_missed);
@@ -65,10 +71,27 @@ TEST(Gates, ALimitForNodeCentredSolversWithoutEvidenceOfItsOwnWarns) {
   EXPECT_EQ(judged_of(nodes, own, 9, {100001.0}).state, GateState::fail);
   const MeasureInfo& both = info_of(Measure::tet_growth);
   const GateResult shared = judged_of(both, both.limits, 9, {21.0});
-  EXPECT_EQ(state_for(shared, Consumer::cell_centred), GateState::fail);
+  EXPECT_EQ(state_for(shared, Consumer::cell_centred), GateState::fail);  // by runs
   EXPECT_EQ(state_for(shared, Consumer::node_centred), GateState::warn);
   const MeasureInfo& asked = info_of(Measure::first_height);  // compared with the request, by definition
   EXPECT_EQ(state_for(judged_of(asked, asked.limits, 0, {0.5}), Consumer::node_centred), GateState::fail);
+}
+
+TEST(Gates, AShareMustBeBeyondBeforeFirstHeightsFail) {
+  const MeasureInfo& asked = info_of(Measure::first_height);  // hard 0.2, 0.02 on 99 %; FAIL beyond 1 % of the lines
+  const auto of = [&](int n_wrong, const GateLimits& limits) {
+    GateScan scan(asked, limits);
+    for (int i = 0; i < 1000; ++i) scan.add(i < n_wrong ? 0.5 : 0.0, static_cast<std::uint64_t>(i));
+    return judged(scan);
+  };
+  EXPECT_EQ(of(10, asked.limits).state, GateState::warn);
+  EXPECT_TRUE(of(10, asked.limits).is_hard_missed);
+  EXPECT_NEAR(of(10, asked.limits).share_beyond_hard, 0.01, 1e-15);
+  EXPECT_EQ(of(11, asked.limits).state, GateState::fail);
+  EXPECT_NE(to_text(of(11, asked.limits)).find("hard <= 0.2 but on 1 %"), std::string::npos) << to_text(of(11, asked.limits));
+  GateLimits own = asked.limits;
+  own.hard = 0.3;  // the user's: one line is enough
+  EXPECT_EQ(of(1, own).state, GateState::fail);
 }
 
 TEST(Gates, EveryHardLimitNamesItsEvidence) {
@@ -108,7 +131,9 @@ TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   jump(mesh, 8);
   jump(mesh, 9);   // a neighbour
   jump(mesh, 40);  // far away
-  const CheckReport report = checked(mesh);
+  CheckOptions options;
+  options.limits[Measure::stack_growth].hard = 1.45;  // the user's, so that it FAILs
+  const CheckReport report = checked(mesh, options);
   const GateResult& growth = report.gate(Measure::stack_growth);
   EXPECT_EQ(growth.state, GateState::fail);
   EXPECT_EQ(growth.n_beyond_hard, 3);
@@ -132,7 +157,7 @@ TEST(Gates, AVerdictForOneKindOfSolverLeavesTheOthersOut) {
   EXPECT_EQ(nodes.gate(Measure::stack_growth).state, GateState::warn);  // the limit is a guideline
   EXPECT_EQ(nodes.quality_state(), GateState::warn);
   EXPECT_EQ(cells.gate(Measure::orthogonality).state, GateState::not_checked);
-  EXPECT_EQ(cells.gate(Measure::stack_growth).state, GateState::fail);
+  EXPECT_EQ(cells.gate(Measure::stack_growth).state, GateState::warn);
   EXPECT_EQ(to_text(nodes).find("OpenFOAM"), std::string::npos);
   EXPECT_EQ(to_text(cells).find("SU2"), std::string::npos);
   EXPECT_EQ(verdict_line(nodes).find("cell-centred"), std::string::npos);
@@ -230,8 +255,12 @@ TEST(Gates, GrowthBeyondTheRequestWarnsAndWithoutRequestIsMeasuredAgainstTheDefa
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::pass);
   mesh.points[mesh.layers.node(5, 2)].z *= 1.5;
   const CheckReport report = checked(mesh);
-  EXPECT_EQ(report.gate(Measure::stack_growth).state, GateState::fail);
+  EXPECT_TRUE(report.gate(Measure::stack_growth).is_hard_missed);
   EXPECT_EQ(report.gate(Measure::stack_growth).places.front().what, "line 5, patch plate");
+  // A request beyond the hard limit does not lift it.
+  HybridMesh steep = regular_plate(3, {.n_layers = 4, .layer_height = 0.1, .ratio = 2.0});
+  ask_for(steep, 0.1 / 15.0, 0.1, 2.0);
+  EXPECT_EQ(checked(steep).gate(Measure::stack_growth).state, GateState::warn);
 }
 
 TEST(Gates, EachLineIsMeasuredAgainstWhatWasAskedOfIt) {
@@ -286,8 +315,10 @@ TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
 }
 
 TEST(Gates, WhatIsForcedDoesNotFailAndIsListedApart) {
-  const MeasureInfo& info = info_of(Measure::tet_growth);  // upper: hard 20, 4 on 99.9 %
-  GateScan scan(info, info.limits);
+  const MeasureInfo& info = info_of(Measure::tet_growth);  // upper: 4 on 99.9 %
+  GateLimits limits = info.limits;
+  limits.hard = 19.0;  // the user's, so that it FAILs
+  GateScan scan(info, limits);
   for (std::uint64_t i = 0; i < 100; ++i) scan.add(i < 90 ? 2.0 : 101.0 + static_cast<double>(i), i);
   const auto describe = [](std::uint64_t id) { return std::pair(Point{}, "item " + std::to_string(id)); };
   const auto judged_with = [&](std::uint64_t first_forced) {
@@ -407,8 +438,8 @@ TEST(Gates, CollapsedLinesAreStepsAndLostArea) {
   const CheckReport report = checked(mesh);
   EXPECT_EQ(report.gate(Measure::layer_step).worst, 3.0);
   EXPECT_EQ(report.gate(Measure::layer_step).n_beyond_hard, 6);
-  EXPECT_EQ(report.gate(Measure::layer_step).state, GateState::fail);
-  EXPECT_NEAR(report.gate(Measure::collapsed).worst, 2.0 / 32, 1e-14);  // a third of each triangle
+  EXPECT_TRUE(report.gate(Measure::layer_step).is_hard_missed);
+  EXPECT_NEAR(report.gate(Measure::collapsed).worst, 2.0 / 32, 1e-14);  // a third of each
   EXPECT_NEAR(report.gate(Measure::coverage).worst, 30.0 / 32, 1e-14);
   // All three growth lines of a triangle are collapsed: the triangle has no cells, but it is wall.
   HybridMesh bare = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12, 13, 18}});
