@@ -116,7 +116,7 @@ struct MeasureInfo {
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
   Consumers consumers;       ///< whose solutions depend on it
-  LimitEvidence evidence;    ///< of the hard limit
+  LimitEvidence evidence;    ///< evidence for the hard limit
   double fail_share = 0.0;   ///< share of what is counted that must be beyond the hard limit before the gate FAILs; 0: one item is enough
 };
 
@@ -182,13 +182,13 @@ struct GateResult {
   double share_beyond_hard = 0.0;    ///< share of it beyond the hard limit, without what is forced
   double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
   std::int64_t n_beyond_hard = 0;    ///< items
-  std::int64_t n_forced = 0;         ///< of them, proven to be forced by the given boundary: they do not FAIL
+  std::int64_t n_forced = 0;         ///< part of them, proven to be forced by the given boundary: they do not FAIL
   std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual where there is no target; those beyond the hard limit are among them
   // Of the items that decide: those beyond the hard limit that are not forced, or where there are none those beyond the target.
   std::int64_t n_too_small = 0, n_too_large = 0;  ///< values on either side of what they should be
   std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none where items have no place, or are too many to be kept
-  double share_beyond = 0.0;                      ///< of the wall's area where areas are counted, else of the fluid's volume
-  GateExtent extent;                              ///< of them; empty after check()
+  double share_beyond = 0.0;                      ///< share of the wall's area where areas are counted, else of the fluid's volume
+  GateExtent extent;                              ///< their values; empty after check()
   std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
   std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
   std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none

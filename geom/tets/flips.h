@@ -26,7 +26,7 @@ struct FlipCosts {
 /// of removed tetrahedra stay empty.
 class Flips {
  public:
-  /// \p wanted: required edges and facets, kept where they exist
+  /// The edges and facets of the second argument are kept where they exist.
   Flips(TetMesh& mesh, const FacetIndex& wanted);
 
   const TetMesh& mesh() const { return mesh_; }

@@ -27,10 +27,11 @@ struct RefineReport {
   int rounds = 0;
   std::int64_t n_candidates = 0;
   std::int64_t n_inserted = 0;
-  std::int64_t n_serial = 0;   ///< candidates that no block could insert
-  std::int64_t n_left = 0;     ///< tetrahedra that are larger than the target and could not be improved by a point
-  std::int64_t n_far = 0;      ///< of these, tetrahedra with corners far apart and a much larger sphere: flat ones that lie over many triangles of the boundary
-  double bytes = 0.0;          ///< largest size of the arrays
+  std::int64_t n_serial = 0;  ///< candidates that no block could insert
+  std::int64_t n_left = 0;    ///< tetrahedra that are larger than the target and could not be improved by a point
+  std::int64_t n_far =
+      0;               ///< part of these: tetrahedra with corners far apart and a much larger sphere: flat ones that lie over many triangles of the boundary
+  double bytes = 0.0;  ///< largest size of the arrays
   bool is_over_limit = false;  ///< stopped early because the memory limit was exceeded
 };
 

@@ -20,7 +20,7 @@ constexpr double k_supersonic_advice = 1.3;    ///< above, shocks are far from w
 constexpr double k_viscosity_ratio_sst = 1.0;  ///< NASA's Turbulence Modeling Resource advises 0.01 to 10 for free streams
 constexpr double k_chi_of_free_stream = 3.0;   ///< nuTilda over nu: 3 to 5 by Spalart and Rumsey (2007), so that boundary layers are turbulent from the start
 constexpr double k_full_correction = 70.0, k_half_correction = 80.0;  ///< degrees of non-orthogonality
-constexpr double k_cv1 = 7.1;                                         ///< of Spalart and Allmaras: nut = nuTilda chi^3 / (chi^3 + cv1^3)
+constexpr double k_cv1 = 7.1;                                         ///< constant of Spalart and Allmaras: nut = nuTilda chi^3 / (chi^3 + cv1^3)
 
 /// nuTilda over nu that gives this ratio of viscosities: the root of chi^4 = ratio (chi^3 + cv1^3), by Newton's method from above, where it is convex.
 double chi_of_ratio(double ratio) {
@@ -35,7 +35,7 @@ bool is_compressible(const FoamOptions& options, const volmesh::FlowState& flow)
   return !is_automatic(flow.mach) && flow.mach >= k_compressible_mach;
 }
 
-/// Of a flow of which only the Reynolds number is known all speeds give the same coefficients.
+/// If only the Reynolds number of a flow is known, all speeds give the same coefficients.
 void complete_flow(FoamSetup& setup, const RunContext& context) {
   volmesh::FlowState& flow = setup.flow;
   if (is_automatic(flow.speed)) {
@@ -76,7 +76,7 @@ void set_turbulence(FoamSetup& setup) {
   }
 }
 
-/// Of a tunnel along the inflow, else by the angles: x aft, z up.
+/// Returns the direction of a tunnel's inflow, else the direction by the angles: x aft, z up.
 Vec3 direction_of(const HybridMesh& mesh, const CaseSite& site, const CaseOptions& common) {
   if (site.is_tunnel)
     for (const PatchId p : mesh.patches.ids())

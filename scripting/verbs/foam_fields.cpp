@@ -13,7 +13,7 @@ namespace {
 /// Entries of a patch in the files of the fields.
 struct PatchConditions {
   std::string velocity, pressure, temperature;
-  std::string transported;  ///< of nuTilda, k and omega at openings; with "VALUE" where the free stream's value is to stand
+  std::string transported;  ///< conditions of nuTilda, k and omega at openings; with "VALUE" where the free stream's value is to stand
   std::string nu_tilda, k, omega, nut, alphat;
   std::string potential = "type zeroGradient;";
 };
@@ -50,7 +50,7 @@ class FoamFields {
         text += "    " + names[i] + "\n    {\n        " + replaced(replaced(entry(all[i]), "; ", ";\n        "), "VALUE", value) + "\n    }\n";
       result.push_back({.path = "0/" + name, .text = text + "}\n"});
     };
-    // Of potentialFoam. Left to itself it takes a potential of 0 on a farfield with a free stream, and the fluid stays at rest.
+    // The conditions of potentialFoam. By default potentialFoam takes a potential of 0 on a farfield with a free stream, and the fluid stays at rest.
     add("Phi", "volScalarField", "0 2 -1 0 0 0 0", "0", [](const PatchConditions& c) { return c.potential; });
     const auto transported = [](const std::string& own, const PatchConditions& c) { return own.empty() ? c.transported : own; };
     add("U", "volVectorField", "0 1 -1 0 0 0 0", foam_vector(setup_.velocity), [](const PatchConditions& c) { return c.velocity; });

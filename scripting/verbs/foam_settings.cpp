@@ -16,9 +16,9 @@ namespace {
 /// J / (kg K), of air at constant pressure.
 constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0);
 
-constexpr double k_prandtl = 0.72;          ///< of air
+constexpr double k_prandtl = 0.72;          ///< Prandtl number of air
 constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
-constexpr double k_first_step = 1e-3;       ///< of a run in time, over length and speed; afterwards steps follow from the Courant number
+constexpr double k_first_step = 1e-3;       ///< first time step over length and speed; afterwards steps follow from the Courant number
 
 std::string dictionary(std::string_view object, std::string_view location, const std::string& text) {
   return io::foam_header(object, "dictionary", location) + text;
@@ -98,7 +98,7 @@ class FoamSettings {
            field + ");\n";
   }
 
-  /// Of tunnels and ducts: mean pressure and flow rate of each opening; from each inflow to each outflow the drop of pressure.
+  /// Returns the function objects of tunnels and ducts: mean pressure and flow rate of each opening; from each inflow to each outflow the drop of pressure.
   std::string openings() const {
     std::string text;
     const auto add = [&](const std::string& name, const std::string& content) { text += "    " + name + "\n    {\n" + content + "    }\n"; };

@@ -18,7 +18,7 @@ struct FoamSetup {
   bool is_viscous = false;
   bool is_turbulent = false;
   double nu = 0.0;       ///< m^2/s, kinematic viscosity
-  double density = 1.0;  ///< kg/m^3, that forces are told with
+  double density = 1.0;  ///< kg/m^3, used for the reported forces
   bool is_density_known = false;
   Vec3 velocity;                               ///< m/s, of the free stream
   double nu_tilda = 0.0;                       ///< m^2/s
@@ -28,7 +28,7 @@ struct FoamSetup {
   double length = 0.0;                         ///< m, reference
   Point moment_origin;                         ///< m
   std::vector<std::string> monitored;          ///< names of patches
-  std::vector<std::string> inflows, outflows;  ///< of tunnels and ducts
+  std::vector<std::string> inflows, outflows;  ///< openings of tunnels and ducts
   std::string application;
   std::string correction = "corrected";  ///< scheme of normal gradients
   std::string correction_reason;         ///< a sentence for fvSchemes

@@ -21,13 +21,13 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_measured = 0.5;                          ///< share of the progress
-constexpr std::string_view k_proof = "system/controlDict";  ///< of a case
+constexpr std::string_view k_proof = "system/controlDict";  ///< file that marks a folder as a case
 
 /// \param mesh as the solver is to see it, \param made where it comes from
 void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& files, const FoamOptions& options, const std::filesystem::path& path,
                 const RunContext& context) {
   const Numbering numbering = numbering_of(options.numbering);
-  // Nodes by lines also where cells are not: what the mesh knows of its columns stays, and solvers with values in cells hardly feel the nodes.
+  // Nodes by lines also where cells are not: what the mesh knows of its columns stays, and solvers with values in cells hardly depend on the nodes.
   const HybridMesh numbered = renumbered(mesh, numbering == Numbering::lines ? numbering : Numbering::both, context);
   const auto zones = zones_of_sources(numbered, made.origin ? made.origin->options.sources : std::vector<volmesh::SizeSource>{});
   io::AtomicFolder folder(path, k_proof);

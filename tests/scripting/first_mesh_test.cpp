@@ -40,7 +40,7 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   for (const char* part :
        {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in the own engine, ", "memory", "wrote box.su2"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
-  // It misses hard limits, and has layers far thinner than the tetrahedra, so there is much to tell, in few lines: the worst place and what to do.
+  // It misses hard limits, and has layers far thinner than the tetrahedra, so there is much to report, in few lines: the worst place and what to do.
   EXPECT_LE(std::count(result.errors.begin(), result.errors.end(), '\n'), 13) << result.errors;
   for (const char* part : {" warn ", "hard limit ", "; remesh the wall there"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;

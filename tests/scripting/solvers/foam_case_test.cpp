@@ -231,7 +231,12 @@ TEST(FoamRun, ForcesThatHaveSettledAreToldFromThoseThatMove) {
   EXPECT_THAT(told(still, of_wings), testing::StartsWith("settled 0.1"));
   EXPECT_EQ(told(thrown, {"what=bounded", "limit=4000", "first=2000", "from=5"}), "diverged 58 4060.000000 30 1.5 30 3\n");
   EXPECT_EQ(told(thrown, {"what=bounded", "limit=1e9", "first=1e8", "from=5"}), "bounded\n");
-  // Of a run in parts: with the processor behind each place, and a value that is no number.
+  const std::vector<std::string> of_gas = {"what=bounded", "limit=4000", "first=2000", "from=5", "many=25"};
+  EXPECT_EQ(told(thrown, of_gas), "bounded\n") << "3 of the last 50 iterations are beyond the limit";
+  std::string stuck;
+  for (int i = 1; i <= 80; ++i) stuck += std::to_string(i) + "\tmag(U)\t0\t(0 0 0)\t" + std::to_string(i < 40 ? 70.0 : 5000.0) + "\t(1 2 3)\n";
+  EXPECT_EQ(told(stuck, of_gas), "diverged 40 5000.000000 40 1 2 3\n");
+  // A run in parts: with the processor behind each place, and a value that is no number.
   EXPECT_EQ(told("7\tmag(U)\t0\t(0 0 0)\t3\t68\t(1 2 3)\t0\n8\tmag(U)\t0\t(0 0 0)\t3\tnan\t(4 5 6)\t1\n", {"what=bounded", "limit=700", "first=350", "from=0"}),
             "diverged 8 nan 8 4 5 6\n");
 }
@@ -269,7 +274,8 @@ TEST_F(FoamCases, FluxesOfAGasAreOfMass) {
   EXPECT_EQ(std::ranges::count(scaled, '\n'), std::ranges::count(text_of("case/0/U"), '\n'));
   EXPECT_THAT(text_of("case/Allrun"), AllOf(HasSubstr("has_potential='yes'"), HasSubstr("density='1.2")));
   EXPECT_THAT(text_of("case/system/fvOptions"), testing::ContainsRegex("limitVelocity;[^}]*max 680\\.")) << "four times the free stream's 170.1 m/s";
-  EXPECT_THAT(text_of("case/Allrun"), AllOf(testing::ContainsRegex("limit='612\\."), HasSubstr("watched='30'"))) << "nine tenths of that bound";
+  EXPECT_THAT(text_of("case/Allrun"), AllOf(testing::ContainsRegex("limit='612\\."), HasSubstr("watched='30'"), HasSubstr("many='25'")))
+      << "nine tenths of that bound";
   run(with_mesh("m:foam_case{ " + at("fast") + ", flow{ mach = 1.2, altitude = 0, length = 2 }, reference_area = 1 }"));
   EXPECT_THAT(text_of("fast/Allrun"), AllOf(HasSubstr("has_potential='no'"), HasSubstr("density=''")));
 }
