@@ -80,6 +80,7 @@ TEST_F(Advice, SharpEdges) {
   const CheckReport blunt = checked(wing_with_edge("0.01") + mesh_of_wing("layers = 12"));
   for (const Measure measure : {Measure::min_dihedral, Measure::face_weight, Measure::volume_ratio, Measure::face_tets})
     expect_mended(measure, "at a sharp edge, give the edge a width", sharp, blunt);
+  for (const Measure measure : {Measure::sub_volume_ratio, Measure::edge_ratio}) expect_better(measure, "at a sharp edge, give the edge a width", sharp, blunt);
   expect_mended(Measure::layer_step, "give the sharp edge there a width", sharp, blunt);
   for (const Measure measure : {Measure::orthogonality, Measure::non_orthogonality}) expect_better(measure, "give the sharp edge a width", sharp, blunt);
   expect_better(Measure::skewness, "a width of the edge", sharp, blunt);
@@ -116,6 +117,24 @@ TEST_F(Advice, ALayerThatIsLowerThanTheBoundaryLayer) {
                                     "local mesh = volume_mesh{ wall, total_height = boundary_layer{ cruise }, max_growth = 1.3, first_height = y_plus{ 100, "
                                     "cruise }, farfield = sphere{ radius = 10 } }");
   expect_mended(Measure::boundary_layer, "total_height = boundary_layer{ ... }", before, after);
+}
+
+TEST_F(Advice, FewLayersThatReachTheTotalHeightByLargeGrowth) {
+  const auto script = [](int layers) {
+    return k_short_can + "local mesh = volume_mesh{ wall, layers = " + std::to_string(layers) +
+           ", first_height = 1e-3, total_height = 0.3, farfield = sphere{ radius = 10 } }";
+  };
+  expect_mended(Measure::stack_growth, "more layers", checked(script(6)), checked(script(20)));
+}
+
+TEST_F(Advice, FacetsTurnedAgainstTheirModel) {
+  const auto told = [&](const std::string& sizes) {
+    return run("local can = cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' } local wall = surface_mesh{ can, max_edge = 2, " + sizes +
+               " } local mesh = volume_mesh{ wall, layers = 3, first_height = 1e-2, farfield = sphere{ radius = 10 } } mesh:check{ wall = wall }");
+  };
+  EXPECT_THAT(std::string(remedy_of(Measure::cad_normal)), HasSubstr("a smaller chord_error or curvature_angle"));
+  EXPECT_THAT(told("curvature_angle = 70*deg, chord_error = 0.5"), HasSubstr("G18  wall facets against the CAD      warn"));
+  EXPECT_THAT(told("curvature_angle = 15*deg, chord_error = 0.01"), HasSubstr("G18  wall facets against the CAD      pass"));
 }
 
 TEST_F(Advice, WallsOffTheirModel) {
