@@ -296,9 +296,9 @@ class Judge:
             reach = free["box"][1][0] - free["box"][0][0]
             return "" if reach >= float(case["wake_reach"]) else f"wake sheets are {reach:g} long, {case['wake_reach']} and more were asked for"
         if "open_ridges" in case["volume"]:
-            if any(part["name"] == "main_wing" and "trailing_edge = 0," in part["lua"] for part in case.get("components", [])) and "several normals" not in text and "stay closed" not in text:
+            if any(part["name"] == "main_wing" and "trailing_edge = 0," in part["lua"] for part in case.get("components", [])) and "have several normals" not in text and "stay closed" not in text:
                 return "a sharp trailing edge and open_ridges, and not a word about normals"
-            is_opened = "several normals" in text and "stay closed" not in text
+            is_opened = "have several normals" in text and "stay closed" not in text
             return "several normals are told, no cell has them" if is_opened and not free["n"] and not found["hexahedra"] else ""
         return f"{free['n']} prisms stand on no wall" if free["n"] else ""
 
