@@ -5,6 +5,7 @@ around the node without a positive Jacobian at each corner is taken back, and th
 import array
 import math
 import pathlib
+from typing import Callable
 
 PRISM_CORNERS = [(0, 1, 2, 3), (1, 2, 0, 4), (2, 0, 1, 5), (3, 5, 4, 0), (4, 3, 5, 1), (5, 4, 3, 2)]  # a corner and the ends of its three edges
 KEPT = 1e-7          # of a Jacobian: what the least one of a damaged cell keeps of the value before, unless the damage is meant for that cell
@@ -233,8 +234,9 @@ def inner_tets(grid: Grid) -> list[tuple[int, ...]]:
     return free
 
 
-def flatten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
-    """Tetrahedra lose all but a share of their height: a free node moves towards the opposite face; the cells around it stay positive."""
+def move_free_nodes(grid: Grid, count: int, share: float, reach: float, target: Callable[[int, tuple[int, ...]], tuple[float, ...]]) -> int:
+    """Moves one free node of each of `count` tetrahedra, spread over those nearest to the walls (a share `reach` of all), to target(node, cell), if the cells
+    around the node stay positive and no node of these cells has been moved. Returns the number of moved nodes."""
     done, used = 0, set()
     tets = inner_tets(grid)
     for cell in grid.spread(tets[:max(20 * count, int(reach * len(tets)))], count):
@@ -243,33 +245,29 @@ def flatten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
         for node in cell:
             if node not in grid.free_nodes or any(n in used for other in grid.cells[node] for n in other):
                 continue
-            a, b, c = (grid.points[n] for n in cell if n != node)
-            normal = unit(cross(minus(b, a), minus(c, a)))
-            point = grid.points[node]
-            height = dot(minus(point, a), normal)
-            if grid.move({node: plus(point, normal, -(1.0 - share) * height)}, min(KEPT, 0.1 * share)):
+            if grid.move({node: target(node, cell)}, min(KEPT, 0.1 * share)):
                 done += 1
                 used.add(node)
                 break
     return done
+
+
+def flatten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
+    """Tetrahedra lose all but a share of their height: a free node moves towards the opposite face."""
+    def target(node: int, cell: tuple[int, ...]) -> tuple[float, ...]:
+        a, b, c = (grid.points[n] for n in cell if n != node)
+        normal = unit(cross(minus(b, a), minus(c, a)))
+        height = dot(minus(grid.points[node], a), normal)
+        return plus(grid.points[node], normal, -(1.0 - share) * height)
+    return move_free_nodes(grid, count, share, reach, target)
 
 
 def shorten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
     """An edge between a free node and a neighbour gets shorter by a share: the tetrahedra on the edge lose that much of their volume, those opposite gain."""
-    done, used = 0, set()
-    tets = inner_tets(grid)
-    for cell in grid.spread(tets[:max(20 * count, int(reach * len(tets)))], count):
-        if done == count:
-            break
-        for node in cell:
-            if node not in grid.free_nodes or any(n in used for other in grid.cells[node] for n in other):
-                continue
-            end = grid.points[next(n for n in cell if n != node)]
-            if grid.move({node: plus(end, minus(grid.points[node], end), share)}, min(KEPT, 0.1 * share)):
-                done += 1
-                used.add(node)
-                break
-    return done
+    def target(node: int, cell: tuple[int, ...]) -> tuple[float, ...]:
+        end = grid.points[next(n for n in cell if n != node)]
+        return plus(end, minus(grid.points[node], end), share)
+    return move_free_nodes(grid, count, share, reach, target)
 
 
 KINDS = {"lean": lean, "layer_jump": layer_jump, "compress": compress, "last_layer": last_layer, "flatten": flatten, "shorten": shorten}

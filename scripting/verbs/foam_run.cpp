@@ -26,7 +26,8 @@ constexpr double k_place_radius = 0.02;                           ///< radius of
 constexpr std::string_view k_judge = R"AWK(# Reads what function objects wrote, one value or force for each iteration, and judges it.
 # awk -f judge.awk -v what=settled -v window=200 -v share=0.002 -v drag="1 0 0" -v lift="0 0 1" FILES prints "settled PERCENT", "moving PERCENT" or "short"
 # Drag and lift have settled, each over its own size; lift over the drag's where that is larger, drag over a twentieth of the lift's. Without drag: one value.
-# awk -f judge.awk -v what=bounded -v limit=680 -v first=340 -v from=15 -v many=0 FILES prints "diverged ITERATION SPEED FIRST_ITERATION X Y Z" or "bounded"
+# awk -f judge.awk -v what=bounded -v limit=680 -v first=340 -v from=15 -v many=0 FILES prints "diverged ITERATION SPEED FIRST_ITERATION X Y Z",
+# "touched NUMBER X Y Z" (the last location) or "bounded"
 # It has diverged where more than this number of the last 50 iterations are beyond the limit, or a velocity is no number.
 /^#/ { next }
 { gsub(/[()]/, " ") }
@@ -40,7 +41,7 @@ what == "bounded" {
   else if (!n_first) { n_first = time; x = $(column + 1); y = $(column + 2); z = $(column + 3) }
   last_time = time
   if (!is_number) is_lost = 1
-  if (!is_number || speed + 0 > limit) over[time] = 1
+  if (!is_number || speed + 0 > limit) { over[time] = 1; last_place = $(column + 1) " " $(column + 2) " " $(column + 3) }
   if (!n_diverged && (!is_number || speed + 0 > limit)) { n_diverged = time; diverged_speed = speed; place = n_first " " x " " y " " z }
   next
 }
@@ -54,6 +55,7 @@ END {
   if (what == "bounded") {
     for (time in over) if (time + 0 > last_time - 50) ++n_over
     if (is_lost || n_over + 0 > many + 0) print "diverged", n_diverged, diverged_speed, place
+    else if (n_over) print "touched", n_over, last_place
     else print "bounded"
     exit
   }
@@ -107,6 +109,13 @@ require_bounds() {
   echo "diverged: the largest velocity is $3 m/s at iteration $2, where $limit m/s is the limit; above $first_sign m/s since iteration $4, first at ($5, $6, $7) m"
   echo "see the cells there: sterna draw MESH -o cells.png --cut x=$5 --focus \"$5,$6,$7 radius=$radius\" --color quality; what helps: docs/flow.md of sterna; Allclean before another run"
   exit 1
+}
+
+# Warns if the largest velocity touched the bound in some of the last iterations.
+warn_of_bounds() {
+  set -- $(awk -f system/judge.awk -v what=bounded -v limit="$limit" -v first="$first_sign" -v from="$watched" -v many="$many" $(files 'velocityRange/*/fieldMinMax*.dat'))
+  [ "$1" = touched ] || return 0
+  echo "warning: the largest velocity exceeded $limit m/s in $2 of the last 50 iterations, last at ($3, $4, $5) m: do not trust the flow there"
 }
 
 # Solves up to iteration $1 and writes its results. Of earlier ones the last two stay.
@@ -181,6 +190,7 @@ case $outcome in
   settled) echo "$judged_name moved by $moved % in 200 iterations: settled at iteration $at" ;;
   over) echo "$most iterations are over${has_residuals:+: residuals are above their limits}${moved:+, and $judged_name moved by $moved % over the iterations judged last}" ;;
 esac
+warn_of_bounds
 [ "$tasks" = 1 ] || run reconstructPar reconstructPar -latestTime
 )SH";
 
