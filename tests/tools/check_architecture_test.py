@@ -68,7 +68,7 @@ class CheckArchitecture(unittest.TestCase):
         for name, text in CLEAN.items():
             self.write(name, text)
         self.write("tools/folders.txt", FOLDERS)
-        self.write("ARCHITECTURE.md", "# Title\n" + BEGIN + DRAWING + END)
+        self.write("docs/architecture/folders.md", "# Title\n" + BEGIN + DRAWING + END)
 
     def tearDown(self):
         self.folder.cleanup()
@@ -121,7 +121,7 @@ class CheckArchitecture(unittest.TestCase):
         self.write("io/text/a/a.h", '#include "io/text/b/b.h"\n')
         self.write("io/text/b/b.h", "#pragma once\n")
         self.write("io/text/b/c.h", '#include "io/text/a/a.h"\n')
-        self.write("ARCHITECTURE.md", BEGIN + self.run_check("--draw").stdout + END)
+        self.write("docs/architecture/folders.md", BEGIN + self.run_check("--draw").stdout + END)
         self.expect("io/text/b/c.h:1: direction:", "io/text/a/a.h:1: circle: io/text/a -> io/text/b")
 
     def test_exceptions(self):
@@ -130,7 +130,7 @@ class CheckArchitecture(unittest.TestCase):
         self.write("geom/base/b.h", '#include "geom/model/m.h"\n')
         drawing = self.run_check("--draw").stdout
         self.assertIn("excepted: geom/base -> geom/model", drawing)
-        self.write("ARCHITECTURE.md", BEGIN + drawing + END)
+        self.write("docs/architecture/folders.md", BEGIN + drawing + END)
         self.expect()
         (self.root / "geom/base/b.h").unlink()
         self.expect("tools/folders.txt:11: table:")
@@ -143,7 +143,7 @@ class CheckArchitecture(unittest.TestCase):
         self.write("tools/folders.txt", FOLDERS.replace("geom/model: geom/base", "geom/model: geom/bsae"))
         self.expect("tools/folders.txt: table: geom/model may not use geom/bsae")
         self.write("tools/folders.txt", FOLDERS.replace("geom/base:", "geom/base: geom/model"))
-        self.expect("tools/folders.txt: circle:", "ARCHITECTURE.md:2: drawing:")
+        self.expect("tools/folders.txt: circle:", "docs/architecture/folders.md:2: drawing:")
 
     def test_folder_without_an_entry_and_entry_without_a_folder(self):
         self.write("geom/other/x.h", "#pragma once\n")
@@ -154,10 +154,10 @@ class CheckArchitecture(unittest.TestCase):
 
     def test_drawing(self):
         self.assertEqual(self.run_check("--draw").stdout, DRAWING)
-        self.write("ARCHITECTURE.md", "# Title\n" + BEGIN + DRAWING.replace("tetra", "tetrahedra") + END)
-        self.expect("ARCHITECTURE.md:2: drawing:")
-        self.write("ARCHITECTURE.md", "# Title\n")
-        self.expect("ARCHITECTURE.md: drawing:")
+        self.write("docs/architecture/folders.md", "# Title\n" + BEGIN + DRAWING.replace("tetra", "tetrahedra") + END)
+        self.expect("docs/architecture/folders.md:2: drawing:")
+        self.write("docs/architecture/folders.md", "# Title\n")
+        self.expect("docs/architecture/folders.md: drawing:")
 
     def test_include_paths(self):
         self.write("io/text/x.cpp", '#include "w.h"\n#include "io/text/missing.h"\n#include "io/text/w.cpp"\n')
