@@ -1,6 +1,6 @@
 // Compares all envelope optimisers on real surfaces, from the same start and with the same upper heights (docs/method/optimisation.md). Prints a Markdown table
 // for each surface: objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time.
-// usage: compare_optimisers [options] surface...        with the settings of docs/measurements.md: 35 layers, first height 1e-6 body lengths
+// usage: compare_optimisers [options] surface...        with the settings of docs/measurements/surfaces.md: 35 layers, first height 1e-6 body lengths
 //   --evaluations=300   limit for NLopt (our own methods stop by themselves, at 30 sweeps or evaluations)
 //   --solvers=a,b,...   names from solvers() below; default all
 //   --slack=      slack of NLopt's constraint (NloptSettings::slack)

@@ -1,4 +1,4 @@
-// Speed of each layer stage on real surfaces with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L,
+// Speed of each layer stage on real surfaces with the settings of docs/measurements/surfaces.md: 35 layers, first height 1e-6 of the body length L,
 // feature angle 35 degrees, growth at most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1.
 // usage: envelope_bench [--threads 1,2] [--layers 35] [--nlopt 0] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
 // --nlopt N: also times N evaluations of NLopt's CCSAQ and MMA and of our descent from the envelope before stage 6 (compare_optimisers compares results).

@@ -1,5 +1,5 @@
-// Compares half models with whole ones: cells, validity, symmetry plane, with layers as in docs/measurements.md (25 layers, first height 1e-6 of the body
-// length L, growth 1.3, farfield 20 L).
+// Compares half models with whole ones: cells, validity, symmetry plane, with layers as in docs/measurements/surfaces.md (25 layers, first height 1e-6 of the
+// body length L, growth 1.3, farfield 20 L).
 // usage: half_models [--threads 2] [--layers 25] [--write FOLDER] [--half-only] SURFACE...     surfaces are symmetric about y = 0
 #include <chrono>
 #include <cmath>

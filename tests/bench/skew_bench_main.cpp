@@ -1,4 +1,4 @@
-// Skew (13), coverage, heights and minima of the certificate of the extruded layer, with and without the optimiser, with the settings of docs/measurements.md.
+// Skew (13), coverage, heights and minima of the certificate of the extruded layer, with and without the optimiser. Settings: docs/measurements/surfaces.md.
 // usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME none|descent counts..."
 // (tests/tools/draw_skew.py draws them). Join several parts of one body with +: PART+PART+...
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Results of the tet engines on real surfaces, with the settings of docs/measurements.md: 35 layers, first height 1e-6 of the body length L, growth at most
-// 1.4, thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L.
+// Results of the tet engines on real surfaces, with the settings of docs/measurements/surfaces.md: 35 layers, first height 1e-6 of the body length L, growth
+// at most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L.
 // usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...        join parts of one body with +: wing.stl+flap.stl
 // Prints one table row for each surface and engine. "ours" is the time of the stage without the engine's own run: boundary, size field, transfer, process,
 // verification. Each run verifies that the boundary is returned to the bit (verify.h); a row that failed states the reason.

@@ -12,7 +12,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_taper = 0.05;    ///< sine of the angle between the two edges of a base: beyond it the facet tapers to a point, which no thickness can repair
-constexpr double k_enough = 0.1;    ///< recommended ratio of thickness to height: hardly any face leans there (docs/inspect.md)
+constexpr double k_enough = 0.1;    ///< recommended ratio of thickness to height: hardly any face leans there (docs/measurements/inspect.md)
 constexpr int k_most_steps = 1000;  ///< triangles crossed; a wider strip is a surface, not an edge
 
 struct Base {

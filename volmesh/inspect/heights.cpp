@@ -2,7 +2,7 @@
 // Steps: targets and directions; directions smoothed as in the envelope, but only once where elements are tangled; heights where growth lines meet and where
 // elements are warped, increased again as far as they are valid; gaps between opposing walls shared, clearance kept.
 // Left out: smoothing of heights and of the envelope itself (they keep 0.94 of the target), the exact tests for collisions (gaps represent most of them), the
-// optimiser, which raises heights that these steps lower too much. docs/inspect.md compares the prediction with finished meshes.
+// optimiser, which raises heights that these steps lower too much. docs/measurements/inspect.md compares the prediction with finished meshes.
 #include <array>
 #include <cmath>
 

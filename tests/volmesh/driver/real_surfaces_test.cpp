@@ -1,4 +1,4 @@
-// Real surfaces with the settings of docs/measurements.md (without the optimiser). The large ones are measured by tools/measure_surfaces.
+// Real surfaces with the settings of docs/measurements/surfaces.md (without the optimiser). The large ones are measured by tools/measure_surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
