@@ -11,7 +11,7 @@
 namespace sterna::volmesh {
 namespace {
 
-// Peak memory of complete runs (docs/performance.md): an airliner's wing and body, the CRM, the Cessna, the DLR-F6 with 184 k and 613 k triangles.
+// Peak memory of complete runs (docs/measurements/performance.md): an airliner's wing and body, the CRM, the Cessna, the DLR-F6 with 184 k and 613 k triangles.
 constexpr double k_bytes_alone = 60e6, k_bytes_of_prism = 45.0, k_bytes_of_tetrahedron = 215.0;
 /// Smallest ratio observed on walls of well-shaped triangles with default size growth.
 constexpr double k_least_tetrahedra_of_triangle = 5.0;

@@ -10,7 +10,7 @@
 
 namespace sterna::volmesh {
 
-/// Forecast for the machine that docs/performance.md was measured on; memory is accurate to a quarter there, time to a factor of two.
+/// Forecast for the machine that docs/measurements/performance.md was measured on; memory is accurate to a quarter there, time to a factor of two.
 struct Forecast {
   double n_triangles = 0.0;   ///< triangles of the walls with layers
   double n_prisms = 0.0;      ///< cells of the layer
