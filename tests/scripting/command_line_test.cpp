@@ -213,7 +213,7 @@ TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
   EXPECT_NE(refused.errors.find("is that of new.foam"), std::string::npos) << refused.errors;
 }
 
-TEST_F(CommandLine, ConvertTakesVolumesToVolumesAndTheirBoundaryWhenAsked) {
+TEST_F(CommandLine, ConvertWritesVolumesOrTheirBoundaryOnRequest) {
   write("tet.su2",
         "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 "
         "3\n");

@@ -58,7 +58,7 @@ TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
   for (const char* name : {"script.su2", "command.su2", "late.su2", "finished.su2", "last.su2"}) EXPECT_TRUE(contents(name) == whole) << name << " differs";
 }
 
-TEST_P(Continuation, TakesOptionsOfTheStepsThatAreToCome) {
+TEST_P(Continuation, AcceptsOptionsOfRemainingSteps) {
   const std::string wall = std::string("local wall = read_surface 'box.stl'\n") + GetParam().wall + "\n";
   const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
   run("whole", wall + "volume_mesh{ wall, " + layer + ", ends_growth = 1.25, size_growth = 1.5, improve_rounds = 3 }:write 'whole.su2'");

@@ -56,7 +56,7 @@ class EngineFailures : public testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Engine, EngineFailures, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
 
-TEST_P(EngineFailures, AKilledHelperIsAnErrorAndTheScriptGoesOn) {
+TEST_P(EngineFailures, KilledHelperIsErrorAndScriptContinues) {
   Clock::time_point killed_at;
   std::jthread killer([&] {
     pid_t pid = 0;
@@ -73,7 +73,7 @@ TEST_P(EngineFailures, AKilledHelperIsAnErrorAndTheScriptGoesOn) {
   EXPECT_LT(seconds_since(killed_at), k_prompt_seconds);
 }
 
-TEST_P(EngineFailures, NoMemoryForTheHelperIsAnErrorAndTheScriptGoesOn) {
+TEST_P(EngineFailures, HelperWithoutMemoryIsErrorAndScriptContinues) {
   // The event occurs between the start and the end of the helper, so the whole interval counts.
   Clock::time_point started_at;
   std::jthread watcher([&] {
@@ -90,7 +90,7 @@ TEST_P(EngineFailures, NoMemoryForTheHelperIsAnErrorAndTheScriptGoesOn) {
   EXPECT_LT(seconds_since(started_at), k_prompt_seconds);
 }
 
-TEST_F(EngineFailures, ABoundaryThatCrossesItselfIsAnErrorAndTheScriptGoesOn) {
+TEST_F(EngineFailures, SelfCrossingBoundaryIsErrorAndScriptContinues) {
   // Two boxes, the second moved by half its length. The reader's check for crossings is off, so the volume mesher finds the crossing.
   std::ofstream file(folder_ / "crossing.stl");
   for (const double shift : {0.0, 0.5}) {

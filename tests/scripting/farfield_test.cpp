@@ -44,7 +44,7 @@ class Farfield : public testing::Test {
   std::filesystem::path folder;
 };
 
-TEST_F(Farfield, IsABoxOrACylinderOrASurface) {
+TEST_F(Farfield, IsBoxOrCylinderOrSurface) {
   const std::string printed = run_text(
       "local function show(m) m:check() print(table.concat(m.patches, ' ')) end\n"
       "show(mesh(wall, box{ {-4, -4, -4}, {6, 4, 4}, edge = 2, sides = { x_min = 'inflow', x_max = { kind = 'outflow', name = 'exit', edge = 1 } } }))\n"

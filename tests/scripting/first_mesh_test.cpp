@@ -86,7 +86,7 @@ TEST_F(FirstMesh, TheNativeFileHoldsWhatIsKnown) {
   EXPECT_EQ(sterna({"check", "box.sterna"}).status, k_exit_success);
 }
 
-TEST_F(FirstMesh, RulesForPatchesComeFromCommandLineAndScriptAndStayInTheManifest) {
+TEST_F(FirstMesh, PatchRulesOfCommandAndScriptReachManifest) {
   const ProcessResult result = mesh_box("box.su2", {"--split-angle", "60deg", "--patch", "*:blend=0.2", "--patch", "*_1:layers=10,first_height=2mm"});
   ASSERT_EQ(result.status, k_exit_success) << result.errors;
   EXPECT_NE(result.errors.find("one number of layers: 10, the largest asked for"), std::string::npos) << result.errors;
@@ -215,7 +215,7 @@ TEST_F(FirstMesh, ScriptAndCommandLineMakeTheSameMesh) {
   EXPECT_EQ(contents(folder / "a.su2"), contents(folder / "b.su2"));
 }
 
-TEST_F(FirstMesh, AFlippedCellIsInvalidWithItsOwnStatus) {
+TEST_F(FirstMesh, FlippedCellIsInvalidWithItsStatus) {
   ASSERT_EQ(mesh_box("box.su2").status, k_exit_success);
   // The wall marker loses its last face; the cell behind that face then has an unmatched face.
   std::string text = contents(folder / "box.su2");

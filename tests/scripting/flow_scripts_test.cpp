@@ -31,7 +31,7 @@ class FlowScripts : public ScriptFixture {
   FlowScripts() { io::write_surface_file(test::sphere(6), folder_ / "ball.off", RunContext()); }
 };
 
-TEST_F(FlowScripts, y_plus_prints_what_it_is_and_counts_as_a_number) {
+TEST_F(FlowScripts, YPlusPrintsItselfAndIsANumber) {
   const std::string text =
       run("local y = y_plus{ 1, mach = 0.78, altitude = 11000, length = 4.2 } print(y) print(y.reynolds > 2e7, 2*y == y + y, y < 1e-4, -y < 0, y/y, y.height "
           "== 1*y)");
@@ -42,7 +42,7 @@ TEST_F(FlowScripts, y_plus_prints_what_it_is_and_counts_as_a_number) {
   EXPECT_NEAR(number("boundary_layer{ reynolds = 1e7, length = 2, factor = 1.3 } / boundary_layer{ reynolds = 1e7, length = 2 }"), 1.3, 1e-12);
 }
 
-TEST_F(FlowScripts, wrong_flow_conditions_are_told_at_their_line) {
+TEST_F(FlowScripts, WrongFlowConditionsAreReportedAtTheirLine) {
   EXPECT_THAT(error("y_plus{ 1, mach = 0.5, altitude = 9e4, length = 1 }"), AllOf(HasSubstr("case.lua:1: y_plus"), HasSubstr("-5000 .. 84852 m")));
   EXPECT_THAT(error("y_plus{ mach = 0.5, lenght = 1 }"), AllOf(HasSubstr("needs the wanted y+"), HasSubstr("did you mean \"length\"?")));
   EXPECT_THAT(error("y_plus{ 1, speed = 1, altitude = 0, length = 1*mm }"), HasSubstr("Reynolds number"));
@@ -52,7 +52,7 @@ TEST_F(FlowScripts, wrong_flow_conditions_are_told_at_their_line) {
               HasSubstr("flow conditions is not allowed here"));
 }
 
-TEST_F(FlowScripts, a_mistyped_needed_option_is_one_mistake) {
+TEST_F(FlowScripts, MistypedRequiredOptionIsOneMistake) {
   const std::string one = error("volume_mesh{ read_surface 'ball.off', first_heigth = 0.01 }");
   EXPECT_THAT(one, HasSubstr("did you mean \"first_height\"?"));
   EXPECT_THAT(one, Not(HasSubstr("needs")));
@@ -60,13 +60,13 @@ TEST_F(FlowScripts, a_mistyped_needed_option_is_one_mistake) {
   EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', layerz = 3 }"), AllOf(HasSubstr("needs first_height"), HasSubstr("did you mean \"layers\"?")));
 }
 
-TEST_F(FlowScripts, a_family_of_one_is_the_mesh_that_its_options_describe) {
+TEST_F(FlowScripts, FamilyOfOneIsMeshOfItsOptions) {
   EXPECT_THAT(run("local f = family{ levels = 1 } print(#f, f[1].name, f[1].refinement)"), HasSubstr("1\tmedium\t1.0"));
   EXPECT_THAT(run("local f = family{ levels = 1, medium = 2 } print(f[1].name)"), HasSubstr("coarse"));  // requested
   EXPECT_THAT(run("local f = family{} print(f[1].name, f[2].name, f[3].name)"), HasSubstr("coarse\tmedium\tfine"));
 }
 
-TEST_F(FlowScripts, a_total_height_leaves_one_of_layers_and_growth_to_follow) {
+TEST_F(FlowScripts, TotalHeightDeterminesLayersOrGrowth) {
   const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', farfield = sphere{ radius = 8 }, first_height = 0.01, ";
   run(mesh + "max_growth = 1.2, total_height = 0.12 } print(m.mean_height)");
   EXPECT_THAT(log_, HasSubstr("7 layers reach the total height of 0.12 m with a growth of 1.17"));
@@ -83,7 +83,7 @@ TEST_F(FlowScripts, a_total_height_leaves_one_of_layers_and_growth_to_follow) {
   EXPECT_THAT(log_, HasSubstr("y+ 100"));
 }
 
-TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
+TEST_F(FlowScripts, FirstHeightsByFunctionOfLocation) {
   const std::string height = "local function h(x, y, z) return 0.01*1.5^x end ";
   const std::string more = "layers = 4, max_growth = 1.2, farfield = sphere{ radius = 8 }, first_height = ";
   run(height + "volume_mesh{ read_surface 'ball.off', " + more + "h }:write(" + out("by_place.sterna") + ", " + out("by_place.su2") + ")");
@@ -119,7 +119,7 @@ TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
   EXPECT_THAT(log_, HasSubstr("refinement 2"));
 }
 
-TEST_F(FlowScripts, members_of_a_family_have_a_wake) {
+TEST_F(FlowScripts, FamilyMembersHaveAWake) {
   const std::string mesh = "volume_mesh{ read_surface 'ball.off', layers = 4, first_height = 0.01, farfield = sphere{ radius = 8 }, ";
   const auto log_of = [&](const std::string& more, const std::vector<std::pair<std::string, std::string>>& overrides = {}) {
     run(mesh + more + "}", overrides);
@@ -139,7 +139,7 @@ TEST_F(FlowScripts, members_of_a_family_have_a_wake) {
   EXPECT_EQ(text_of("steps.su2"), text_of("whole.su2"));
 }
 
-TEST_F(FlowScripts, wrong_functions_of_first_height_are_told_with_their_place) {
+TEST_F(FlowScripts, WrongFirstHeightFunctionsAreReportedWithLocation) {
   const std::string mesh = "\nvolume_mesh{ read_surface 'ball.off', farfield = sphere{ radius = 8 }, layers = 4, first_height = ";
   EXPECT_THAT(error(mesh + "function(x, y, z) return x end }"), AllOf(HasSubstr("case.lua:2"), HasSubstr("no height"), HasSubstr("first height -")));
   EXPECT_THAT(error(mesh + "function(x, y, z) return 'thin' end }"), AllOf(HasSubstr("case.lua:2"), HasSubstr("number")));
@@ -147,7 +147,7 @@ TEST_F(FlowScripts, wrong_functions_of_first_height_are_told_with_their_place) {
   EXPECT_THAT(error(mesh + "0.01, max_growth = function() return 1.2 end }"), HasSubstr("max_growth: a function is not allowed here"));
 }
 
-TEST_F(FlowScripts, members_of_a_family) {
+TEST_F(FlowScripts, FamilyMembers) {
   EXPECT_EQ(run("for _, m in ipairs(family{}) do print(m.name, string.format('%.4f', m.refinement)) end"), "coarse\t0.6667\nmedium\t1.0000\nfine\t1.5000\n");
   EXPECT_EQ(run("local f = family{ levels = 4, factor = 2, medium = 4 } print(#f, f[1].name, f[1].refinement)"), "4\tcoarse_3\t0.125\n");
   const std::string printed =
@@ -164,7 +164,7 @@ TEST_F(FlowScripts, members_of_a_family) {
   EXPECT_THAT(log_, HasSubstr("the surface was made with refinement 0.6667, the volume with 1"));
 }
 
-TEST_F(FlowScripts, layers_asked_for_with_the_surface) {
+TEST_F(FlowScripts, LayersRequestedWithTheSurface) {
   const std::string text =
       run("local s = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.25, patches = { ['*'] = { max_edge = 0.3, layers = 3, first_height = 0.01 } } } "
           "print(volume_mesh{ s, farfield = sphere{ radius = 9 } })");
@@ -260,7 +260,7 @@ const std::set<std::string> k_su2_keys = {"SOLVER",
                                           "SCREEN_OUTPUT",
                                           "HISTORY_OUTPUT"};
 
-TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
+TEST_F(FlowScripts, Su2ConfigurationOfBodyInFarfield) {
   run("local wing = wing{ name = 'main', symmetric = true, position = {1, 0, 0}, sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = "
       "1, "
       "airfoil = 'naca0012' } } }\n"
@@ -286,7 +286,7 @@ TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
   EXPECT_THAT(log_, HasSubstr("case.su2, which is not there yet"));
 }
 
-TEST_F(FlowScripts, su2_configuration_refuses_what_cannot_be_known) {
+TEST_F(FlowScripts, Su2ConfigurationRefusesUnknownData) {
   const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', layers = 2, first_height = 0.02, farfield = sphere{ radius = 8 } } m:su2_config{ " +
                            out("case.cfg") + ", ";
   EXPECT_THAT(error(mesh + "speed = 5, density = 1000, viscosity = 1e-3, length = 1 }"),
@@ -297,7 +297,7 @@ TEST_F(FlowScripts, su2_configuration_refuses_what_cannot_be_known) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case.cfg"));
 }
 
-TEST(Su2Config, half_models_count_half_the_area) {
+TEST(Su2Config, HalfModelsCountHalfTheArea) {
   const HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far field", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   std::string log;
@@ -315,7 +315,7 @@ TEST(Su2Config, half_models_count_half_the_area) {
                      [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {.beta = 0.1}, flow, {.area = 30.0}, {}, context); });
 }
 
-TEST(Su2Config, walls_of_a_large_y_plus_get_wall_functions) {
+TEST(Su2Config, WallsOfLargeYPlusGetWallFunctions) {
   HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"far field", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   const double of_one = volmesh::first_height({.y_plus = 1.0}, flow).height;
@@ -333,7 +333,7 @@ TEST(Su2Config, walls_of_a_large_y_plus_get_wall_functions) {
 }
 
 /// CFL numbers and the linear solver by the least angle that was measured, with the figure in the file; the run ends when forces have settled.
-TEST(Su2Config, numerics_follow_from_the_mesh) {
+TEST(Su2Config, NumericsFollowFromTheMesh) {
   const HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"far field", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   const auto made = [&](double degrees, double cfl, double alpha) {
@@ -353,7 +353,7 @@ TEST(Su2Config, numerics_follow_from_the_mesh) {
   EXPECT_EQ(lifting.at("CONV_CAUCHY_EPS"), "1e-05");  // 0.2 % over 200 iterations
 }
 
-TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
+TEST(Su2Config, TunnelsGetTheConditionsOfTheirFlow) {
   const HybridMesh mesh =
       test::box_of_patches({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::slip}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
@@ -368,7 +368,7 @@ TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
 }
 
 /// A duct: all walls are the tunnel's, no forces count, and no reference area is needed.
-TEST(Su2Config, internal_flows_need_no_forces_and_no_area) {
+TEST(Su2Config, InternalFlowsNeedNoForcesAndNoArea) {
   const HybridMesh mesh = test::box_of_patches(
       {{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"floor", PatchKind::wall}, {"side", PatchKind::symmetry}, {"roof", PatchKind::symmetry}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .speed = 60.0, .temperature = 293.0, .pressure = 1e5});
@@ -386,7 +386,7 @@ TEST(Su2Config, internal_flows_need_no_forces_and_no_area) {
                      [&] { (void)su2_config(outer, {.mesh = "a.su2"}, {}, flow, {}, {}, RunContext()); });
 }
 
-TEST(Su2Config, discs_need_what_they_do) {
+TEST(Su2Config, DiscsRequireTheirData) {
   const HybridMesh mesh =
       test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
@@ -406,7 +406,7 @@ constexpr const char* k_ceasiompy_config =
     "HolePosition = 0.0 0.0 0.0\nFarfieldCenter = 0.0 0.0 0.0\nHeightIterations = 8\nNormalIterations = 8\nMaxCritIterations = 128\nLaplaceIterations = "
     "8\nSymmetry = false\n";
 
-TEST(PentagrowConfig, of_ceasiompy) {
+TEST(PentagrowConfig, OfCeasiompy) {
   const PentagrowCase given = read_pentagrow_config(k_ceasiompy_config, "rans.cfg");
   const volmesh::EnvelopeOptions& layer = given.options.envelope;
   EXPECT_EQ(layer.layers, 6);
@@ -423,7 +423,7 @@ TEST(PentagrowConfig, of_ceasiompy) {
   EXPECT_TRUE(given.notes.empty()) << given.notes.front();
 }
 
-TEST(PentagrowConfig, every_key) {
+TEST(PentagrowConfig, EveryKey) {
   const PentagrowCase given = read_pentagrow_config(
       "# all of them\nInputFormat = cgns\nOutputFormat = bmsh, zml, cgns, tau\nNLayers = 35 # comment\nInitialHeight = 1e-6\nMaxLayerThickness = "
       "0.5\nMaxRelativeHeight = 4\nMaxGrowthRatio = 1.3\nFeatureAngle = 31\n"
@@ -460,7 +460,7 @@ TEST(PentagrowConfig, every_key) {
     EXPECT_THAT(notes, HasSubstr(part));
 }
 
-TEST(PentagrowConfig, defaults_are_those_of_the_code) {
+TEST(PentagrowConfig, DefaultsAreThoseOfTheCode) {
   const PentagrowCase given = read_pentagrow_config("", "");
   EXPECT_EQ(given.options.envelope.layers, 21);
   EXPECT_EQ(given.options.envelope.first_height, 1e-5);
@@ -472,7 +472,7 @@ TEST(PentagrowConfig, defaults_are_those_of_the_code) {
   EXPECT_EQ(given.outputs, std::vector<std::filesystem::path>{"hybrid.bmsh"});
 }
 
-TEST(PentagrowConfig, mistakes_are_told_by_line_and_all_at_once) {
+TEST(PentagrowConfig, MistakesAreReportedTogetherWithLines) {
   const auto message = [](const std::string& text) {
     try {
       read_pentagrow_config(text, "a.cfg");
@@ -492,7 +492,7 @@ TEST(PentagrowConfig, mistakes_are_told_by_line_and_all_at_once) {
   EXPECT_THAT(message("NLayers = 2.5\n"), HasSubstr("expected a whole number"));
 }
 
-TEST_F(FlowScripts, the_program_called_pentagrow) {
+TEST_F(FlowScripts, ProgramCalledPentagrow) {
   std::ofstream(folder_ / "rans.cfg") << k_ceasiompy_config;
   io::write_surface_file(test::sphere(6), folder_ / "wall.stl", RunContext());
   const test::ProcessResult result = test::run_process(test::build_folder() / "pentagrow", {"wall.stl", "rans.cfg"}, folder_);
@@ -507,7 +507,7 @@ TEST_F(FlowScripts, the_program_called_pentagrow) {
   EXPECT_THAT(wrong.errors, HasSubstr("absent.cfg"));
 }
 
-TEST_F(FlowScripts, heights_from_the_flow_on_the_command_line) {
+TEST_F(FlowScripts, HeightsFromFlowOnTheCommandLine) {
   const std::vector<std::string> mesh = {"mesh", "ball.off", "-o", "m.su2", "--farfield", "sphere radius=8"};
   const auto with = [&](std::initializer_list<std::string> more) {
     std::vector<std::string> all = mesh;

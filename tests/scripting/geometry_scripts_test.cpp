@@ -70,7 +70,7 @@ TEST_F(GeometryScripts, WhatSmxCannotHoldIsRefused) {
       HasSubstr("never swells beyond its frames"));
 }
 
-TEST_F(GeometryScripts, WingsThatFoldBackAndTurnsInDegreesAreErrors) {
+TEST_F(GeometryScripts, FoldedWingsAndTurnsInDegreesAreErrors) {
   EXPECT_THAT(error("wing{ sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3,chord=1.5}, {y=2} }, tip = 'flat' }:model()"),
               AllOf(HasSubstr("it folds back onto itself"), HasSubstr("order along the span")));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:rotate{ pitch = 30 }"), HasSubstr("pitch"));
@@ -100,13 +100,13 @@ TEST_F(GeometryScripts, FunctionsDeformModels) {
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, 0 end, kernel = 'thin_plate' }"), HasSubstr("unknown key \"kernel\""));
 }
 
-TEST_F(GeometryScripts, AFunctionMayCallVerbsAndItsErrorIsTheirs) {
+TEST_F(GeometryScripts, FunctionMayCallVerbsAndPassesTheirErrors) {
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) local b = box{ {0,0,0}, {1,1,1} } return 0, 0, box{ {0,0,0} } end }"),
               HasSubstr("expected two points"));
   EXPECT_NEAR(number("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, box{ {0,0,0}, {1,1,1} }.length end }.min[3]"), 1.0, 1e-9);
 }
 
-TEST_F(GeometryScripts, DeformedModelsAreTheSameForAnyNumberOfThreads) {
+TEST_F(GeometryScripts, DeformedModelsAreEqualForAnyThreads) {
   const std::string text =
       "local m = box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0.02*math.sin(3*y), 0, 0.1*y^3 end } print(string.format('%.17g', "
       "m:measures().volume)) m:write(" +
@@ -182,7 +182,7 @@ TEST_F(GeometryScripts, WingsFromFewNumbers) {
             "true\ttrue\n");
 }
 
-TEST_F(GeometryScripts, AWingletMayBeAPatchOfItsOwn) {
+TEST_F(GeometryScripts, WingletMayBeASeparatePatch) {
   const std::string sections = "sections={ {chord=1, airfoil='naca0012'}, {y=4, chord=0.6} }";
   for (const char* bend : {"0", "0.3"}) {
     const std::string winglet =
@@ -199,7 +199,7 @@ TEST_F(GeometryScripts, AWingletMayBeAPatchOfItsOwn) {
   EXPECT_THAT(error("wing{ name='w', " + sections + ", winglet={ name='w', height=0.5 } }"), HasSubstr("winglet: name: \"w\" is the wing's"));
 }
 
-TEST_F(GeometryScripts, AWingletBendsNoTighterThanTheWingIsThickInsideOfIt) {
+TEST_F(GeometryScripts, WingletBendRadiusIsLimitedByThickness) {
   const auto wing = [](const std::string& winglet) {
     return "wing{ symmetric=true, position={10, 0, 1}, sections={ {y=0, chord=1, airfoil='naca3417'}, {y=2, airfoil='naca0014'} }, winglet={ " + winglet +
            " } }";
@@ -216,7 +216,7 @@ TEST_F(GeometryScripts, AWingletBendsNoTighterThanTheWingIsThickInsideOfIt) {
   EXPECT_EQ(number(wing("height=1, cant=90*deg") + ":at(1, 0)[3]"), number(wing("height=1, cant=90*deg, bend=0.25") + ":at(1, 0)[3]"));
 }
 
-TEST_F(GeometryScripts, ABoxHoldsRoundTipsThatControlSurfacesReach) {
+TEST_F(GeometryScripts, BoxHoldsRoundTipsWithControlSurfaces) {
   for (const char* to : {"0.95", "1.0"}) {
     const std::string model = "local w = wing{ symmetric=true, sections={ {chord=1.6, airfoil='naca2412'}, {y=5} } } w:deflect{ 'flap', from={0.6, 0.7}, to={" +
                               std::string(to) + ", 0.7}, angle=20*deg } local m = aircraft{ w } ";
@@ -224,7 +224,7 @@ TEST_F(GeometryScripts, ABoxHoldsRoundTipsThatControlSurfacesReach) {
   }
 }
 
-TEST_F(GeometryScripts, AHalfOfWhatIsNoImageOfItselfIsTold) {
+TEST_F(GeometryScripts, HalfOfAsymmetricModelIsReported) {
   const std::string wing = "local w = wing{ symmetric=true, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=4, chord=1} } } ";
   run(wing + "half(w:model())");
   EXPECT_THAT(log_, testing::Not(HasSubstr("warning")));
@@ -255,7 +255,7 @@ TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
               HasSubstr("is for wings, not for a boom"));
 }
 
-TEST_F(GeometryScripts, ComponentsAreFoundByTheNamesThatAreListed) {
+TEST_F(GeometryScripts, ComponentsAreFoundByListedNames) {
   EXPECT_EQ(run("local m = aircraft{ wing{ name='Wing', sections={ {chord=1, airfoil='naca2412'}, {y=4, chord=0.8} } }, body_of_revolution{ name='report', "
                 "profile = { {0, 0}, {1, 0.3}, "
                 "{2, 0} } }, unite=false } local same = true for _, name in ipairs(m.components) do if name ~= 'report' then same = same and "
@@ -419,7 +419,7 @@ TEST_F(GeometryScripts, StepHoldsACentreBodyWithStruts) {
             "1\ttrue\n");
 }
 
-TEST_F(GeometryScripts, StepOfATunnelIsWrittenWithAWarning) {
+TEST_F(GeometryScripts, StepOfTunnelIsWrittenWithWarning) {
   run("test_section{ length = 6, width = 2, height = 1.5 }:write(" + out("t.step") + ")");
   EXPECT_THAT(log_, HasSubstr("encloses the fluid, but STEP and IGES store every solid as a body; read the file with fluid = \"inside\""));
   EXPECT_NEAR(number("-read_cad{ " + out("t.step") + ", fluid = 'inside' }:measures().volume"), 18.0, 18.0 * k_exact);

@@ -45,7 +45,7 @@ ModelValue moved(ModelValue value, const Transform& motion) {
   return value;
 }
 
-TEST(Parts, AMovedModelHasTheTrianglesOfItsOwnFrame) {
+TEST(Parts, MovedModelHasTrianglesOfItsFrame) {
   const SurfaceValue still = meshed({rod()}), turned = meshed({moved(moved(rod(), k_turn), translation({0, 0, 0.25}))});
   EXPECT_TRUE(still.parts.empty());
   ASSERT_EQ(turned.parts.size(), 1u);
@@ -65,7 +65,7 @@ TEST(Parts, AMotionThatMovesNothingChangesNothing) {
   EXPECT_EQ(turned.mesh.triangles.raw(), still.mesh.triangles.raw());
 }
 
-TEST(Parts, ATunnelChangesNothingForAModelInIt) {
+TEST(Parts, TunnelDoesNotChangeModelInside) {
   const SurfaceValue still = meshed({rod()}), first = meshed({moved(rod(), k_turn), tunnel()}),
                      second = meshed({moved(rod(), translation({0.2, 0.1, 0.3}) * k_turn), tunnel()});
   ASSERT_EQ(first.parts.size(), 2u);
@@ -96,7 +96,7 @@ TEST(Parts, SeveralModelsKeepTheirPlacesInAnAssembly) {
   EXPECT_TRUE(surface.report.is_closed);
 }
 
-TEST(Parts, WhatPassesThroughTheTunnelIsMeshedWhereItIs) {
+TEST(Parts, PartsThroughTunnelWallAreMeshedInPlace) {
   ModelValue with_way_out = tunnel();
   with_way_out.through = {"rod*"};
   const SurfaceValue cut = meshed({moved(rod(), translation({2.0, 0, 0}) * k_turn), with_way_out});
@@ -112,7 +112,7 @@ TEST(Parts, SurfacesMoveAsModelsDo) {
   EXPECT_EQ(twice.parts.front().own->points.raw(), still.mesh.points.raw());
 }
 
-TEST_F(PartScripts, ATriangulatedModelStandsInATunnelAtAnyAttitude) {
+TEST_F(PartScripts, TriangulatedModelInTunnelAtAnyAttitude) {
   run("surface_mesh{ cylinder{ {-0.5, 0, 0}, {0.5, 0, 0}, radius = 0.2, name = 'rod' }, max_edge = 0.2, curvature_angle = 0.4 }:write(" + out("rod.stl") + ")");
   const std::string text = run("local rod = read_surface(" + out("rod.stl") +
                                ") local tunnel = surface_mesh{ test_section{ length = 4, width = 2, height = 2, walls = 'slip' } } "
@@ -124,7 +124,7 @@ TEST_F(PartScripts, ATriangulatedModelStandsInATunnelAtAnyAttitude) {
   EXPECT_THAT(error("surface_mesh{ box{ {0,0,0}, {1,1,1} } }:rotate{ pitch = 0.1, angle = 1 }"), HasSubstr("not both"));
 }
 
-TEST_F(PartScripts, GapsBetweenPartsAskForSizesWhereTheyAre) {
+TEST_F(PartScripts, GapsBetweenPartsRequireSizesInPlace) {
   run("local a = box{ {0,0,0}, {1,1,1} }:move{ 0.1, 0, 0 } local b = box{ {0,0,1.05}, {1,1,2} } surface_mesh{ a, b, max_edge = 0.3, gap_cells = 1 }");
   EXPECT_THAT(log_, HasSubstr("gaps between parts ask for sizes"));
   run("local a = box{ {0,0,0}, {1,1,1} }:move{ 0.1, 0, 0 } local b = box{ {0,0,1.05}, {1,1,2} } surface_mesh{ a, b, max_edge = 0.3 }");

@@ -56,7 +56,7 @@ TEST(ScriptRun, RandomNumbersFollowFromTheSeedAlone) {
   EXPECT_EQ(run_text("local a = math.random(1000000); math.randomseed(); print(a == math.random(1000000))"), "true\n");
 }
 
-TEST(ScriptRun, PairsGoesInTheSameOrderInEveryRun) {
+TEST(ScriptRun, PairsHasSameOrderInEveryRun) {
   EXPECT_EQ(
       run_text("local s = '' for k, v in pairs{ wing = 1, body = 2, tail = 3, engine = 4, 5, 6, [2.5] = 7 } do s = s .. k .. '=' .. v .. ' ' end print(s)"),
       "1=5 2=6 2.5=7 body=2 engine=4 tail=3 wing=1 \n");
@@ -118,7 +118,7 @@ TEST(ScriptRun, ObjectsCannotBeTornApart) {
   EXPECT_EQ(run_text("local s = read_surface 'box.stl'; print(pcall(s.write, {}), pcall(s.write), (pcall(s.write, 3)))").substr(0, 5), "false");
 }
 
-TEST(ScriptRun, InputsAreFoundBesideTheScriptAndPrintThemselves) {
+TEST(ScriptRun, InputsBesideScriptAreFoundAndPrinted) {
   EXPECT_EQ(run_text("local s = read_surface{ 'box.stl', unit = mm } print(s) print(s.triangles, s.vertices, s.is_closed, #s.patches, s.length)"),
             "TriMesh: 12 triangles, closed, 1 patch, 0.001 m long\n12\t8\ttrue\t1\t0.001\n");
   EXPECT_EQ(run_text("print(sphere{ radius = 2, edge = 0.5 })"), "sphere, edge 0.500000 m, radius 2.000000 m\n");
@@ -184,7 +184,7 @@ TEST(ScriptRun, HelpNamesEveryOptionWithItsRange) {
   EXPECT_EQ(error_of("help(3)").code(), ErrorCode::bad_argument);
 }
 
-TEST(ScriptRun, DeepRecursionAndWrongErrorValuesAreErrorsOfTheScript) {
+TEST(ScriptRun, DeepRecursionAndWrongErrorValuesFailScript) {
   EXPECT_EQ(error_of("local function f() return 1 + f() end f()").code(), ErrorCode::script_failed);
   EXPECT_EQ(error_of("error({})").code(), ErrorCode::script_failed);
   EXPECT_EQ(error_of("error()").code(), ErrorCode::script_failed);

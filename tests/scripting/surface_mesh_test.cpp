@@ -23,7 +23,7 @@ class SurfaceMeshVerb : public ScriptFixture {
   test::ProcessResult sterna(const std::vector<std::string>& arguments) { return test::run_process(test::sterna_program(), arguments, folder_); }
 };
 
-TEST_F(SurfaceMeshVerb, AClosedModelMakesAWallForVolumeMesh) {
+TEST_F(SurfaceMeshVerb, ClosedModelMakesWallForVolumeMesh) {
   EXPECT_EQ(run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5 } "
                 "print(w.is_closed, w.crossings, w.absorbed, w.min_angle > 25*deg, table.concat(w.patches, ' '), w.length) "
                 "local m = volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } m:check() m:write(" +
@@ -35,7 +35,7 @@ TEST_F(SurfaceMeshVerb, AClosedModelMakesAWallForVolumeMesh) {
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"surface_mesh\""), HasSubstr("\"max_edge\": 0.5"), Not(HasSubstr("surface_patches"))));
 }
 
-TEST_F(SurfaceMeshVerb, PatchesHaveSizesOfTheirOwnAndTheLongerPatternWins) {
+TEST_F(SurfaceMeshVerb, PatchSizesWithLongestPatternFirst) {
   const std::string model =
       "local m = assembly{ box{ {0,0,0}, {1,1,1}, name='wing' }, box{ {3,0,0}, {4,1,1}, name='wing_tip' } } local function n(o) o[1] = m o.max_edge = 0.5 "
       "return surface_mesh(o).triangles end ";
@@ -193,7 +193,7 @@ TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
   }
 }
 
-TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile) {
+TEST_F(SurfaceMeshVerb, FeatureAngleFollowsSurfaceMeshAlsoThroughFile) {
   const std::string wall = "local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } ";
   const std::string make = "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=20 } } print(e.feature_angle / deg) ";
   // Arcs of at most 30 degrees: the feature angle is one degree above the angle between neighbouring triangles.
@@ -226,7 +226,7 @@ TEST_F(SurfaceMeshVerb, RingsThatAreAbsorbedCloseTheirFaces) {
             "true\ttrue\n");
 }
 
-TEST_F(SurfaceMeshVerb, SplitsOfTheBoundaryPutNewVerticesOnTheModel) {
+TEST_F(SurfaceMeshVerb, BoundarySplitsPutNewVerticesOnModel) {
   run("local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } "
       "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, sources={ sphere{ {3,0,0}, radius=1, size=0.1 } }, tetrahedra={ "
       "boundary_splits='always', radius_edge=1.6 } }:write(" +

@@ -29,7 +29,7 @@ TEST(TableReader, FlatAndNestedNamesReachTheirOption) {
   EXPECT_EQ(options.farfield.farfield_edge, 7.5);
 }
 
-TEST(TableReader, EveryOptionOfEveryStageCanBeGivenFlatAndNested) {
+TEST(TableReader, StageOptionsCanBeGivenFlatAndNested) {
   volmesh::MeshCase options, defaults;
   for (const Option& option : volmesh::options_of(defaults)) {
     const OptionValue value = option.default_value;

@@ -70,7 +70,7 @@ TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
       HasSubstr("patches[\"inflow\"] requests layers = 4, but its patches carry no layers: \"inflow\" (of kind inflow)"));
 }
 
-TEST_F(TunnelScripts, AWakeBehindTheModelEndsAtTheOutlet) {
+TEST_F(TunnelScripts, WakeBehindModelEndsAtOutlet) {
   const std::string parts =
       "local t = test_section{ length = 6, width = 2, height = 2, max_edge = 0.5 } local function show(w) print(string.format('%.3f %.3f %.3f %.3f', w[1][1], "
       "w[2][2], w.length, w.height)) end ";
@@ -82,7 +82,7 @@ TEST_F(TunnelScripts, AWakeBehindTheModelEndsAtTheOutlet) {
   EXPECT_THAT(error(parts + "wake{ surface_mesh{ t }, length = 2 }"), HasSubstr("encloses its fluid, and no wall stands within it"));
 }
 
-TEST_F(TunnelScripts, AModelOnAStingIsTakenOutOfTheTunnelAtAnyAttitude) {
+TEST_F(TunnelScripts, StingModelIsCutOutAtAnyAttitude) {
   const std::string text = run(k_parts +
                                "for _, a in ipairs{ -4, 12 } do local m = assembly{ body, rod }:rotate{ pitch = a*deg, yaw = 5*deg } "
                                "local wall = surface_mesh{ m, tunnel, max_edge = 0.1, growth = 1.3 } "
@@ -98,7 +98,7 @@ TEST_F(TunnelScripts, AModelOnAStingIsTakenOutOfTheTunnelAtAnyAttitude) {
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"layers\""), HasSubstr("\"names\": \"tunnel_left\""), HasSubstr("\"first_height\": 0.0001")));
 }
 
-TEST_F(TunnelScripts, TunnelsAreMeshedAlsoWhenTheyComeFromFiles) {
+TEST_F(TunnelScripts, TunnelsFromFilesAreMeshed) {
   run("local rod = sting{ name = 'sting', from = { 0.3, 0, 0 }, to = { 4, 0, 0 }, diameter = 0.2, cone_start = 0.5, end_diameter = 0.25 }:model() "
       "local tunnel = test_section{ length = 4, width = 2, height = 2, walls = { layers = 6, first_height = 1e-4, max_edge = 0.4 } } "
       "local wall = surface_mesh{ rod, tunnel, max_edge = 0.15, growth = 1.3 } wall:write(" +
@@ -205,13 +205,13 @@ TEST_F(TunnelScripts, AssembliesAreUnitedWhereTheyTouch) {
             "1\t2\t2\t2\n");
 }
 
-TEST_F(TunnelScripts, TheRimOfAHalfModelIsOneLine) {
+TEST_F(TunnelScripts, HalfModelBoundaryIsReportedInOneLine) {
   run("print(surface_mesh{ half{ box{ {-1, -1, -1}, {1, 1, 1} } }, max_edge = 0.5 })");
   EXPECT_THAT(log_, HasSubstr("open      along 8 m in the plane y = 0 m, 4 edges"));
   EXPECT_THAT(log_, testing::Not(HasSubstr("of face")));
 }
 
-TEST_F(TunnelScripts, HalfOfAModelHasItsRimInThePlane) {
+TEST_F(TunnelScripts, HalfModelHasItsBoundaryInPlane) {
   const std::string text =
       run("local m = aircraft{ fuselage{ name = 'body', frames = { { x = 0.3, diameter = 0.5 }, { x = 2, diameter = 1 }, { x = 5, diameter = 0.6 } } }, "
           "wing{ name = 'wing', symmetric = true, position = { 1.5, 0, -0.2 }, trailing_edge = 0.01, sections = { { y = 0, chord = 1.2, airfoil = 'naca2412' "

@@ -44,7 +44,7 @@ TEST_F(VolumeAsSurface, EveryReaderOfBothCountsTheCells) {
   EXPECT_GE(n, 8);
 }
 
-TEST_F(VolumeAsSurface, TheBoundaryIsTakenWhenItIsAskedFor) {
+TEST_F(VolumeAsSurface, BoundaryIsTakenOnRequest) {
   const std::string problem = error("volume_mesh{ read_surface(" + out("mesh.su2") + "), layers = 2, first_height = 0.01 }");
   EXPECT_THAT(problem, AllOf(HasSubstr("volume mesh of"), HasSubstr("farfield"), HasSubstr("convert"), HasSubstr("take_boundary")));
   EXPECT_THAT(error("union{ " + out("mesh.su2") + " }"), HasSubstr("it is a volume mesh"));

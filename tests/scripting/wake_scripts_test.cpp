@@ -29,7 +29,7 @@ class WakeScripts : public ScriptFixture {
   }
 };
 
-TEST_F(WakeScripts, FiveSheetsOfAnAircraftDoNotLeaveFlatTetrahedra) {  // with this farfield our own refinement got stuck below the wing's sheet
+TEST_F(WakeScripts, FiveSheetsOfAircraftLeaveNoFlatTetrahedra) {  // with this farfield our own refinement got stuck below the wing's sheet
   const std::string told = run(
       aircraft() +
           "local mesh = volume_mesh{ wall, layers = 20, first_height = 1e-5, farfield = sphere{ radius = 200 }, wakes = 'auto', improve = { improve_rounds = 0 "

@@ -113,7 +113,7 @@ TEST_F(WithoutEffect, RetryOfSeriesMayBeSet) {
   EXPECT_THAT(sterna({"run", "s.lua", "--set", "series.retri=true"}).errors, HasSubstr("retri"));
 }
 
-TEST_F(WithoutEffect, NamesAndKindsThatAFormatDoesNotStoreAreWarnings) {
+TEST_F(WithoutEffect, UnstoredNamesAndKindsAreWarnings) {
   const std::string kinds = "surface_mesh{ box{ name = 'floor', {0, 0, 0}, {1, 1, 1} }:kinds{ ['*'] = 'slip' } }";
   run(kinds + ":write(" + out("k.stl") + ")");
   EXPECT_THAT(log_, AllOf(HasSubstr("binary STL has no patches: the kinds of"), HasSubstr("(slip) are lost"), HasSubstr("Formats with names: STL text, OBJ")));
@@ -151,7 +151,7 @@ TEST_F(WithoutEffect, InspectTakesAHalf) {
 }
 
 /// A source acts on both wall and volume.
-TEST_F(WithoutEffect, SourcesRefineTheWallOfModelsAndSayWhatTheyDoElsewhere) {
+TEST_F(WithoutEffect, SourcesRefineModelWallsAndWarnElsewhere) {
   const auto facets = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"mesh", "box.step",          "-o", "m.sterna", "--first-height",           "5e-3", "--layers",
                                       "2",    "--farfield-radius", "4",  "--set",    "surface_mesh.max_edge=0.2"};

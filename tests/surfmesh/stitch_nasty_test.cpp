@@ -162,7 +162,7 @@ TEST(StitchClean, ThreadsDoNotChangeRealSurfaces) {
   }
 }
 
-TEST(StitchClean, EachPartOfTheRearWingAloneIsOpen) {
+TEST(StitchClean, EachRearWingPartAloneIsOpen) {
   STERNA_NEEDS_SHARED_DATA();
   for (const std::string& file : clean_surfaces()[6].files) {
     const ErrorInfo info = stitch_error({io::read_surface_file(shared_data() / "surfaces" / "clean" / file, quiet())});

@@ -69,7 +69,7 @@ SurfaceSoup with_flat_facets(const TriMesh& mesh, std::mt19937& random, int n) {
   return soup;
 }
 
-TEST(StitchRandom, SlitsFilledByFlatFacetsCloseWithoutMovingTheSurface) {
+TEST(StitchRandom, FlatFacetsCloseSlitsWithoutMovingSurface) {
   int n_valid = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
     std::mt19937 random(seed);

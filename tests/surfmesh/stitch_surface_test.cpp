@@ -38,7 +38,7 @@ TEST(Stitch, MinusZeroIsZero) {
   EXPECT_EQ(stitch({soup}).mesh.n_vertices(), 8u);
 }
 
-TEST(Stitch, AllVertexOrdersAndFlippedSubsetsGiveTheSameSurface) {
+TEST(Stitch, VertexOrderAndFlippedSubsetsDoNotMatter) {
   const SurfaceSoup cube_soup = soup_of(cube());
   for (unsigned subset = 0; subset < 4096; subset += 7) {
     SurfaceSoup soup = cube_soup;
@@ -53,7 +53,7 @@ TEST(Stitch, AllVertexOrdersAndFlippedSubsetsGiveTheSameSurface) {
   }
 }
 
-TEST(Stitch, WithTheFluidInsideTheOuterShellTurnsInwardsAndBodiesInItDoNot) {
+TEST(Stitch, FluidInsideTurnsOnlyOuterShellInwards) {
   TriMesh room = cube(2);
   for (Point& p : room.points) p = 4.0 * (p - Point{0.5, 0.5, 0.5});
   const TriMesh body = sphere(4, 0.5);
@@ -67,7 +67,7 @@ TEST(Stitch, WithTheFluidInsideTheOuterShellTurnsInwardsAndBodiesInItDoNot) {
   }
 }
 
-TEST(Stitch, FlippedSubsetOfASphereIsTurnedAndSaid) {
+TEST(Stitch, FlippedSphereSubsetIsTurnedAndReported) {
   std::mt19937 random(5);
   SurfaceSoup soup = soup_of(sphere(6));
   std::int64_t n_turned = 0;
@@ -301,7 +301,7 @@ TEST(Stitch, SmallFeaturesSurviveAutomaticWelding) {
 }
 
 /// Four facets of 5e-16 m^2 in total, like those left after cutting an airliner (afem_777 of the shared data): no engine could fill the region around them.
-TEST(Stitch, ClosedPartsAsThinAsALineAreDropped) {
+TEST(Stitch, LineThinClosedPartsAreDropped) {
   const Point a{22.4296329915802, -4.474867651151561, -1.4976376603496493}, b{22.531284837491143, -4.620135054854733, -1.4720450933317415},
       c{22.497628296598837, -4.572037568092529, -1.4805186952684144}, d{22.564713814461207, -4.667907337289712, -1.4636287844513693};
   SurfaceSoup soup = soup_of(cube(2));

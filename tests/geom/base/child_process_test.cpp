@@ -25,7 +25,7 @@ fs::path new_folder(const std::string& name) {
   return folder;
 }
 
-TEST(ChildProcess, OutputAndErrorsGoToAFileThatIsEmptiedAndItsFolderIsTheGivenOne) {
+TEST(ChildProcess, OutputAndErrorsOverwriteFileInGivenFolder) {
   const fs::path folder = new_folder("child_process_output"), output = folder / "words.txt";
   std::ofstream(output) << "of an earlier run, longer than what comes now";
   ChildProcess child({.words = {"sh", "-c", "pwd; echo \"$1\" >&2; exit 3", "sh", "two words"}, .descriptors = {}, .output = output, .folder = folder});
@@ -35,7 +35,7 @@ TEST(ChildProcess, OutputAndErrorsGoToAFileThatIsEmptiedAndItsFolderIsTheGivenOn
   EXPECT_EQ(text_of(output), fs::canonical(folder).string() + "\ntwo words\n");
 }
 
-TEST(ChildProcess, DescriptorsOfPipesAreAboveThoseThatAChildInherits) {
+TEST(ChildProcess, PipeDescriptorsAreAboveInheritedDescriptors) {
   Pipe first(ErrorCode::internal, "test"), second(ErrorCode::internal, "test");
   for (const Pipe* pipe : {&first, &second}) {
     EXPECT_GE(pipe->read_end.value, k_first_free_descriptor);
@@ -57,7 +57,7 @@ TEST(ChildProcess, DescriptorsOfPipesAreAboveThoseThatAChildInherits) {
   EXPECT_EQ(of_second, "third\n");
 }
 
-TEST(ChildProcess, AProgramThatIsNotThereIsAnErrorWithItsName) {
+TEST(ChildProcess, MissingProgramIsErrorWithName) {
   try {
     ChildProcess child({.words = {"sterna-no-such-program"}, .descriptors = {}, .output = {}, .folder = {}});
     FAIL() << "it was started";
@@ -67,7 +67,7 @@ TEST(ChildProcess, AProgramThatIsNotThereIsAnErrorWithItsName) {
   }
 }
 
-TEST(ChildProcess, WhatAChildHasStartedIsGoneWithTheObject) {
+TEST(ChildProcess, GrandchildrenEndWithTheObject) {
   Pipe pipe(ErrorCode::internal, "test");
   {
     ChildProcess child({.words = {"sh", "-c", "sleep 60 & echo begun; wait"}, .descriptors = {{pipe.write_end.value, 1}}, .output = {}, .folder = {}});

@@ -22,7 +22,7 @@ TEST(HashFile, MatchesXxhsumAndSeesEveryByte) {
   EXPECT_NE(hash_file(path), before);
 }
 
-TEST(HashFile, OfSeveralFilesIsThatOfTheListOfTheirs) {
+TEST(HashFile, SeveralFilesGiveHashOfTheirList) {
   const auto folder = test::scratch();
   std::ofstream(folder / "a") << "";
   std::ofstream(folder / "b") << "";
@@ -52,7 +52,7 @@ TEST(HashFile, AMissingFileIsAnError) {
   EXPECT_NE(message(folder).find("this is a folder"), std::string::npos) << message(folder);
 }
 
-TEST(HashFile, AFileThatCannotBeReadGivesTheReason) {
+TEST(HashFile, UnreadableFileGivesReason) {
   // This file opens normally, but reading its start fails.
   test::expect_error(ErrorCode::file_malformed, "/proc/self/mem: reading failed half-way: Input/output error", [&] { (void)hash_file("/proc/self/mem"); });
 }

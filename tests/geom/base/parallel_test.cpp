@@ -52,7 +52,7 @@ TEST(Parallel, SevenThreadsRunBesideContextsOfFewer) {
   EXPECT_EQ(threads_inside(two, 2), 2u);
 }
 
-TEST(Parallel, AContextTakesNoMoreThreadsThanItsOwn) {
+TEST(Parallel, ContextUsesAtMostItsThreads) {
   const RunContext seven({.threads = 7});
   const RunContext two({.threads = 2});
   std::mutex mutex;
@@ -67,7 +67,7 @@ TEST(Parallel, AContextTakesNoMoreThreadsThanItsOwn) {
   EXPECT_LE(seen.size(), 2u);
 }
 
-TEST(Parallel, ReductionGivesTheSameBitsForAnyThreadCount) {
+TEST(Parallel, ReductionIsBitIdenticalForAnyThreads) {
   std::vector<double> values(200000);
   std::mt19937_64 random(7);
   for (double& v : values) v = static_cast<double>(random()) * 1e-3;

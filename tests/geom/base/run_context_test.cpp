@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-TEST(RunContext, StepsThatTakeLongSaySoEachTimeTheyHaveTakenTwiceAsLong) {
+TEST(RunContext, LongStepsReportAtDoublingTimes) {
   std::vector<std::string> warnings;
   const RunContext context({.threads = 1,
                             .log =

@@ -72,7 +72,7 @@ TEST(Schema, MemoryHasUnits) {
   EXPECT_THROW(set_option_from_text(find_option(table, "max_memory", "test"), "16mm"), Error);
 }
 
-TEST(Schema, LimitsOfAnglesMayBeTypedAsTheyArePrinted) {
+TEST(Schema, AngleLimitsAreAcceptedAsPrinted) {
   volmesh::MeshCase options;
   int n_limits = 0;
   for (const Option& option : volmesh::options_of(options)) {

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 /// Cutting and flipping plane faces moves vertices by rounding only.
 constexpr double k_rounding = 1e-12;
 
-TEST(UniteMeshes, CubesThatOverlapHaveTheVolumeOfBothMinusTheCommon) {
+TEST(UniteMeshes, OverlappingCubesHaveUnionVolume) {
   for (const bool remesh : {false, true}) {
     const UnionResult result = unite({cube(2), shifted(cube(2), {0.5, 0.25, 0.3})}, {.remesh = remesh});
     EXPECT_NEAR(volume(result.mesh), 2.0 - 0.5 * 0.75 * 0.7, k_rounding);
@@ -41,7 +41,7 @@ TEST(UniteMeshes, TheSameBodyTwiceIsThatBody) {
   EXPECT_NEAR(volume(result.mesh), volume(sphere(4)), k_rounding);
 }
 
-TEST(UniteMeshes, BodiesThatTouchInAnEdgeOrPointAreAnErrorAtThatPlace) {
+TEST(UniteMeshes, BodiesTouchingInEdgeOrPointAreErrors) {
   const ErrorInfo edge = union_error({cube(1), shifted(cube(1), {1, 1, 0})});
   EXPECT_EQ(edge.code, ErrorCode::non_manifold_surface);
   EXPECT_THAT(edge.attempted, HasSubstr("b and a cannot be united"));
@@ -71,7 +71,7 @@ TEST(UniteMeshes, BodiesApartStayAsTheyAre) {
   EXPECT_NEAR(volume(result.mesh), volume(one) + volume(two), k_rounding);
 }
 
-TEST(UniteMeshes, SenseAndOrderOfTheBodiesDoNotMatter) {
+TEST(UniteMeshes, OrientationAndOrderOfBodiesDoNotMatter) {
   const TriMesh a = cube(2), b = turned(shifted(cube(3), {0.3, 0.2, 0.1}), 0.3, 0.7);
   TriMesh inside_out = b;
   for (auto& t : inside_out.triangles) std::swap(t[1], t[2]);
@@ -107,7 +107,7 @@ TEST(UniteMeshes, ManyPositionsOfASphereInACube) {
   }
 }
 
-TEST(UniteMeshes, AStingKeepsPatchesAndTheSurfaceAwayFromTheCurve) {
+TEST(UniteMeshes, StingKeepsPatchesAndSurfaceAwayFromCurve) {
   const TriMesh body = named(stretched(sphere(12), {2.0, 0.5, 0.5}), "body"), sting = named(shifted(cylinder(0.12, 2.5, 24, 20), {1.0, 0.0, 0.02}), "sting");
   const UnionResult result = unite({body, sting});
   ASSERT_EQ(result.mesh.patches.size(), 2u);
@@ -137,7 +137,7 @@ TEST(UniteMeshes, AStingKeepsPatchesAndTheSurfaceAwayFromTheCurve) {
   EXPECT_LT(result.report.max_deviation, 0.005);
 }
 
-TEST(UniteMeshes, LengthsAreGradedFromASmallBodyToALargeFace) {
+TEST(UniteMeshes, LengthsGradeFromSmallBodyToLargeFace) {
   // Half-sunk rod: some vertices of the rod lie in the floor's plane, others 6e-18 beside the plane.
   const UnionResult result = unite({named(shifted(cube(1), {-0.5, -0.5, -1}), "floor"), named(cylinder(0.05, 0.5, 16, 8), "rod")});
   const UnionResult stands = unite({named(shifted(cube(1), {-0.9, -0.45, -0.55}), "floor"), named(cylinder(0.05, 0.5, 16, 8), "rod")});
@@ -188,14 +188,14 @@ TEST(UniteMeshes, HollowsAreDroppedUnlessTheyAreKept) {
   EXPECT_THAT(dropped.report.messages, testing::Contains(HasSubstr("is dropped: the outer flow does not reach it")));
 }
 
-TEST(UniteMeshes, PatchesOfTheSameNameGetTheirPartsName) {
+TEST(UniteMeshes, EqualPatchNamesGetPartNames) {
   const UnionResult result = unite({named(cube(2), "wall"), named(shifted(cube(2), {0.5, 0.25, 0.3}), "wall")});
   ASSERT_EQ(result.mesh.patches.size(), 2u);
   EXPECT_EQ(result.mesh.patches.raw()[0].name, "a_wall");
   EXPECT_EQ(result.mesh.patches.raw()[1].name, "b_wall");
 }
 
-TEST(UniteMeshes, OpenAndSelfCrossingPartsAreErrorsThatNamePartAndPlace) {
+TEST(UniteMeshes, OpenOrCrossingPartsAreErrorsWithLocation) {
   TriMesh open = cube(2);
   open.triangles.raw().pop_back();
   open.triangle_patch.raw().pop_back();

@@ -47,7 +47,7 @@ TEST(UniteReal, TwoSpheresBecomeOneWall) {
   expect_valid_mesh(united.mesh, 25, 1e-5);
 }
 
-TEST(UniteReal, HubAndBladesOfAPropellerBecomeOneWall) {
+TEST(UniteReal, PropellerHubAndBladesBecomeOneWall) {
   STERNA_NEEDS_SHARED_DATA();
   const UnionResult united = unite_meshes({nasty("uuv_propeller_1.stl")}, {}, quiet());
   expect_wall(united.mesh);

@@ -70,13 +70,13 @@ TEST(HalfModelAtASeam, ABodyOfRevolutionIsCutThere) {
   EXPECT_NEAR(total_of(half.model).area, 0.5 * total_of(file.model).area, 1e-6);
 }
 
-TEST(HalfModelAtASeam, ANacelleWithAStrutAcrossItsSeamsIsCut) {
+TEST(HalfModelAtASeam, NacelleWithStrutAcrossSeamsIsCut) {
   const CadFile file = read_closed("nacelle_seam.brep.gz");
   const HalfModel half = cad::half_model(file.model, {}, RunContext());
   EXPECT_NEAR(total_of(half.model).area, 0.5 * total_of(file.model).area, 1e-4);
 }
 
-TEST(Sheets, SketchesBesideASolidAreLeftOutAndNamed) {
+TEST(Sheets, SketchesBesideSolidAreOmittedAndNamed) {
   const CadFile file = read_closed("nacelle_sketches.brep.gz");
   EXPECT_TRUE(file.report.is_closed()) << to_text(file.report);
   EXPECT_EQ(file.report.n_faces, 16u);

@@ -30,7 +30,7 @@ PartContact only_contact(const std::vector<Model>& parts) {
   return report.contacts.empty() ? PartContact{} : report.contacts.front();
 }
 
-TEST(Contacts, PartsThatCrossAtRightAnglesRaiseNoDoubt) {
+TEST(Contacts, PartsCrossingAtRightAnglesGiveNoWarning) {
   const std::vector<Model> parts = {tube("body", 0.5), tube("post", 0.2, {.origin = {2, 0, 0}, .rotation = {0, -0.5 * pi, 0}})};
   const PartContact contact = only_contact(parts);
   EXPECT_EQ(contact.kind, ContactKind::crossing);
@@ -39,7 +39,7 @@ TEST(Contacts, PartsThatCrossAtRightAnglesRaiseNoDoubt) {
   EXPECT_EQ(cad::doubt_of(contact, parts), "");
 }
 
-TEST(Contacts, ANearlyTangentJoinIsToldWithItsPlaceAndAngle) {
+TEST(Contacts, NearlyTangentJoinIsReportedWithItsAngle) {
   // Parallel tubes whose axes are 0.998 diameters apart: their surfaces cross at 2 acos(0.998) = 7.25 degrees.
   const std::vector<Model> parts = {tube("low", 0.5), tube("high", 0.5, {.origin = {0.3, 0, 0.998}})};
   const PartContact contact = only_contact(parts);
@@ -70,7 +70,7 @@ TEST(Contacts, GapsTouchesAndPartsInsideOthersAreTold) {
   EXPECT_EQ(cad::doubt_of(contact, inside), "\"fuel\" lies inside \"hangar\"");
 }
 
-TEST(Contacts, ExposureIsTheShareOfAPartThatIsOutside) {
+TEST(Contacts, ExposureIsTheOutsideShareOfPart) {
   const std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "thick"), test::cylinder(0.5, 2.0, {0, 0, 1}, "thin")};
   const ContactReport report = cad::find_contacts(parts, RunContext());
   ASSERT_EQ(report.exposures.size(), 2u);
@@ -79,7 +79,7 @@ TEST(Contacts, ExposureIsTheShareOfAPartThatIsOutside) {
   EXPECT_NEAR(report.exposures[1].outside, thin, 0.02);
 }
 
-TEST(Contacts, ArePartOfTheReportAndOfTheLogBeforeTheUnion) {
+TEST(Contacts, AreInReportAndLogBeforeUnion) {
   std::vector<std::string> warnings;
   const RunContext context({.log = [&](LogLevel level, std::string_view text) {
     if (level == LogLevel::warning) warnings.emplace_back(text);

@@ -52,7 +52,7 @@ TEST(FluidDomain, ABodyInsideIsLeftAsItIs) {
   EXPECT_EQ(fluid.model.faces[FaceId(6)].surface, bodies[0].faces[FaceId(0)].surface);
 }
 
-TEST(FluidDomain, AStingThroughTheOutflowWallIsCutOffThere) {
+TEST(FluidDomain, StingIsCutAtTheOutflowWall) {
   for (const double pitch : {0.0, 0.2}) {
     const Model sting = transformed(make_cylinder("sting", {0, 0, 0}, {4, 0, 0}, 0.1), rotation({}, {0, 1, 0}, pitch));
     const std::vector<Model> bodies = {sting};
@@ -88,7 +88,7 @@ TEST(FluidDomain, ModelAndStingThatTouchAreUnitedFirst) {
   for (const char* name : {"model", "sting", "inflow", "outflow"}) EXPECT_TRUE(names.contains(name)) << name;
 }
 
-TEST(FluidDomain, AStrutStandsOnTheFloorOrPassesThroughIt) {
+TEST(FluidDomain, StrutStandsOnFloorOrPassesThroughIt) {
   for (const double foot : {-1.0, -1.5}) {
     const std::vector<Model> bodies = {make_cylinder("strut", {0, 0, foot}, {0, 0, 0}, 0.1)};
     const FluidDomain fluid = cad::fluid_domain(tunnel(), bodies, {}, RunContext());
@@ -100,7 +100,7 @@ TEST(FluidDomain, AStrutStandsOnTheFloorOrPassesThroughIt) {
   }
 }
 
-TEST(FluidDomain, AWingOnASideWallLosesItsOtherHalf) {
+TEST(FluidDomain, WingOnSideWallLosesOtherHalf) {
   Wing wing{.name = "wing", .is_symmetric = true, .trailing_edge = 0.005};
   const auto section = [](double y, double chord) {
     WingSection s{.name = "s", .leading_edge = {-0.5 * chord, y, 0.0}, .chord = chord};
@@ -122,7 +122,7 @@ TEST(FluidDomain, AWingOnASideWallLosesItsOtherHalf) {
   for (const ModelCorner& corner : fluid.model.corners) EXPECT_GT(corner.point.y, -1.0 - 1e-6);
 }
 
-TEST(FluidDomain, AContainerOfTheUsersMayHaveNormalsEitherWay) {
+TEST(FluidDomain, CustomContainerMayHaveNormalsEitherWay) {
   const std::vector<Model> bodies = {make_cylinder("sting", {0, 0, 0}, {4, 0, 0}, 0.1)};
   const Model tube = test::cylinder(1.0, 4.0, {0, 0, -2}, "tube");
   const std::vector<Model> across = {make_cylinder("sting", {0, 0, 0}, {0, 0, 4}, 0.1)};

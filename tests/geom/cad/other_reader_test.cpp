@@ -36,7 +36,7 @@ std::optional<std::string> read_with_gmsh(const std::filesystem::path& file) {
   return output;
 }
 
-TEST(OtherReader, GmshReadsTheSolidWithItsMeasuresAndNames) {
+TEST(OtherReader, GmshReadsSolidWithMeasuresAndNames) {
   const double r = 0.3, h = 2.0;
   for (const char* extension : {"brep", "step", "iges"}) {
     SCOPED_TRACE(extension);

@@ -36,7 +36,7 @@ void expect_consistent(const Model& model) {
   }
 }
 
-TEST(ReadCad, AnAssemblyKeepsItsPlacedInstancesAndFaceNames) {
+TEST(ReadCad, AssemblyKeepsInstancesAndFaceNames) {
   STERNA_NEEDS_SHARED_DATA();
   const CadFile file = read("gmsh_parts_as1-tu-203.stp");
   EXPECT_EQ(file.report.n_faces, 160u);
@@ -59,7 +59,7 @@ TEST(ReadCad, LooseIgesFacesBecomeASolid) {
   EXPECT_GT(model_measures(file.model, RunContext()).total.volume, 0.0);
 }
 
-TEST(ReadCad, AUnitThatIsNotPlausibleIsDoubtedAndCanBeOverruled) {
+TEST(ReadCad, ImplausibleUnitWarnsAndCanBeOverruled) {
   STERNA_NEEDS_SHARED_DATA();
   const CadFile as_written = read("iea15_rotor_IEA_15MW_CFD.stp");
   EXPECT_EQ(as_written.report.unit, 1e-3);
@@ -94,7 +94,7 @@ TEST(ReadCad, TheNacelleAndTheWingAreConsistent) {
   }
 }
 
-TEST(ReadCad, AStepExportOfRealFilesReadsBackTheSame) {
+TEST(ReadCad, StepExportOfRealFilesReadsBackEqual) {
   STERNA_NEEDS_SHARED_DATA();
   for (const char* name : {"gmsh_parts_as1-tu-203.stp", "tigl_simplewing_simplewing.brep", "dealii_cad_wing.iges", "netgen_parts_screw.step"}) {
     SCOPED_TRACE(name);

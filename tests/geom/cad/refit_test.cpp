@@ -65,7 +65,7 @@ void expect_same_body(const Model& model, const Export& file, double tolerance) 
   EXPECT_NEAR(after.area, before.area, 2.0 * tolerance * 10.0 * std::sqrt(before.area));
 }
 
-TEST(Refit, ABentWingIsExportedClosedWithItsNames) {
+TEST(Refit, BentWingIsExportedClosedWithNames) {
   Aircraft aircraft;
   aircraft.wings.push_back({.name = "Wing", .sections = {section({1.0, 5.0, 0.2}, 1.0), section({0, 0, 0}, 2.0)}});
   const Model wing = make_components(aircraft, RunContext());
@@ -83,7 +83,7 @@ TEST(Refit, ABentWingIsExportedClosedWithItsNames) {
   }
 }
 
-TEST(Refit, ABentCylinderWithItsSeamInEveryFormat) {
+TEST(Refit, BentCylinderWithSeamInEveryFormat) {
   const Model can = test::cylinder(0.3, 2.0, {0.5, 1.0, 0.0});
   const Model bent = deformed(can, bending(), RunContext());
   for (const cad::CadFormat format : {cad::CadFormat::step, cad::CadFormat::iges, cad::CadFormat::brep}) {

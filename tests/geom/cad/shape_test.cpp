@@ -15,7 +15,7 @@ constexpr double k_radius = 0.3, k_height = 2.0;
 /// Tolerance of measures, which are integrated to 1e-8.
 constexpr double k_measured = 1e-7;
 
-TEST(CadShape, ACylinderOfOurSurfacesIsAValidSolid) {
+TEST(CadShape, CylinderOfOwnSurfacesIsValidSolid) {
   const Model model = test::cylinder(k_radius, k_height);
   const auto shape = cad::shape_of(model, RunContext());
   const std::vector<ErrorPlace> faults = cad::faults_of(*shape);
@@ -69,7 +69,7 @@ TEST(CadShape, TheSameModelGivesTheSameBytes) {
         << to_string(format);
 }
 
-TEST(CadShape, ASurfaceWithoutExactFormIsNamedWithItsPlace) {
+TEST(CadShape, SurfaceWithoutExactFormIsNamedWithLocation) {
   class Bump final : public Surface {
     ParameterBox domain() const override { return {{0, 1}, {0, 1}}; }
     Point point(Uv at) const override { return {at.u, at.v, std::sin(at.u)}; }

@@ -21,7 +21,7 @@ namespace {
 
 using test::face_names;
 
-TEST(SplitSolids, EachPartHasItsOwnFacesAndComponentsAlone) {
+TEST(SplitSolids, EachPartHasOnlyItsFacesAndComponents) {
   Model both = test::cylinder(1.0, 2.0, {}, "low");
   append(both, test::cylinder(1.0, 2.0, {0, 0, 5}, "high"));
   const std::vector<Model> parts = cad::split_solids(both);
@@ -50,7 +50,7 @@ TEST(SplitSolids, LooseFacesAreRefusedWithTheirPlace) {
   }
 }
 
-TEST(UniteHalves, ThatMeetInThePlaneOfSymmetryAreOneBody) {
+TEST(UniteHalves, HalvesMeetingInSymmetryPlaneBecomeOneBody) {
   // A swept wing: an edge remains along its root, but no face.
   const auto section = [](double y, double chord, double x) {
     WingSection s{.name = "s", .leading_edge = {x, y, 0.0}, .chord = chord};

@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-TEST(Unite, CylindersThatOverlapAreOneBodyOfKnownVolume) {
+TEST(Unite, OverlappingCylindersAreOneBodyOfKnownVolume) {
   std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "thick"), test::cylinder(0.5, 2.0, {0, 0, 1}, "thin")};
   parts[1].faces[FaceId(0)].role = FaceRole::nozzle;
   const UniteResult result = cad::unite(parts, {}, RunContext());
@@ -43,7 +43,7 @@ TEST(Unite, BodiesApartAreToldWithTheirGap) {
   EXPECT_NE(result.report.doubts.front().what.find("apart by 0.25"), std::string::npos) << result.report.doubts.front().what;
 }
 
-TEST(Unite, PartsThatTouchWithAWholeFaceLoseIt) {
+TEST(Unite, PartsTouchingWithWholeFaceLoseIt) {
   const std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "low"), test::cylinder(1.0, 1.0, {0, 0, 2.0}, "high")};
   const UniteResult result = cad::unite(parts, {}, RunContext());
   EXPECT_EQ(result.report.n_bodies, 1u);

@@ -81,7 +81,7 @@ struct RandomInsertions {
   }
 };
 
-TEST(SurfaceTriangulation, ScaleIsAPowerOfTwoNearTheSpeed) {
+TEST(SurfaceTriangulation, ScaleIsPowerOfTwoNearSpeed) {
   for (const double speed : {1e-9, 0.3, 1.0, 7e5}) {
     int exponent;
     EXPECT_EQ(std::frexp(scale_of_speed(speed), &exponent), 0.5);
@@ -169,7 +169,7 @@ TEST(SurfaceTriangulation, RenumberingKeepsTheTriangles) {
   EXPECT_EQ(sorted(renamed), sorted(extract_triangles(before)));
 }
 
-TEST(SurfaceTriangulation, BordersOnTopOfEachOtherAreAnError) {
+TEST(SurfaceTriangulation, CoincidentBordersAreAnError) {
   SurfaceBorder border;
   const std::vector<Uv> places{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -211,7 +211,7 @@ TEST(SphereCriterion, IsTheCircleInAPlane) {
   }
 }
 
-TEST(SphereCriterion, LeavesTheOtherSideOfAThinPartAlone) {
+TEST(SphereCriterion, LeavesOtherSideOfThinPartUnchanged) {
   Triangulation mesh;
   mesh.cells.push_back(Cell{{VertexId(0u), VertexId(1u), VertexId(2u)}, {}, {}, false, 0});
   const Column<VertexId, Point> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.4, 0.4, -0.01}};

@@ -130,7 +130,7 @@ TEST(Draw, IsoShowsThreeSidesOfACube) {
 }
 
 /// A block with a symmetry plane at y = 0 or at y = 1.
-TEST(Draw, HalfModelsAreSeenFromTheSideOfTheFluidWhetherIsoIsNamedOrNot) {
+TEST(Draw, HalfModelsAreSeenFromFluidSide) {
   for (const double at : {0.0, 1.0}) {
     HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = 0.5, .ratio = 1.0, .outer_height = 1.0});
     PatchId plane;
@@ -182,7 +182,7 @@ TEST(Draw, PatchesThatAreNotNamedAreNotShown) {
                                     .at(100, 100));
 }
 
-TEST(Draw, ACutOfAPlateShowsPrismsBelowTetrahedra) {
+TEST(Draw, PlateCutShowsPrismsBelowTetrahedra) {
   const HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = 0.5, .ratio = 1.0, .outer_height = 1.0});
   DrawOptions options = bare();
   options.cut = "y=0.55";
@@ -196,7 +196,7 @@ TEST(Draw, ACutOfAPlateShowsPrismsBelowTetrahedra) {
   EXPECT_EQ(count(image, prism) + count(image, tet) + count(image, {255, 255, 255}), image.pixels.size());  // and no other colours
 }
 
-TEST(Draw, WallsInFrontOfACutAreCutOff) {
+TEST(Draw, WallsInFrontOfCutAreRemoved) {
   const HybridMesh mesh = cube_shell(4, {.layer_height = 0.1, .outer_height = 0.5});
   DrawOptions options = bare();
   options.cut = "point=0.5,0.5,0.5 normal=0,1,0";
@@ -209,7 +209,7 @@ TEST(Draw, WallsInFrontOfACutAreCutOff) {
   EXPECT_NE(middle, draw::kind_color(CellKind::prism));
 }
 
-TEST(Draw, EveryViewColourAndPlaceOfASmallMesh) {
+TEST(Draw, EveryViewColourAndLocationOfSmallMesh) {
   const HybridMesh mesh = sphere_shell(4);
   DrawOptions options;
   options.width = 320;
@@ -239,7 +239,7 @@ TEST(Draw, EveryViewColourAndPlaceOfASmallMesh) {
   }
 }
 
-TEST(Draw, BytesAreTheSameForAnyNumberOfThreads) {
+TEST(Draw, BytesAreEqualForAnyNumberOfThreads) {
   const HybridMesh mesh = sphere_shell(8);
   DrawOptions options;
   options.width = 640;
@@ -320,7 +320,7 @@ TEST(Draw, TheLegendDoesNotCoverWhatIsDrawn) {
   for (int y = 110; y < 150; ++y) EXPECT_EQ(beside.at(edge + 8, y), paper);  // no part of the cube appears below the legend's panel
 }
 
-TEST(Draw, ACutShowsTheLineOfADiscAndItsName) {
+TEST(Draw, CutShowsDiscAsLineWithName) {
   HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = 0.5, .ratio = 1.0, .outer_height = 1.0});
   const PatchId disc = mesh.patches.push_back({"prop", PatchKind::interface}), back = mesh.patches.push_back({"prop.back", PatchKind::interface});
   std::array<NodeId, 4> n;
@@ -354,7 +354,7 @@ TEST(Draw, MarksAreWhatTheCheckFound) {
   EXPECT_EQ(texts.size(), bad.size());  // each kind is listed once
 }
 
-TEST(Draw, WhatIsNotThereIsRefusedWithWhatIs) {
+TEST(Draw, UnknownNamesAreRefusedWithKnownOnes) {
   const HybridMesh mesh = sphere_shell(2);
   const auto refused = [&](const std::function<void(DrawOptions&)>& change, ErrorCode code) {
     DrawOptions options = bare();

@@ -71,7 +71,7 @@ TEST(Raster, PolygonsCrossWhereTheyAreEquallyFar) {
   EXPECT_EQ(image.at(11, 10), k_red);
 }
 
-TEST(Raster, LinesAreOnEdgesOfPolygonsAndNotOnTheirDiagonals) {
+TEST(Raster, LinesAreOnPolygonEdgesNotDiagonals) {
   Polygons polygons;
   add(polygons, {{8, -8, 0}, {56, -8, 0}, {56, -56, 0}, {8, -56, 0}}, k_red, true);
   const Image image = rasterise(polygons, from_above(), {64, 64, true, 2.0}, k_context);
@@ -83,14 +83,14 @@ TEST(Raster, LinesAreOnEdgesOfPolygonsAndNotOnTheirDiagonals) {
   EXPECT_EQ(without.at(8, 30), k_red);
 }
 
-TEST(Raster, LinesFadeWherePolygonsAreTooSmallToTell) {
+TEST(Raster, LinesFadeWherePolygonsAreTooSmall) {
   Polygons polygons;
   for (int i = 0; i < 64; ++i) add(polygons, {{1.0 * i, 0, 0}, {i + 1.0, 0, 0}, {i + 1.0, -64, 0}, {1.0 * i, -64, 0}}, k_red, true);
   const Image image = rasterise(polygons, from_above(), {64, 64, true}, k_context);
   EXPECT_EQ(image.at(32, 32), k_red);
 }
 
-TEST(Raster, PerspectiveIsSmallerFarAwayAndCutsWhatIsBehindTheEye) {
+TEST(Raster, PerspectiveShrinksWithDistanceAndClipsBehindEye) {
   Camera camera = from_above();
   camera.distance = 10.0;
   camera.x = camera.y = 32.0;

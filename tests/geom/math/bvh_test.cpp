@@ -66,7 +66,7 @@ TEST(BoxTree, TreeIsTheSameForAnyThreadCount) {
   }
 }
 
-TEST(BoxTree, EveryItemIsInOneLeafAndEveryNodeInItsParent) {
+TEST(BoxTree, ItemsInOneLeafNodesInTheirParent) {
   const std::vector<Box> boxes = random_boxes(777, 0.1);
   const BoxTree tree(boxes, with_threads(2));
   std::vector<int> count(boxes.size());
@@ -142,7 +142,7 @@ TEST(TriangleTree, NearestMatchesBruteForce) {
   }
 }
 
-TEST(TriangleTree, NearestPointOnFaceEdgeCornerAndOnATriangleWithoutArea) {
+TEST(TriangleTree, NearestPointOnFaceEdgeCornerZeroArea) {
   TriMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, Point{4, 0, 0}, Point{0, 4, 0}}) mesh.points.push_back(p);
   mesh.triangles.push_back({VertexId(0), VertexId(1), VertexId(2)});
@@ -157,7 +157,7 @@ TEST(TriangleTree, NearestPointOnFaceEdgeCornerAndOnATriangleWithoutArea) {
   EXPECT_FALSE(TriangleTree(TriMesh{}, with_threads(1)).nearest({}).triangle.is_valid());
 }
 
-TEST(TriangleTree, RaysLeaveAClosedSurfaceThroughEveryWallTheyCross) {
+TEST(TriangleTree, RaysFindEveryWallOfClosedSurface) {
   const TriMesh mesh = test::cube(5);
   const TriangleTree tree(mesh, with_threads(2));
   std::mt19937_64 random(8);
@@ -219,7 +219,7 @@ TEST(TriangleTree, WindingNumberTellsInsideFromOutside) {
   RecordProperty("worst_error", std::to_string(worst));
 }
 
-TEST(TriangleTree, FarFieldAgreesWithTheSumOfSolidAngles) {
+TEST(TriangleTree, FarFieldAgreesWithSumOfSolidAngles) {
   // An open surface, so that the far field does not vanish: a fifth of a long thin ellipsoid.
   TriMesh mesh = test::sphere(20);
   mesh.triangles.raw().resize(mesh.n_triangles() / 5);

@@ -285,7 +285,7 @@ Soup random_soup(std::size_t n_points, std::size_t n_triangles) {
   return soup;
 }
 
-TEST(FindCrossings, MatchesBruteForceForAnyThreadCountAndLimit) {
+TEST(FindCrossings, MatchesBruteForceForAnyThreadsAndLimit) {
   const Soup soup = random_soup(300, 600);
   std::vector<std::array<std::uint32_t, 2>> expected;
   for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
@@ -355,7 +355,7 @@ std::string rejection(const std::vector<Vec3>& points, const std::vector<Indices
   return "accepted";
 }
 
-TEST(FindCrossings, RejectsIndicesOutOfRangeAndPointsThatAreNotFinite) {
+TEST(FindCrossings, RejectsInvalidIndicesAndNonFinitePoints) {
   EXPECT_EQ(rejection(std::vector<Vec3>(3), {{0, 1, 2}, {0, 1, 3}}), "looking for crossing triangles: triangle 1 refers to point 3 of 3");
   std::vector<Vec3> points(4);
   points[2].y = std::nan("");

@@ -94,7 +94,7 @@ TEST(Wedge, InvertedInsideThoughAllCornerJacobiansArePositive) {
   }
 }
 
-TEST(Wedge, TwistedWedgeIsValidUpToTheHalfTurn) {
+TEST(Wedge, TwistedWedgeIsValidUpToHalfTurn) {
   // b0 = b2 = 1, b1 = cos(angle): positive everywhere below pi; at exactly pi the middle section is a point.
   for (const double angle_deg : {0.0, 45.0, 90.0, 135.0, 179.9}) {
     const double c = std::cos(angle_deg * std::numbers::pi / 180), s = std::sin(angle_deg * std::numbers::pi / 180);

@@ -62,7 +62,7 @@ TEST(Predicates, RepeatedPointsGiveZero) {
   EXPECT_EQ(incircle({0.1, 0.3}, {0.7, 1e5}, {3, 4}, {3, 4}), 0);
 }
 
-TEST(Predicates, Orient2dMatchesBigIntegersOneUlpFromALine) {
+TEST(Predicates, Orient2dMatchesBigIntegersNearLine) {
   // Kettner et al. 2008: a grid of neighbouring doubles around a diagonal, where plain double arithmetic is wrong in half of the cases.
   int n_zero = 0;
   for (int i = -16; i <= 16; ++i) {
@@ -77,7 +77,7 @@ TEST(Predicates, Orient2dMatchesBigIntegersOneUlpFromALine) {
   EXPECT_EQ(n_zero, 33);  // the points with x == y
 }
 
-TEST(Predicates, Orient3dMatchesBigIntegersOneUlpFromAPlane) {
+TEST(Predicates, Orient3dMatchesBigIntegersNearPlane) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   std::array<int, 3> count{};

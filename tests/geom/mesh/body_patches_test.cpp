@@ -18,7 +18,7 @@ Box box(const Point& low, const Point& high) {
   return result;
 }
 
-TEST(BodyPatches, are_walls_and_the_openings_in_them) {
+TEST(BodyPatches, AreWallsAndTheOpeningsInThem) {
   Column<PatchId, Patch> patches;
   std::vector<Box> boxes;
   const auto add = [&](const char* name, PatchKind kind, const Box& extent) {
@@ -57,7 +57,7 @@ HybridMesh tunnel_with_cube(const Point& at) {
   return mesh;
 }
 
-TEST(BodyPatches, walls_of_a_tunnel_are_not_of_the_body) {
+TEST(BodyPatches, TunnelWallsDoNotBelongToBody) {
   for (const Point& at : {Point{0, 0, 0}, Point{0, 0, -5}}) {  // in the middle, then on the floor
     const HybridMesh mesh = tunnel_with_cube(at);
     EXPECT_EQ(outer_walls(mesh), (std::vector<std::uint8_t>{0, 0, 1, 1, 1, 1, 0}));
@@ -65,19 +65,19 @@ TEST(BodyPatches, walls_of_a_tunnel_are_not_of_the_body) {
   }
 }
 
-TEST(BodyPatches, walls_of_a_duct_without_a_body_are_what_there_is) {
+TEST(BodyPatches, WallsOfDuctWithoutBodyCountAsBody) {
   HybridMesh mesh = tunnel_with_cube({0, 0, 0});
   std::erase_if(mesh.boundary_triangles, [&](const BoundaryTriangle& t) { return mesh.patches[t.patch].name == "body"; });
   EXPECT_EQ(outer_walls(mesh), std::vector<std::uint8_t>(7, 0));
   EXPECT_EQ(patches_of_bodies(mesh)[PatchId(4).index()], 1);
 }
 
-TEST(BodyPatches, a_surface_is_no_wall_about_itself) {
+TEST(BodyPatches, SurfaceIsNoWallAroundItself) {
   EXPECT_EQ(outer_walls(boundary_of(test::cube(2))), (std::vector<std::uint8_t>{0}));
   EXPECT_EQ(outer_walls(boundary_of(test::sphere(3))), (std::vector<std::uint8_t>{0}));
 }
 
-TEST(BodyPatches, places_to_look_at_are_on_the_body_not_on_the_tunnel) {
+TEST(BodyPatches, ViewLocationsAreOnBodyNotOnTunnel) {
   const std::vector<CutPlace> places = automatic_cuts(tunnel_with_cube({0.5, 0.25, 0}), test::k_context);
   ASSERT_FALSE(places.empty());
   for (const CutPlace& place : places) {

@@ -75,7 +75,7 @@ TEST(CheckAhead, WhatMovedIsCheckedAgain) {
   }
 }
 
-TEST(CheckAhead, KnowsNothingOfAMeshThatCannotBeRead) {
+TEST(CheckAhead, HasNoResultForUnusableMesh) {
   HybridMesh mesh = sphere_shell(2);
   mesh.boundary_triangles.front().nodes[0] = NodeId(1000000);
   EXPECT_EQ(check_ahead(mesh, {}, RunContext({.threads = 2})).parts(), nullptr);

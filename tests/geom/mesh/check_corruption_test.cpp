@@ -285,7 +285,7 @@ std::vector<Violation> kinds(const CheckReport& report) {
   return result;
 }
 
-TEST(CheckCorruption, RemovedReversedAndDoubledColumnsGetTheVerdictOfTheirCells) {
+TEST(CheckCorruption, RemovedReversedAndDoubledColumnsGetCellVerdict) {
   const std::vector<std::function<void(LayerBlock&)>> corruptions = {[](LayerBlock& l) { l.base.erase(l.base.begin() + k_column); },
                                                                      [](LayerBlock& l) { std::swap(l.base[k_column][0], l.base[k_column][1]); },
                                                                      [](LayerBlock& l) { l.base.push_back(l.base[k_column]); }};

@@ -112,7 +112,7 @@ TEST(CheckHalves, SymmetryPlanesMayLieAnyhow) {
   }
 }
 
-TEST(CheckHalves, ASymmetryPatchThatIsBentIsNoPlane) {
+TEST(CheckHalves, BentSymmetryPatchIsNoPlane) {
   HybridMesh mesh = half_sphere_shell(5);
   for (Patch& patch : mesh.patches)
     if (patch.kind == PatchKind::farfield) patch.kind = PatchKind::symmetry;

@@ -30,7 +30,7 @@ TEST(CheckValid, SpheresAndCubes) {
   expect_valid_in_both_forms(cube_shell(4, {.n_layers = 1, .n_shells = 1}));
 }
 
-TEST(CheckValid, VolumesOfCubeAndPlateAreThoseOfTheBoxes) {
+TEST(CheckValid, CubeAndPlateHaveTheVolumesOfBoxes) {
   const CheckReport cube = checked(cube_shell(3));
   EXPECT_NEAR(cube.layer_volume, 1.4 * 1.4 * 1.4 - 1.0, 1e-14);  // rounding of numbers of the size of one
   EXPECT_NEAR(cube.total_volume, 26.0, 1e-13);
@@ -78,7 +78,7 @@ TEST(CheckValid, BodiesWithOwnNumbersOfLayers) {
   }
 }
 
-TEST(CheckValid, LinesThatEndALayerBelowOthersGivePyramidsAndTets) {
+TEST(CheckValid, LinesEndingLowerGivePyramidsAndTets) {
   for (const int n : {2, 5}) {
     const HybridMesh sphere = stepped_sphere_shell(4, {.n_layers = n});
     const CellCounts counts = count_cells(sphere), whole = count_cells(sphere_shell(4, {.n_layers = n}));
@@ -150,7 +150,7 @@ TEST(CheckValid, TwoBodiesApart) {
   EXPECT_TRUE(report.is_valid()) << to_text(report);
 }
 
-TEST(CheckValid, FewFacesAtATimeGiveTheSameReport) {
+TEST(CheckValid, FewFacesPerChunkGiveSameReport) {
   for (HybridMesh mesh : {sphere_shell(4), explicit_cells(sphere_shell(4))}) {
     EXPECT_EQ(to_json(checked(mesh)), to_json(checked(mesh, {.faces_at_a_time = 100})));
     mesh.boundary_triangles.resize(500);
@@ -195,7 +195,7 @@ TEST(CheckReport, EveryViolationHasANameAndAGate) {
   }
 }
 
-TEST(Quality, StraightPrismsHaveNoSkewAndCollapsedColumnsCountAsSkewed) {
+TEST(Quality, StraightPrismsHaveNoSkewCollapsedColumnsDo) {
   constexpr double k_degree = std::numbers::pi / 180.0;
   const Quality straight = checked(plate_block(3)).quality;
   EXPECT_EQ(straight.skew_below_6, 1.0);

@@ -113,7 +113,7 @@ TEST(CompareGeometry, JoinedPartsAreNamed) {
   EXPECT_THAT(warnings_of(change, GeometryChangeUse::unites_bodies), IsEmpty());
 }
 
-TEST(CompareGeometry, HalfIsComparedWithThePartBeyondThePlane) {
+TEST(CompareGeometry, HalfIsComparedWithPartBeyondPlane) {
   const TriMesh whole = together({k_ball, k_cube});
   const HalfOptions options;
   EXPECT_THAT(warnings_of(compare_geometry(beyond_plane(whole, options), half_of(whole, {.snap = 0.0}, k_quiet), "half", k_quiet)), IsEmpty());

@@ -91,7 +91,7 @@ TEST(CutPlaces, SymmetryPlaneIsAHairInside) {
   EXPECT_NEAR(std::abs(dot(middle - place.plane.origin, place.plane.normal)), 0.5, 1e-6);
 }
 
-TEST(CutPlaces, JunctionIsWhereTwoPatchesMeetInAConcaveEdge) {
+TEST(CutPlaces, JunctionIsConcaveEdgeBetweenPatches) {
   // A step: floor z = 0 for x < 0, riser x = 0, top z = 1. Only the edge at x = z = 0 is concave.
   HybridMesh mesh;
   for (const char* name : {"floor", "riser"}) mesh.patches.push_back({name, PatchKind::wall});

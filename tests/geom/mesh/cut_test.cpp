@@ -181,7 +181,7 @@ TEST(Cut, OfARegularTetrahedronHasShapeOne) {
   EXPECT_NEAR(norm(area_of(cut.corners_of(0))), 2.0, 1e-14);  // the square between the edges' middles
 }
 
-TEST(Cut, BothCellsOfAWarpedFaceAgreeWhereThePlaneCrossesItsFourEdges) {
+TEST(Cut, BothCellsOfWarpedFaceAgreeOnCut) {
   // Two hexahedra in [0, 2] x [0, 1]^2; the corners of the face between them lie alternately in front of and behind the plane x = 1.
   for (const double shift : {0.1, -0.1})
     for (const double at : {1.0, 1.02, 0.98}) {
@@ -199,7 +199,7 @@ TEST(Cut, BothCellsOfAWarpedFaceAgreeWhereThePlaneCrossesItsFourEdges) {
     }
 }
 
-TEST(Cut, WithinASphereHasAllThatReachesIntoIt) {
+TEST(Cut, CutWithinSphereHasAllCellsInside) {
   const HybridMesh mesh = sphere_shell(5);
   CutPlane plane{{0, 0, 0}, {0.3, 0.2, 1.0}, std::nullopt};
   const MeshCut whole = cut_mesh(mesh, plane, k_context);

@@ -180,7 +180,7 @@ TEST(DualMetrics, PyramidByHand) {
   expect_as_naive(mesh);
 }
 
-TEST(DualMetrics, RegularStackHasOneAndAHalfTimesEdgeOverHeight) {
+TEST(DualMetrics, RegularStackHasKnownFaceAreaRatio) {
   // Regular triangles of edge l: the upper dual face is a hexagon of area l^2 sqrt(3)/2 with sides of length l/sqrt(3); at layer height H the ratio is 1.5 l/H.
   constexpr int k_n = 4, k_layers = 8;
   HybridMesh mesh = plate_block(k_n, {.n_layers = k_layers, .layer_height = 0.1, .ratio = 1.0});
@@ -257,7 +257,7 @@ double least_sub_volume(CellKind kind, const std::vector<Point>& points) {
   return naive_dual(mesh).least_sub_volume;
 }
 
-TEST(SubVolumes, SignsAreThoseOfTheDefinitionOnRandomPrismsAndPyramids) {
+TEST(SubVolumes, SignsMatchDefinitionOnRandomPrismsAndPyramids) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> shift(-0.5, 0.5);
   int n_positive = 0, n_valid_but_negative = 0;

@@ -31,7 +31,7 @@ GateResult judged_of(const MeasureInfo& info, const GateLimits& limits, std::int
   return judged(scan);
 }
 
-TEST(Gates, PassWarnAndFailByHardTargetAndUsualLimits) {
+TEST(Gates, PassWarnFailByHardTargetUsualLimits) {
   const MeasureInfo& usual = info_of(Measure::tet_growth);  // upper: hard 20, 4 on 99.9 %
   const auto state_of = [&](std::int64_t n_good, const std::vector<double>& others) { return judged_of(usual, usual.limits, n_good, others).state; };
   EXPECT_EQ(state_of(0, {}), GateState::not_checked);
@@ -77,7 +77,7 @@ TEST(Gates, ALimitWithoutEvidenceWarns) {
   EXPECT_EQ(state_for(judged_of(asked, asked.limits, 0, {0.5}), Consumer::node_centred), GateState::fail);
 }
 
-TEST(Gates, AShareMustBeBeyondBeforeFirstHeightsFail) {
+TEST(Gates, FirstHeightsFailOnlyAboveAShare) {
   const MeasureInfo& asked = info_of(Measure::first_height);  // hard 0.2, 0.02 on 99 %; FAIL beyond 1 % of the lines
   const auto of = [&](int n_wrong, const GateLimits& limits) {
     GateScan scan(asked, limits);
@@ -103,7 +103,7 @@ TEST(Gates, EveryHardLimitNamesItsEvidence) {
   }
 }
 
-TEST(Gates, ItemsAreCountedOnBothSidesOfWhatTheyShouldBe) {
+TEST(Gates, ItemsAreCountedOnBothSidesOfLimits) {
   const MeasureInfo& info = info_of(Measure::interface_height);  // hard 8, 3 on 99 %
   std::vector<GateScan> parts(3, GateScan(info, info.limits));
   for (std::uint64_t i = 0; i < 10; ++i) parts[i % 3].add(9.0, i | (i < 4 ? GateScan::k_too_small : 0));
@@ -147,7 +147,7 @@ TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   EXPECT_NE(verdict_line(report).find("VALID; cell-centred: FAIL at "), std::string::npos) << verdict_line(report);
 }
 
-TEST(Gates, AVerdictForOneKindOfSolverLeavesTheOthersOut) {
+TEST(Gates, VerdictForOneSolverKindOmitsOthers) {
   HybridMesh mesh = regular_plate_of_steps();
   ask_for(mesh, 0.1 / 6.187, 0.1, 1.3);
   jump(mesh, 8);
@@ -246,7 +246,7 @@ TEST(Gates, StraightLayersAsAsked) {
   EXPECT_EQ(report.gate(Measure::interface_height).state, GateState::warn);
 }
 
-TEST(Gates, GrowthBeyondTheRequestWarnsAndWithoutRequestIsMeasuredAgainstTheDefault) {
+TEST(Gates, GrowthIsComparedWithRequestOrDefault) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 4, .layer_height = 0.1, .ratio = 1.3});
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::warn);  // default 1.2
   EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::not_checked);
@@ -263,7 +263,7 @@ TEST(Gates, GrowthBeyondTheRequestWarnsAndWithoutRequestIsMeasuredAgainstTheDefa
   EXPECT_EQ(checked(steep).gate(Measure::stack_growth).state, GateState::warn);
 }
 
-TEST(Gates, EachLineIsMeasuredAgainstWhatWasAskedOfIt) {
+TEST(Gates, EachLineIsMeasuredAgainstItsRequest) {
   // Heights of 4 layers growing by 1.25: sum 5.765625 times the first; of 2 layers 2.25 times.
   constexpr double k_first = 0.1 / 5.765625, k_second = 0.1 / 2.25;
   HybridMesh mesh = two_shells(8, 4, 2, {.layer_height = 0.1, .ratio = 1.25});
@@ -282,7 +282,7 @@ TEST(Gates, EachLineIsMeasuredAgainstWhatWasAskedOfIt) {
   EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::not_checked);
 }
 
-TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
+TEST(Gates, FirstHeightIsMeasuredAlongNormalWithoutCompression) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
   ask_for(mesh, 0.08, 0.3, 1.2);
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.1 / 0.08 - 1.0, 1e-12);
@@ -314,7 +314,7 @@ TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.0, 1e-12);
 }
 
-TEST(Gates, WhatIsForcedDoesNotFailAndIsListedApart) {
+TEST(Gates, ForcedValuesAreSeparateAndDoNotFail) {
   const MeasureInfo& info = info_of(Measure::tet_growth);  // upper: 4 on 99.9 %
   GateLimits limits = info.limits;
   limits.hard = 19.0;  // the user's, so that it FAILs
@@ -340,7 +340,7 @@ TEST(Gates, WhatIsForcedDoesNotFailAndIsListedApart) {
   EXPECT_NE(to_text(all).find("10 of 10 beyond the hard limit are forced"), std::string::npos);
 }
 
-TEST(Gates, EdgeRatiosOfTheWallAreForcedThoseAboveItAreNot) {
+TEST(Gates, EdgeRatiosOfWallAreForcedOthersNot) {
   // The middle growth line is 0.001 from its neighbour in all layers; the layers are lower than this distance.
   HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 1e-4});
   const auto move_from = [&](int layer) {
@@ -361,7 +361,7 @@ TEST(Gates, EdgeRatiosOfTheWallAreForcedThoseAboveItAreNot) {
   EXPECT_EQ(above.n_forced, 0);
 }
 
-TEST(Gates, TetsInANarrowAngleOfTheBoundaryAreForced) {
+TEST(Gates, TetsInNarrowBoundaryAngleAreForced) {
   const double angle = 2 * k_degree;
   HybridMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, std::cos(angle), std::sin(angle)}}) mesh.points.push_back(p);
@@ -390,7 +390,7 @@ TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
   EXPECT_NEAR(checked(mesh).coverage[0].reduced, 1.0, 1e-14);
 }
 
-TEST(Gates, WhatAnOpposingWallForbidsIsNotAskedFor) {
+TEST(Gates, HeightsLimitedByOpposingWallAreNotRequired) {
   // Equal plates with layers of one height facing each other. Without cells between them the mesh is not a tiling, but LayerRoom can judge its coverage.
   constexpr double k_gap = 1.0, k_target = 0.8, k_edge = 0.5;
   const auto plate = [&](double z, std::array<std::uint32_t, 3> feet, double asked) {
@@ -419,7 +419,7 @@ TEST(Gates, WhatAnOpposingWallForbidsIsNotAskedFor) {
   EXPECT_EQ(permitted({own}, corner), 0.0);
 }
 
-TEST(Gates, LeanOfTheFirstCellsBeyondTheBestPossible) {
+TEST(Gates, LeanOfFirstCellsBeyondBestPossible) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 6, .layer_height = 0.2});
   for (Point& p : mesh.points) p.x += p.z * std::tan(12 * k_degree);
   const CheckReport report = checked(mesh);
@@ -508,7 +508,7 @@ TEST(Gates, SymmetryPatchesLieInOnePlane) {
   EXPECT_NE(to_text(report).find("node 1 of patch middle is -2e-12 m off the plane y = 0"), std::string::npos) << to_text(report);
 }
 
-TEST(Gates, PrismWithANegativeSubVolumeIsInvalidThoughItsJacobianIsPositive) {
+TEST(Gates, PrismWithNegativeSubVolumeIsInvalid) {
   // Top rotated and shifted over the base: all Jacobians are positive, but the cell's centroid is on the wrong side of a part of a side's cone.
   HybridMesh mesh;
   mesh.patches.push_back({"all", PatchKind::wall});

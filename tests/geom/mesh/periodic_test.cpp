@@ -45,7 +45,7 @@ TEST(Periodic, FindsTranslationAndPartners) {
   EXPECT_LT(match.worst, 1e-15);
 }
 
-TEST(Periodic, WorksFarFromTheOriginAndInAnyDirection) {
+TEST(Periodic, WorksFarFromOriginInAnyDirection) {
   TriMesh mesh = two_sides(5);
   for (Point& p : mesh.points) p = Vec3{1e3 + 0.6 * p.x - 0.8 * p.y, 0.8 * p.x + 0.6 * p.y, p.z - 1e3};
   const PeriodicMatch match = match_periodic(mesh, PatchId(1u), PatchId(0u), 1e3 * k_tolerance);

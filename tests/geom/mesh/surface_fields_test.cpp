@@ -76,7 +76,7 @@ TEST(SurfaceFields, OfAPlate) {
   EXPECT_NEAR(values_of(fields, "area_ratio")[lowest], 1.5, 1e-12);
 }
 
-TEST(SurfaceFields, OfExplicitCellsAreThoseOfColumnsButForTheRequest) {
+TEST(SurfaceFields, ExplicitCellsGiveColumnFieldsExceptRequests) {
   for (const HybridMesh& mesh : {sphere_shell(3), plate_block(3), two_shells(2, 2, 4)}) {
     const auto columns = surface_fields(mesh, k_context), cells = surface_fields(explicit_cells(mesh), k_context);
     for (const char* name : k_all)
@@ -122,7 +122,7 @@ TEST(SurfaceFields, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(SurfaceFields, LimitsAreThoseOfTheGatesInTheirUnits) {
+TEST(SurfaceFields, LimitsAreGateLimitsInTheirUnits) {
   const auto table = surface_field_table();
   const auto info = [&](std::string_view name) { return *std::find_if(table.begin(), table.end(), [&](const auto& field) { return field.name == name; }); };
   EXPECT_NEAR(info("stack_angle").limits.usual, 10.0, 1e-12);

@@ -101,7 +101,7 @@ TEST(Topology, ComponentsAreNumberedByTheirFirstTriangle) {
   EXPECT_TRUE(std::is_sorted(components.component.begin(), components.component.end()));
 }
 
-TEST(Topology, AnEdgeOfThreeTrianglesIsAnErrorWithItsPlace) {
+TEST(Topology, EdgeOfThreeTrianglesIsErrorWithLocation) {
   TriMesh mesh = cube(1);
   const TriangleVertices first = mesh.triangles.raw().front();
   const VertexId apex = mesh.points.push_back({5, 5, 5});
@@ -119,7 +119,7 @@ TEST(Topology, AnEdgeOfThreeTrianglesIsAnErrorWithItsPlace) {
   }
 }
 
-TEST(Topology, AFlippedTriangleIsAnErrorAtItsThreeEdges) {
+TEST(Topology, FlippedTriangleIsErrorAtThreeEdges) {
   TriMesh mesh = sphere(4);
   TriangleVertices& v = mesh.triangles.raw()[100];
   std::swap(v[0], v[1]);
@@ -139,7 +139,7 @@ TEST(Topology, AFlippedTriangleIsAnErrorAtItsThreeEdges) {
   EXPECT_EQ(messages[0], messages[2]);
 }
 
-TEST(Topology, SameTwinsForAnyThreadCountOnALargeSphere) {
+TEST(Topology, TwinsAreEqualForAnyThreadsOnSphere) {
   const TriMesh mesh = sphere(60);
   const Topology one(mesh, RunContext({.threads = 1}));
   for (const int threads : {2, 7}) {

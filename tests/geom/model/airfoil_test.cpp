@@ -94,7 +94,7 @@ TEST(Airfoil, GeneratedSectionsAgreeWithPublishedCoordinates) {
   }
 }
 
-TEST(Airfoil, NacaSectionsHaveTheThicknessAndCamberOfTheirName) {
+TEST(Airfoil, NacaSectionsHaveThicknessAndCamberOfName) {
   struct Case {
     const char* name;
     double thickness, thickness_at, lift_or_camber;

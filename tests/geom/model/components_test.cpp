@@ -74,7 +74,7 @@ WingSection elliptic_section(double y, double chord, double thickness) {
   return s;
 }
 
-TEST(Components, a_tube_has_its_volume_flat_or_domed) {
+TEST(Components, TubeHasItsVolumeFlatOrDomed) {
   Body body = cylinder_body(0.8, 5.0);
   const Model flat = make_body(body, ComponentKind::body);
   expect_closed(flat);
@@ -95,7 +95,7 @@ TEST(Components, a_tube_has_its_volume_flat_or_domed) {
   for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(strips, RunContext()))) ADD_FAILURE() << fault.what;
 }
 
-TEST(Components, superellipses_double_ellipses_and_eggs_fill_their_box) {
+TEST(Components, SuperellipsesDoubleEllipsesAndEggsFillTheirBox) {
   for (const FrameShape shape : {FrameShape::ellipse, FrameShape::double_ellipse, FrameShape::egg}) {
     Body body = cylinder_body(1.0, 4.0);
     for (BodyFrame& frame : body.frames) {
@@ -113,7 +113,7 @@ TEST(Components, superellipses_double_ellipses_and_eggs_fill_their_box) {
   }
 }
 
-TEST(Components, an_inlet_lip_ends_in_a_flat_fan_face) {
+TEST(Components, InletLipEndsInFlatFanFace) {
   Body body = cylinder_body(1.0, 4.0);
   body.lip = InletLip{0.5, 0.25, 1.0};
   const Model model = make_body(body, ComponentKind::nacelle, {"EngineIntake", "EngineExhaust"});
@@ -136,7 +136,7 @@ TEST(Components, an_inlet_lip_ends_in_a_flat_fan_face) {
   EXPECT_LT(solid_measures(model, SolidId(0)).volume, pi * 4.0);
 }
 
-TEST(Components, a_straight_wing_has_volume_and_area_of_its_sections) {
+TEST(Components, StraightWingHasVolumeAndAreaOfSections) {
   Wing wing{.name = "W", .sections = {elliptic_section(3.0, 2.0, 0.2), elliptic_section(0.0, 2.0, 0.2)}, .trailing_edge = std::nullopt};
   wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
   const Model model = make_wing(wing);
@@ -145,7 +145,7 @@ TEST(Components, a_straight_wing_has_volume_and_area_of_its_sections) {
   EXPECT_EQ(model.faces.size(), 4u);  // upper, lower, two tips: the trailing edge is sharp
 }
 
-TEST(Components, round_tips_add_half_ellipses_and_symmetric_wings_are_even) {
+TEST(Components, RoundTipsAddHalfEllipsesSymmetricWingsMirror) {
   Wing wing{.name = "W", .is_symmetric = true, .sections = {elliptic_section(3.0, 2.0, 0.2), elliptic_section(0.0, 2.0, 0.2)}, .trailing_edge = std::nullopt};
   wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
   const Model model = make_wing(wing);
@@ -158,7 +158,7 @@ TEST(Components, round_tips_add_half_ellipses_and_symmetric_wings_are_even) {
   EXPECT_NEAR(first_moment.y, 0.0, 1e-12);
 }
 
-TEST(Components, a_blunt_trailing_edge_is_a_face_of_the_given_thickness) {
+TEST(Components, BluntTrailingEdgeIsFaceOfGivenThickness) {
   Wing wing{.name = "W", .sections = {elliptic_section(0.0, 2.0, 0.2), elliptic_section(3.0, 2.0, 0.2)}, .trailing_edge = 0.01};
   for (const double height : {0.0, 1.0}) {
     wing.right_tip = wing.left_tip = {CapShape::strip, height};
@@ -171,7 +171,7 @@ TEST(Components, a_blunt_trailing_edge_is_a_face_of_the_given_thickness) {
   }
 }
 
-TEST(Components, cubic_wings_are_one_face_between_breaks) {
+TEST(Components, CubicWingsAreOneFaceBetweenBreaks) {
   Wing wing{.name = "W", .is_symmetric = true, .is_cubic = true, .trailing_edge = 0.0};
   for (const double y : {4.0, 3.0, 1.5, 0.0}) wing.sections.push_back(elliptic_section(y, 2.0 - 0.05 * y * y, 0.2));
   const Model smooth = make_wing(wing);
@@ -185,7 +185,7 @@ TEST(Components, cubic_wings_are_one_face_between_breaks) {
 
 double turn_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
-TEST(Components, winglets_join_round) {
+TEST(Components, WingletsJoinRound) {
   STERNA_NEEDS_SHARED_DATA();
   for (const char* name : {"smx/bjet.smx", "smx/torture.smx", "smx/widebody.smx"}) {
     Wing wing = read_smx(test::shared_data() / name, RunContext()).aircraft.wings.at(0);
@@ -216,7 +216,7 @@ TEST(Components, winglets_join_round) {
   EXPECT_EQ(wing_rows(plain).rows.size(), 2 * plain.sections.size() - 1);  // this wing has no winglet
 }
 
-TEST(Components, a_section_with_only_a_naca_designation_is_made) {
+TEST(Components, SectionWithOnlyNacaDesignationIsMade) {
   Wing wing{.name = "W", .trailing_edge = 0.0};
   for (const double y : {3.0, 0.0}) wing.sections.push_back({.name = "s", .leading_edge = {0.0, y, 0.0}, .chord = 2.0, .naca = "0012"});
   wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
@@ -227,7 +227,7 @@ TEST(Components, a_section_with_only_a_naca_designation_is_made) {
   EXPECT_NEAR(solid_measures(model, SolidId(0)).volume, 3.0 * 4.0 * (2.0 * 0.6 * (0.2969 / 1.5 - 0.063 - 0.1172 + 0.071075 - 0.0203) - 0.00126), 3e-3);
 }
 
-TEST(Components, a_mirror_image_has_the_same_volume_and_the_other_name) {
+TEST(Components, MirrorImageHasSameVolumeAndOtherName) {
   Wing wing{.name = "RightFin", .sections = {elliptic_section(1.0, 2.0, 0.2), elliptic_section(3.0, 1.0, 0.2)}, .trailing_edge = 0.0};
   wing.has_mirror_image = true;
   Aircraft aircraft;
@@ -241,7 +241,7 @@ TEST(Components, a_mirror_image_has_the_same_volume_and_the_other_name) {
   EXPECT_EQ(make_components(aircraft, RunContext()).solids[SolidId(1)].name, "finLeft");
 }
 
-TEST(Components, errors_name_the_frame) {
+TEST(Components, ErrorsNameTheFrame) {
   Body body = cylinder_body(1.0, 4.0);
   body.frames[2].center.x = body.frames[1].center.x;
   body.frames[2].name = "Odd";
@@ -256,7 +256,7 @@ TEST(Components, errors_name_the_frame) {
 
 class RealAircraft : public testing::TestWithParam<const char*> {};
 
-TEST_P(RealAircraft, all_components_are_closed_solids) {
+TEST_P(RealAircraft, AllComponentsAreClosedSolids) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string name = GetParam();
   const auto path = test::shared_data() / name;

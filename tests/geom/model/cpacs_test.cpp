@@ -35,7 +35,7 @@ struct CpacsCounts {
 };
 class CpacsFiles : public testing::TestWithParam<CpacsCounts> {};
 
-TEST_P(CpacsFiles, are_read_with_every_component) {
+TEST_P(CpacsFiles, AreReadWithEveryComponent) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_real(GetParam().name).aircraft;
   EXPECT_EQ(aircraft.bodies.size(), GetParam().fuselages);
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(all_twelve, CpacsFiles,
                            return name;
                          });
 
-TEST(Cpacs, onera_m6_stands_where_its_positioning_says) {
+TEST(Cpacs, OneraM6IsAtItsPosition) {
   STERNA_NEEDS_SHARED_DATA();
   const Wing wing = read_real("onera_m6.xml").aircraft.wings.at(0);
   EXPECT_TRUE(wing.is_symmetric);
@@ -80,7 +80,7 @@ TEST(Cpacs, onera_m6_stands_where_its_positioning_says) {
   EXPECT_LT(highest - wing.sections[0].loop.begin(), std::ssize(wing.sections[0].loop) / 2);
 }
 
-TEST(Cpacs, a_fin_is_turned_first_about_its_own_axes) {
+TEST(Cpacs, FinIsTurnedFirstAboutItsAxes) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_real("d150.xml").aircraft;
   const Wing& fin = aircraft.wings.at(2);
@@ -91,7 +91,7 @@ TEST(Cpacs, a_fin_is_turned_first_about_its_own_axes) {
   EXPECT_EQ(aircraft.reference_area, 122.4);
 }
 
-TEST(Cpacs, children_move_with_parents_and_absolute_ones_do_not) {
+TEST(Cpacs, ChildrenMoveWithParentsUnlessAbsolute) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_real("simpletest-pylon-nacelle.cpacs.xml").aircraft;
   const Wing& pylon = aircraft.wings.at(1);
@@ -102,7 +102,7 @@ TEST(Cpacs, children_move_with_parents_and_absolute_ones_do_not) {
   EXPECT_EQ(aircraft.nacelles[0].center_body.size(), 4u);
 }
 
-TEST(Cpacs, what_is_left_out_is_named) {
+TEST(Cpacs, OmittedElementsAreNamed) {
   STERNA_NEEDS_SHARED_DATA();
   EXPECT_THAT(read_real("simpletest-nacelle.xml").messages, Contains(HasSubstr("/genericGeometryComponents: this element is not known and was left out")));
   EXPECT_THAT(read_real("landingGears.xml").messages, testing::IsEmpty());
@@ -111,7 +111,7 @@ TEST(Cpacs, what_is_left_out_is_named) {
   EXPECT_THAT(read_real("boxWing.xml").messages, Contains(HasSubstr("the engine has no cowls")));
 }
 
-TEST(Cpacs, control_surfaces_become_patches_on_both_halves) {
+TEST(Cpacs, ControlSurfacesBecomePatchesOnBothHalves) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_real("simpletest-flaps.cpacs.xml").aircraft;
   const Model model = make_components(aircraft, RunContext());
@@ -148,7 +148,7 @@ std::string wing_file(const std::string& element, const std::string& airfoil, co
 }
 const char* const k_diamond = "<pointList><x>1;0.5;0;0.5;1</x><y>0;0;0;0;0</y><z>0;-0.1;0;0.1;0</z></pointList>";
 
-TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
+TEST(Cpacs, ElementsAreScaledThenTurnedThenMoved) {
   const Wing wing =
       read_cpacs_text(
           wing_file(
@@ -163,7 +163,7 @@ TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
   EXPECT_NEAR(wing.sections[1].leading_edge.y, 2.0, 1e-12);
 }
 
-TEST(Cpacs, wings_that_reach_the_plane_of_symmetry_are_one_and_others_have_an_image) {
+TEST(Cpacs, WingsAtSymmetryPlaneJoinOthersAreMirrored) {
   const Wing whole = read_cpacs_text(wing_file("", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
   EXPECT_TRUE(whole.is_symmetric);
   EXPECT_NEAR(whole.sections[0].leading_edge.y, 2.0, 1e-12);  // the tip comes first
@@ -174,7 +174,7 @@ TEST(Cpacs, wings_that_reach_the_plane_of_symmetry_are_one_and_others_have_an_im
   EXPECT_FALSE(apart.is_symmetric);
 }
 
-TEST(Cpacs, class_shape_airfoils_have_their_thickness) {
+TEST(Cpacs, ClassShapeAirfoilsHaveTheirThickness) {
   // N1 = 0.5, N2 = 1, B = {a, a}: z = a sqrt(x) (1 - x), largest at x = 1/3.
   const Wing wing =
       read_cpacs_text(
@@ -204,7 +204,7 @@ std::string file_with_device(const std::string& inner, const std::string& outer,
   return text;
 }
 
-TEST(Cpacs, borders_need_not_say_where_their_other_end_is) {
+TEST(Cpacs, BordersMayOmitTheirOtherEnd) {
   const AircraftReading both =
       read_cpacs_text(file_with_device("<etaLE>0.2</etaLE><etaTE>0.2</etaTE><xsiLE>0.7</xsiLE>", "<etaLE>0.6</etaLE><etaTE>0.6</etaTE><xsiLE>0.7</xsiLE>"));
   ASSERT_EQ(both.aircraft.control_surfaces.size(), 1u);
@@ -218,7 +218,7 @@ TEST(Cpacs, borders_need_not_say_where_their_other_end_is) {
   }
 }
 
-TEST(Cpacs, devices_and_pylons_that_cannot_be_read_are_left_out_with_a_word) {
+TEST(Cpacs, UnreadableDevicesAndPylonsAreOmittedWithWarning) {
   const std::string border = "<etaLE>0.2</etaLE><xsiLE>0.7</xsiLE>";
   for (const auto& [text, problem] :
        {std::pair{file_with_device("<xsiLE>0.7</xsiLE>", border), "the element 'etaLE' is missing; the control surface is left out"},
@@ -235,7 +235,7 @@ TEST(Cpacs, devices_and_pylons_that_cannot_be_read_are_left_out_with_a_word) {
   EXPECT_THAT(reading.messages, testing::ElementsAre(HasSubstr("enginePylon[P]: the component has no segments; the pylon is left out")));
 }
 
-TEST(Cpacs, errors_name_line_and_path) {
+TEST(Cpacs, ErrorsNameLineAndPath) {
   const auto error_of = [](const std::string& text) -> std::string {
     try {
       read_cpacs_text(text);
@@ -269,7 +269,7 @@ std::string file_with_engine(const std::string& uid, const std::string& definiti
   return text;
 }
 
-TEST(CpacsReferences, AnEngineThatIsNotThereIsLeftOut) {
+TEST(CpacsReferences, MissingEngineIsOmitted) {
   for (const std::string uid : {"nothing", ""}) {
     const AircraftReading reading = read_cpacs_text(file_with_engine(uid, ""));
     EXPECT_EQ(reading.aircraft.wings.size(), 1u);

@@ -45,7 +45,7 @@ ControlSurface flap(double from, double to, double chord, ControlKind kind = Con
   return {.name = "Flap", .wing = "wing", .kind = kind, .hinge = {{from, chord}, {to, chord}}};
 }
 
-TEST(Deflection, no_angle_is_the_clean_wing_to_the_bit) {
+TEST(Deflection, ZeroAngleIsCleanWingToTheBit) {
   const Wing wing = straight_wing();
   Wing named = deflected(wing, {{flap(0.1, 0.3, 0.7), 0.0}});
   EXPECT_EQ(named.patches.size(), 1u);
@@ -66,7 +66,7 @@ double area_of(const Model& model, const std::string& name, FaceRole role) {
   return area;
 }
 
-TEST(Deflection, no_angle_names_patches_of_the_same_wing) {
+TEST(Deflection, ZeroAngleNamesPatchesOfTheSameWing) {
   Wing wing = straight_wing();
   for (const std::optional<double> thickness : {std::optional<double>(0.0), std::optional<double>(0.02)})
     for (const bool is_cubic : {false, true}) {
@@ -97,7 +97,7 @@ TEST(Deflection, no_angle_names_patches_of_the_same_wing) {
     }
 }
 
-TEST(Deflection, ends_near_a_section_are_there) {
+TEST(Deflection, EndsNearASectionAreThere) {
   Wing wing = straight_wing();
   wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);
   wing.sections[1].leading_edge = {0.0, 3.0, 0.0};
@@ -110,7 +110,7 @@ TEST(Deflection, ends_near_a_section_are_there) {
   }
 }
 
-TEST(Deflection, a_patch_covers_its_part_of_the_planform) {
+TEST(Deflection, PatchCoversItsPartOfThePlanform) {
   const Model model = make_wing(deflected(straight_wing(), {{flap(0.1, 0.3, 0.7)}}));
   double area = 0.0;  // area of the upper side in plan view
   for (const FaceId f : model.faces.ids())
@@ -118,7 +118,7 @@ TEST(Deflection, a_patch_covers_its_part_of_the_planform) {
   EXPECT_NEAR(area, 0.2 * 12.0 * 0.3 * 2.0, 1e-6);
 }
 
-TEST(Deflection, images_stand_on_the_other_half_and_turn_alike_or_against) {
+TEST(Deflection, MirrorImagesTurnAlikeOrOpposite) {
   const Wing wing = straight_wing();
   for (const OtherSide side : {OtherSide::none, OtherSide::same, OtherSide::opposite}) {
     const Model model = make_wing(deflected(wing, {{.surface = flap(0.1, 0.3, 0.7), .angle = 0.3, .other_side = side}}));
@@ -137,7 +137,7 @@ TEST(Deflection, images_stand_on_the_other_half_and_turn_alike_or_against) {
   }
 }
 
-TEST(Deflection, positions_from_the_root_are_fractions_of_the_half_span) {
+TEST(Deflection, PositionsFromRootAreFractionsOfHalfSpan) {
   Wing wing = straight_wing();
   wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);
   wing.sections[1].leading_edge = {2.0, 2.0, 0.0};  // the inner part is swept, so its middle line is longer than its span
@@ -156,7 +156,7 @@ TEST(Deflection, positions_from_the_root_are_fractions_of_the_half_span) {
   EXPECT_NEAR(high, 5.4, 1e-9);
 }
 
-TEST(Deflection, the_aircraft_is_made_with_them) {
+TEST(Deflection, TheAircraftIsMadeWithThem) {
   Wing fin = straight_wing();
   fin.name = "RightFin";
   fin.is_symmetric = false;
@@ -174,7 +174,7 @@ TEST(Deflection, the_aircraft_is_made_with_them) {
   test::expect_error(ErrorCode::bad_argument, "there is no wing 'none'\n  try: one of '", [&] { (void)make_components(aircraft, RunContext()); });
 }
 
-TEST(Deflection, a_flap_turns_its_trailing_edge_and_nothing_before_the_knee_or_beside_the_fairing) {
+TEST(Deflection, FlapTurnsOnlyBehindKneeAndBetweenFairings) {
   const Wing wing = straight_wing();
   const double angle = 20.0 * k_degree;
   const Wing bent = deflected(wing, {{flap(0.1, 0.3, 0.7), angle}});
@@ -200,7 +200,7 @@ TEST(Deflection, a_flap_turns_its_trailing_edge_and_nothing_before_the_knee_or_b
   EXPECT_GE(n_clean, 3);  // right tip, center, left tip
 }
 
-TEST(Deflection, wings_stay_closed_and_keep_their_volume_nearly) {
+TEST(Deflection, WingsStayClosedAndKeepTheirVolumeNearly) {
   const Wing wing = straight_wing();
   const double volume = solid_measures(make_wing(wing), SolidId(0)).volume;
   for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::leading_edge, ControlKind::all_moving})
@@ -215,7 +215,7 @@ TEST(Deflection, wings_stay_closed_and_keep_their_volume_nearly) {
     }
 }
 
-TEST(Deflection, cubic_wings_bend_between_smooth_rows) {
+TEST(Deflection, CubicWingsBendBetweenSmoothRows) {
   Wing wing = straight_wing();
   wing.is_cubic = true;
   wing.sections.insert(wing.sections.begin() + 1, 2, wing.sections[1]);
@@ -233,7 +233,7 @@ TEST(Deflection, cubic_wings_bend_between_smooth_rows) {
   expect_valid(bent);
 }
 
-TEST(Deflection, flap_aileron_slat_and_tip_at_once) {
+TEST(Deflection, FlapAileronSlatAndTipAtOnce) {
   ControlSurface aileron = flap(0.12, 0.2, 0.75), slat = flap(0.1, 0.45, 0.15, ControlKind::leading_edge),
                  tip = flap(-0.02, 0.06, 0.0, ControlKind::all_moving);
   aileron.name = "Aileron";
@@ -255,7 +255,7 @@ Deflection open_flap(ControlSurface surface, double angle = 0.0) {
 
 double volume_of(const Model& model, std::size_t solid) { return solid_measures(model, SolidId(solid)).volume; }
 
-TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
+TEST(Deflection, OpenGapMakesSeparateSolidBehindCove) {
   for (const std::optional<double> thickness : {std::optional<double>(0.0), std::optional<double>(0.02)})
     for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::leading_edge})
       for (const bool is_flat : {false, true}) {
@@ -287,7 +287,7 @@ TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
       }
 }
 
-TEST(Deflection, open_flaps_turn_rigidly_and_stay_clear_of_the_wing) {
+TEST(Deflection, OpenFlapsTurnRigidlyClearOfWing) {
   Wing wing = straight_wing();
   wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);  // the flap extends across a section
   wing.sections[1].leading_edge = {0.0, 3.5, 0.0};
@@ -310,7 +310,7 @@ TEST(Deflection, open_flaps_turn_rigidly_and_stay_clear_of_the_wing) {
   }
 }
 
-TEST(Deflection, open_all_moving_surfaces_are_cut_off) {
+TEST(Deflection, OpenAllMovingSurfacesAreCutOff) {
   for (const bool is_tip : {false, true}) {
     const Model model = make_wing(deflected(straight_wing(), {open_flap(flap(is_tip ? -0.02 : 0.1, 0.3, 0.25, ControlKind::all_moving), 10.0 * k_degree)}));
     EXPECT_TRUE(free_edges(model).empty());
@@ -323,7 +323,7 @@ TEST(Deflection, open_all_moving_surfaces_are_cut_off) {
   }
 }
 
-TEST(Deflection, open_and_sealed_surfaces_on_one_wing_with_their_images) {
+TEST(Deflection, OpenAndSealedSurfacesOnOneMirroredWing) {
   ControlSurface aileron = flap(0.05, 0.2, 0.75), slat = flap(0.1, 0.45, 0.15, ControlKind::leading_edge), tab = flap(0.44, 0.48, 0.8);
   aileron.name = "Aileron";
   slat.name = "Slat";
@@ -350,7 +350,7 @@ TEST(Deflection, open_and_sealed_surfaces_on_one_wing_with_their_images) {
   }
 }
 
-TEST(Deflection, ailerons_of_the_widebody_move_apart) {
+TEST(Deflection, AileronsOfTheWidebodyMoveApart) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_smx(test::shared_data() / "smx/widebody.smx", RunContext()).aircraft;
   const Wing& wing = aircraft.wings.at(0);
@@ -367,7 +367,7 @@ TEST(Deflection, ailerons_of_the_widebody_move_apart) {
                      [&] { (void)deflected(wing, deflections); });  // the control surface extends across a kink of the wing
 }
 
-TEST(Deflection, a_fairing_that_reaches_a_flat_tip_bends_it) {
+TEST(Deflection, FairingReachingFlatTipBendsIt) {
   Wing fin = straight_wing();
   fin.is_symmetric = false;
   fin.sections[0].leading_edge = {2.5, 6.0, 0.0};
@@ -383,7 +383,7 @@ TEST(Deflection, a_fairing_that_reaches_a_flat_tip_bends_it) {
   }
 }
 
-TEST(Deflection, rudder_of_the_bjet_with_an_open_gap) {
+TEST(Deflection, RudderOfBjetWithOpenGap) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_smx(test::shared_data() / "smx/bjet.smx", RunContext()).aircraft;
   const auto fin = std::find_if(aircraft.wings.begin(), aircraft.wings.end(), [](const Wing& wing) { return wing.name == "Fin"; });
@@ -397,7 +397,7 @@ TEST(Deflection, rudder_of_the_bjet_with_an_open_gap) {
   expect_valid(model);
 }
 
-TEST(Deflection, what_cannot_be_is_refused_by_name) {
+TEST(Deflection, ImpossibleDeflectionsAreRefusedByName) {
   const Wing wing = straight_wing();
   const auto error_of = [&](const Wing& w, const std::vector<Deflection>& d) -> std::string {
     try {
@@ -430,7 +430,7 @@ std::string error_of_settings(const Aircraft& aircraft, const std::vector<Contro
   return test::error_of([&] { (void)with_controls_set(aircraft, settings); }).what();
 }
 
-TEST(SetControls, neighbours_give_each_other_room_and_stay_closed) {
+TEST(SetControls, NeighboursMakeRoomAndStayClosed) {
   Aircraft aircraft{.name = "a", .wings = {straight_wing()}};
   for (const auto& [name, from, to] : {std::tuple{"Inner", 0.1, 0.25}, std::tuple{"Outer", 0.25, 0.4}, std::tuple{"Tab", 0.4, 0.45}})
     aircraft.control_surfaces.push_back({.name = name, .wing = "wing", .hinge = {{from, 0.7}, {to, 0.8}}});
@@ -450,7 +450,7 @@ TEST(SetControls, neighbours_give_each_other_room_and_stay_closed) {
   EXPECT_GT(area_of(model, "Inner", FaceRole::control), 1.0);
 }
 
-TEST(SetControls, controls_of_the_bjet_move_segments_with_their_factors) {
+TEST(SetControls, ControlsOfBjetMoveSegmentsByFactors) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft bjet = read_smx(test::shared_data() / "smx" / "bjet.smx", RunContext()).aircraft;
   const Aircraft turned =
@@ -468,7 +468,7 @@ TEST(SetControls, controls_of_the_bjet_move_segments_with_their_factors) {
   EXPECT_EQ(with_controls_set(bjet, {}).deflections, bjet.deflections);
 }
 
-TEST(SetControls, segments_that_turn_alike_are_one_surface) {
+TEST(SetControls, SegmentsThatTurnAlikeAreOneSurface) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft plane = read_smx(test::shared_data() / "smx" / "widebody.smx", RunContext()).aircraft;
   for (const auto& [control, expected] : {std::pair{"LowSpeedRudder", "Rudder"}, std::pair{"HighSpeedAileron", "RightAileronSegment0"},
@@ -483,7 +483,7 @@ TEST(SetControls, segments_that_turn_alike_are_one_surface) {
     }
 }
 
-TEST(SetControls, what_cannot_be_is_refused_with_the_names_that_there_are) {
+TEST(SetControls, UnknownControlsAreRefusedWithKnownNames) {
   Aircraft aircraft{.name = "a", .wings = {straight_wing()}};
   EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flap", .angle = 0.1}}), HasSubstr("describes no control surfaces"));
   aircraft.control_surfaces.push_back(flap(0.1, 0.3, 0.7));

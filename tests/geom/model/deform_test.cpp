@@ -62,7 +62,7 @@ std::vector<Transform> all_transforms() {
           Transform{{1, 0.2, 0}, {0, 2, 0.1}, {0.3, 0, 0.7}, {1, 1, 1}}};
 }
 
-TEST(Transformed, SurfacesAndCurvesAreTheImagesAtTheSameParameters) {
+TEST(Transformed, SurfacesAndCurvesAreImagesAtEqualParameters) {
   for (const SurfacePtr& s : all_surfaces()) {
     for (const Transform& t : all_transforms()) {
       const SurfacePtr image = transformed(s, t);

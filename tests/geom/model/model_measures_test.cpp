@@ -34,7 +34,7 @@ Model patch(SurfacePtr surface, const std::vector<Uv>& outline, double beyond = 
   return model;
 }
 
-TEST(ModelMeasures, a_plane_with_a_round_hole) {
+TEST(ModelMeasures, PlaneWithRoundHole) {
   const Frame frame{{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Model model = patch(std::make_shared<PlaneSurface>(frame, ParameterBox{{0, 4}, {0, 3}}), {{0, 0}, {4, 0}, {4, 3}, {0, 3}});
   const CornerId corner = model.corners.push_back({{2.5, 1.5, 2}});
@@ -50,7 +50,7 @@ TEST(ModelMeasures, a_plane_with_a_round_hole) {
   EXPECT_NEAR(distance(m.box.min, {0, 0, 2}) + distance(m.box.max, {4, 3, 2}), 0.0, 1e-12);
 }
 
-TEST(ModelMeasures, curves_that_go_on_beyond_their_edges_and_parameters_beyond_a_period) {
+TEST(ModelMeasures, CurvesBeyondEdgesAndParametersBeyondPeriod) {
   const Frame frame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto round = std::make_shared<CylinderSurface>(frame, 0.5, ParameterBox{k_full_turn, {0, 2}});
   for (const double start : {0.0, 5.5, -7.0}) {
@@ -65,7 +65,7 @@ TEST(ModelMeasures, curves_that_go_on_beyond_their_edges_and_parameters_beyond_a
   EXPECT_NEAR(m.volume, m.area / 3.0, 1e-11);
 }
 
-TEST(ModelMeasures, solids_have_volume_centre_and_box) {
+TEST(ModelMeasures, SolidsHaveVolumeCentreAndBox) {
   const Model can = test::cylinder(0.3, 2.0, {10, -4, 7});
   const ModelMeasures m = model_measures(can, RunContext());
   EXPECT_NEAR(m.total.volume, k_pi * 0.09 * 2.0, 1e-11);
@@ -81,7 +81,7 @@ TEST(ModelMeasures, solids_have_volume_centre_and_box) {
   EXPECT_NEAR(model_measures(deformed(can, bend, RunContext()), RunContext()).total.volume, m.total.volume, 1e-9 * m.total.volume);
 }
 
-TEST(ModelMeasures, an_open_solid_has_no_volume) {
+TEST(ModelMeasures, AnOpenSolidHasNoVolume) {
   Model can = test::cylinder(1.0, 1.0);
   can.solids[SolidId(0)].is_closed = false;
   const ModelMeasures m = model_measures(can, RunContext());

@@ -89,7 +89,7 @@ TEST(NurbsCurve, AgreesWithCornerCuttingForEveryDegree) {
   }
 }
 
-TEST(NurbsCurve, EndsAreTheEndPolesAndEndPiecesGoOn) {
+TEST(NurbsCurve, EndsAreEndPolesAndEndPiecesContinue) {
   std::mt19937_64 random(2);
   const NurbsCurve curve(random_curve(3, 5, false, random));
   EXPECT_LE(distance(curve.point(curve.domain().from), curve.form().poles.front()), 1e-15);

@@ -139,7 +139,7 @@ TEST(SurfaceProjector, SameForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(one[i].at, seven[i].at);
 }
 
-TEST(CurveProjector, AgreesWithBruteForceAndKeepsToTheEnds) {
+TEST(CurveProjector, AgreesWithBruteForceAndStaysWithinEnds) {
   std::vector<Point> points;
   for (int i = 0; i <= 20; ++i) points.push_back({std::cos(0.6 * i), std::sin(0.6 * i), 0.1 * i * std::cos(0.2 * i)});
   const std::vector<CurvePtr> curves{spline_curve(points, {}), spline_curve(points, {.tangents = SplineTangents::akima}),

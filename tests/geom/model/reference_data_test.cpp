@@ -20,7 +20,7 @@ WingSection diamond(Point leading, double chord) {
           .points = {{1.0, 0.0}, {0.6, 0.05}, {0.2, 0.05}, {0.0, 0.0}, {0.2, -0.05}, {0.6, -0.05}, {1.0, 0.0}}};
 }
 
-TEST(ReferenceData, a_trapezoid_has_its_formulas) {
+TEST(ReferenceData, TrapezoidMatchesFormulas) {
   const double root = 2.0, tip = 1.0, half_span = 5.0;
   const Wing wing{.name = "W", .is_symmetric = true, .sections = {diamond({1.5, half_span, 0.0}, tip), diamond({0.0, 0.0, 0.0}, root)}};
   const WingReference r = wing_reference(wing);
@@ -66,7 +66,7 @@ TEST(ReferenceData, DihedralLeavesTheMeanChordsAlone) {
 // Schmitt and Charpin, AGARD AR-138 (1979), quoted from memory (no copy is stored here): semi span 1.1963 m, root 0.8059 m, taper 0.562, mean aerodynamic chord
 // 0.64607 m, half area 0.7532 m2. The file has 1.1963 along the swept leading edge instead of along the span. Its span is therefore this length times
 // cos 30 degrees: 0.866 of the published span.
-TEST(ReferenceData, onera_m6) {
+TEST(ReferenceData, OneraM6) {
   STERNA_NEEDS_SHARED_DATA();
   Wing wing = read_cpacs(test::shared_data() / "cpacs/onera_m6.xml", RunContext()).aircraft.wings.at(0);
   const WingReference file = wing_reference(wing);

@@ -24,7 +24,7 @@ void expect_no_opening(const Model& model) {
   for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-9);
 }
 
-TEST(Shapes, box_and_cylinder_have_their_volumes) {
+TEST(Shapes, BoxAndCylinderHaveTheirVolumes) {
   const Model box = make_box("b", {-1.0, 2.0, 0.0}, {1.0, 5.0, 4.0});
   expect_no_opening(box);
   EXPECT_EQ(box.faces.size(), 6u);
@@ -40,7 +40,7 @@ TEST(Shapes, box_and_cylinder_have_their_volumes) {
   test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': it is 0.000000 m long", [&] { (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0); });
 }
 
-TEST(Shapes, a_test_section_holds_the_fluid_inside) {
+TEST(Shapes, TestSectionHoldsFluidInside) {
   TestSectionOptions o;
   o.length = 6.0;
   o.width = 2.1;
@@ -65,7 +65,7 @@ TEST(Shapes, a_test_section_holds_the_fluid_inside) {
   EXPECT_EQ(tunnel.components[ComponentId(0)].kind, ComponentKind::tunnel);
 }
 
-TEST(Shapes, required_options_are_asked_for_by_name) {
+TEST(Shapes, RequiredOptionsAreNamed) {
   const auto error_of = [](const TestSectionOptions& options) -> std::string {
     try {
       make_test_section(options);
@@ -78,7 +78,7 @@ TEST(Shapes, required_options_are_asked_for_by_name) {
   EXPECT_THAT(error_of({.length = 4.0}), HasSubstr("needs width and height, or the diameter"));
 }
 
-TEST(Shapes, nacelle_and_pylon_join_a_wing) {
+TEST(Shapes, NacelleAndPylonJoinAWing) {
   NacelleOptions n;
   n.length = 3.6;
   n.diameter = 2.1;
@@ -115,7 +115,7 @@ double cowl_radius(const Body& nacelle, double x) {
   return 0.5 * (a.height + (x - a.center.x) / (b.center.x - a.center.x) * (b.height - a.height));
 }
 
-TEST(Shapes, pylons_start_at_the_cowl_and_stay_out_of_the_jet) {
+TEST(Shapes, PylonsStartAtCowlAndAvoidJet) {
   for (const double side : {1.0, -1.0})           // nacelle below the wing, then above
     for (const double behind : {-1.5, 0.0, 2.5})  // position of the wing
       for (const double to : {0.6, 0.95, 1.0, 1.3})
@@ -160,7 +160,7 @@ Model valid(const Body& body) {
   return model;
 }
 
-TEST(Shapes, a_boom_is_a_tube_with_half_ellipsoids) {
+TEST(Shapes, BoomIsTubeWithHalfEllipsoids) {
   BoomOptions o;
   o.diameter = 0.4;
   for (const Point& to : {Point{5.0, 0.0, 0.0}, Point{3.0, 4.0, 0.0}, Point{0.0, 0.0, -5.0}, Point{-3.0, 0.0, 4.0}}) {
@@ -175,7 +175,7 @@ TEST(Shapes, a_boom_is_a_tube_with_half_ellipsoids) {
   test::expect_error(ErrorCode::bad_argument, "shorter than the boom, 0.000000 m", [&] { (void)boom_body("none", {0, 0, 0}, {0, 0, 0}, o); });
 }
 
-TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
+TEST(Shapes, BodyOfRevolutionHasVolumeOfItsProfile) {
   // A cone and a cylinder are exact; a smooth profile r = 0.3 sin(pi x / 4) has the volume pi 0.09 / 2 * 4.
   EXPECT_NEAR(volume_of(valid(body_of_revolution("b", {}, {{0.0, 0.0}, {1.0, 0.5}, {3.0, 0.5}}, true))), pi * 0.25 * (1.0 / 3.0 + 2.0), 1e-5);
   std::vector<Uv> profile;
@@ -190,7 +190,7 @@ TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
   expect_refused("point 1 of its profile (x = 0, radius -1) needs a positive radius", {{0.0, -1.0}, {1.0, 1.0}});
 }
 
-TEST(Shapes, a_fairing_fills_its_box) {
+TEST(Shapes, FairingFillsItsBox) {
   FairingOptions o;
   o.length = 6.0;
   o.width = 2.0;
@@ -204,7 +204,7 @@ TEST(Shapes, a_fairing_fills_its_box) {
   EXPECT_GT(volume_of(valid(fairing_body("belly", {1.0, 0.0, -1.0}, o))), 1.1 * volume_of(model));
 }
 
-TEST(Shapes, a_sting_is_cylinder_and_cone_with_flat_ends) {
+TEST(Shapes, StingIsCylinderAndConeWithFlatEnds) {
   StingOptions o;
   o.diameter = 0.1;
   EXPECT_NEAR(volume_of(valid(sting_body("sting", {1.0, 0.0, 0.0}, {3.0, 0.0, 0.5}, o))), pi * 0.0025 * std::hypot(2.0, 0.5), 1e-7);

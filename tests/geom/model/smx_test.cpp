@@ -49,7 +49,7 @@ struct SmxCounts {
 
 class SmxFiles : public testing::TestWithParam<SmxCounts> {};
 
-TEST_P(SmxFiles, are_read_completely_and_written_so_that_they_read_back_equal) {
+TEST_P(SmxFiles, AreReadCompletelyAndReadBackEqual) {
   STERNA_NEEDS_SHARED_DATA();
   const SmxCounts& expected = GetParam();
   const AircraftReading first = read_smx(test::shared_data() / "smx" / expected.name, RunContext());
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(all_seven, SmxFiles,
                                          SmxCounts{"widebody.smx", 10, 3, 5, 5, 4}),
                          [](const auto& info) { return std::string(info.param.name).substr(0, std::string(info.param.name).find('.')); });
 
-TEST(Smx, a_clean_file_has_no_messages_and_odd_ones_are_told_with_line_and_path) {
+TEST(Smx, MessagesNameLineAndPathOfOddEntries) {
   STERNA_NEEDS_SHARED_DATA();
   EXPECT_THAT(read_smx(test::shared_data() / "smx/widebody.smx", RunContext()).messages, IsEmpty());
   const AircraftReading odd = read_smx(test::shared_data() / "smx/sumo_empty.smx", RunContext());
@@ -82,7 +82,7 @@ TEST(Smx, a_clean_file_has_no_messages_and_odd_ones_are_told_with_line_and_path)
   EXPECT_THAT(odd.messages, Contains(HasSubstr("sumo wants 4 frames; there are 3")));
 }
 
-TEST(Smx, frame_points_are_normalised_and_the_shape_stays) {
+TEST(Smx, FramePointsAreNormalisedShapeStays) {
   STERNA_NEEDS_SHARED_DATA();
   const BodyFrame frame = read_smx(test::shared_data() / "smx/sumo_empty.smx", RunContext()).aircraft.bodies[0].frames[1];
   EXPECT_EQ(frame.name, "FuselageFrame55");
@@ -93,7 +93,7 @@ TEST(Smx, frame_points_are_normalised_and_the_shape_stays) {
   EXPECT_NEAR(0.5 * frame.width * frame.points[1].u, 0.020473, 1e-12);
 }
 
-TEST(Smx, a_shape_replaces_points_and_a_circle_its_size) {
+TEST(Smx, ShapesReplacePointsCirclesReplaceSizes) {
   const BodyFrame frame = read_smx_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0].frames[0];
   EXPECT_EQ(frame.shape, FrameShape::circle);
   EXPECT_EQ(frame.width, 2.0);  // "radius" is the diameter
@@ -101,7 +101,7 @@ TEST(Smx, a_shape_replaces_points_and_a_circle_its_size) {
   EXPECT_THAT(frame.points, IsEmpty());
 }
 
-TEST(Smx, frames_are_sorted_and_a_lip_makes_the_nose_flat) {
+TEST(Smx, FramesAreSortedAndLipMakesNoseFlat) {
   const AircraftReading reading =
       read_smx_text(body_with("<NacelleInletLip axialOffset='0.3'/>" + circle_at(3) + circle_at(1) + "<Cap shape='RingCap' height='1' side='south'/>"));
   const Body& body = reading.aircraft.bodies[0];
@@ -114,7 +114,7 @@ TEST(Smx, frames_are_sorted_and_a_lip_makes_the_nose_flat) {
   EXPECT_THAT(reading.messages, Contains(HasSubstr("makes the front cap flat")));
 }
 
-TEST(Smx, caps_that_are_missing_are_flat_domes_of_bodies_and_round_strips_of_wings) {
+TEST(Smx, MissingCapsAreFlatDomesOrRoundStrips) {
   const Body body = read_smx_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0];
   EXPECT_EQ(body.nose, (EndCap{CapShape::dome, 0.0}));
   EXPECT_EQ(read_smx_text(body_with(circle_at(0) + circle_at(1) + "<Caps height_north='0.5' height_south='2'/>")).aircraft.bodies[0].nose,
@@ -133,13 +133,13 @@ TEST(Smx, caps_that_are_missing_are_flat_domes_of_bodies_and_round_strips_of_win
   EXPECT_EQ(symmetric.sections[0].dihedral, 0.1);
 }
 
-TEST(Smx, unknown_things_are_told_and_left_out) {
+TEST(Smx, UnknownEntriesAreReportedAndOmitted) {
   const AircraftReading reading = read_smx_text(body_with(circle_at(0) + circle_at(1) + "<Propeller blades='3'/>", "colour='red'"));
   EXPECT_THAT(reading.messages, Contains(HasSubstr("/Assembly/BodySkeleton[B]/Propeller: this element is not known")));
   EXPECT_THAT(reading.messages, Contains(HasSubstr("attribute 'colour' is not known")));
 }
 
-TEST(Smx, references_to_nothing_are_told) {
+TEST(Smx, DanglingReferencesAreReported) {
   const AircraftReading reading =
       read_smx_text("<Assembly><BodySkeleton name='B'>" + circle_at(0) + circle_at(1) +
                     "</BodySkeleton><ControlSystem><ControlSrf name='Flap' wing='Nowhere' type='TEF'><Hingepoint spanpos='0.1' chordpos='0.7'/><Hingepoint "
@@ -149,7 +149,7 @@ TEST(Smx, references_to_nothing_are_told) {
   EXPECT_THAT(reading.messages, Contains(HasSubstr("'FlapSegment7'")));
 }
 
-TEST(Smx, errors_name_line_and_path) {
+TEST(Smx, ErrorsNameLineAndPath) {
   EXPECT_THAT(malformed("<Assembly>\n<BodySkeleton name='B'>\n</Assembly>"), HasSubstr("line 3, column"));
   EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='-1' width='1'/>")),
               HasSubstr("line 3, /Assembly/BodySkeleton[B]/BodyFrame[F]: attribute 'height' is -1; it must be positive"));
@@ -165,7 +165,7 @@ TEST(Smx, errors_name_line_and_path) {
   EXPECT_THAT(malformed("<Assembly/>"), HasSubstr("there is no body and no wing"));
 }
 
-TEST(Smx, what_smx_cannot_hold_is_refused_by_name) {
+TEST(Smx, UnsupportedContentIsRefusedByName) {
   Aircraft aircraft;
   aircraft.bodies.push_back({.name = "B"});
   aircraft.bodies[0].frames.resize(2);
@@ -180,7 +180,7 @@ TEST(Smx, what_smx_cannot_hold_is_refused_by_name) {
   }
 }
 
-TEST(Smx, a_section_may_have_only_a_naca_designation) {
+TEST(Smx, SectionMayHaveOnlyNacaDesignation) {
   const auto wing = [](const std::string& naca) {
     const std::string section = " chord='1' naca='" + naca + "'/>";
     return "<Assembly><WingSkeleton name='W'><WingSection name='a' center='0 1 0'" + section + "<WingSection name='b' center='0 0 0'" + section +

@@ -127,7 +127,7 @@ TEST(Spline, AkimaKeepsStraightSegmentsStraight) {
   EXPECT_GT(wiggle, 1e-3);
 }
 
-TEST(Spline, MonotoneTangentsNeverCarryACoordinateBeyondItsTwoPoints) {
+TEST(Spline, MonotoneTangentsDoNotOvershoot) {
   // Uneven steps, a plateau and turning points in each coordinate: with Bessel tangents the curve overshoots all of them.
   const std::vector<Point> points{{0, 0, 1}, {0.1, 1, 1}, {0.2, 1.05, 1}, {3, 1.05, 0.2}, {3.1, 0.2, 0.1}, {3.1, 0.1, 4}, {5, 0.1, 4.1}};
   const std::vector<double> t = spline_parameters(points, SplineParameters::chord_length);

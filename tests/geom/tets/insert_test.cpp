@@ -77,7 +77,7 @@ TEST(TetInsert, PointsOnOneSphereHaveOneAnswer) {
   }
 }
 
-TEST(TetInsert, ManyPointsAreTheSameMeshForAnyThreads) {
+TEST(TetInsert, ManyPointsGiveSameMeshForAnyThreads) {
   // Enough points for many blocks; from the second call on, the search starts near each point's final position.
   const RunContext one({.threads = 1});
   const TetSoup cube = cube_of_tets(12);

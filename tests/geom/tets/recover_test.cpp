@@ -143,7 +143,7 @@ Shell random_grid(int n) {
 
 /// Every square has four points on one circle, every cell eight on one sphere. From n = 16 on, some diagonals need points on both sides, once nearer than the
 /// first attempt (found by filling a cube of uniform tetrahedra, which 2.6 edges of 10 000 prevented).
-TEST(TetRecover, FacesOfAGridWhoseDiagonalsTurnEitherWay) {
+TEST(TetRecover, GridFacesWithDiagonalsEitherWay) {
   for (const int n : {4, 16, 25}) {
     const Shell cube = random_grid(n);
     const Recovery recovery = recovered(cube);
@@ -172,7 +172,7 @@ TEST(TetRecover, RoughStars) {
   }
 }
 
-TEST(TetRecover, ABodyThatNoTetrahedraFillWithoutAPoint) {
+TEST(TetRecover, BodyThatNeedsAnAddedPoint) {
   // A prism whose top is rotated by 30 degrees, with its sides folded inwards (Schoenhardt 1928).
   Shell shell;
   for (const double z : {0.0, 1.0})

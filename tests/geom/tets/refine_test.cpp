@@ -114,7 +114,7 @@ TEST(TetRefine, ScalesWithTheUnit) {
   EXPECT_EQ(refined(soup, sizes, 1, report).nodes, metres.nodes);
 }
 
-TEST(TetRefine, NeedlesOfTheBoundaryDoNotHinderTheEnd) {
+TEST(TetRefine, BoundarySliversDoNotPreventTermination) {
   TetSoup soup = cube_of_tets(8);
   for (Vec3& p : soup.points) p.z *= 1e-3;  // corner angles of 0.01 degrees
   RefineReport report;

@@ -34,7 +34,7 @@ TEST(FormatTable, SharedExtensionsAreToldByContents) {
   }
 }
 
-TEST(FormatTable, MissingFileGoesToTheFirstOfItsExtension) { EXPECT_EQ(format_of(scratch() / "nowhere.msh").name, "Gmsh MSH"); }
+TEST(FormatTable, MissingFileGetsFirstFormatOfExtension) { EXPECT_EQ(format_of(scratch() / "nowhere.msh").name, "Gmsh MSH"); }
 
 TEST(FormatTable, WritingTakesTheFirstWriterOrTheNamed) {
   EXPECT_EQ(format_to_write("a.SU2", FormatUse::write_volume).name, "SU2");

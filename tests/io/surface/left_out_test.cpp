@@ -21,7 +21,7 @@ std::vector<std::string> log_of_reading(const std::string& name, const std::stri
   return lines;
 }
 
-TEST(LeftOut, ObjTellsLinesAndFreeFormSurfacesAndOtherNames) {
+TEST(LeftOut, ObjReportsLinesFreeFormSurfacesOtherNames) {
   const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
   EXPECT_THAT(log_of_reading("a.obj", head + "f 1 2 3\nl 1 2\nl 2 3\np 1\n"), Contains(AllOf(HasSubstr("left out: 2 lines (l)"), HasSubstr("1 points (p)"))));
   EXPECT_THAT(log_of_reading("a.obj", head + "f 1 2 3\ncstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nend\n"),

@@ -39,12 +39,12 @@ TEST(SurfaceMsh, NamesNeedNoPhysicalNames) {
   EXPECT_EQ(triangles_by_patch(read_msh(replaced(k_v4, names, ""))), (std::map<std::string, int>{{"patch_7", 1}, {"patch_4", 2}}));
 }
 
-TEST(SurfaceMsh, ANegativeGroupTagTurnsTheEntityRoundNotTheName) {
+TEST(SurfaceMsh, NegativeGroupTagReversesEntityNotName) {
   expect_same_soup(read_msh(replaced(k_v4, "1 7 1 1\n", "1 -7 1 1\n")), read_msh(k_v4));
   expect_same_soup(read_msh(replaced(k_v2, "2 2 2 7 3", "2 2 2 -7 3")), read_msh(k_v2));
 }
 
-TEST(SurfaceMsh, OtherSectionsParametricNodesAndSecondOrderArePassedOver) {
+TEST(SurfaceMsh, OtherSectionsParametricNodesSecondOrderAreSkipped) {
   expect_same_soup(read_msh(replaced(k_v4, "$Nodes", "$Comments\nanything 1 2 $ 3\n$EndComments\n$Nodes")), read_msh(k_v4));
   expect_same_soup(read_msh(k_v4 + "$NodeData\n1\n\"p\"\n1\n0\n3\n0\n1\n1\n10 3.5\n$EndNodeData\n"), read_msh(k_v4));
   std::string parametric = replaced(k_v4, "1 1 0 2\n900\n10\n0 0 0\n1 0 0\n", "1 1 1 2\n900\n10\n0 0 0 0.5\n1 0 0 0.7\n");

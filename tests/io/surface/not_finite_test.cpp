@@ -62,7 +62,7 @@ int plant(std::string& content, double value) {
   return n;
 }
 
-TEST(NotFinite, EveryFormatLeavesOutThePolygonsAndSaysHowMany) {
+TEST(NotFinite, EveryFormatOmitsAndCountsPolygons) {
   int n_formats = 0;
   for (const io::Format& format : io::formats()) {
     if (!format.write_surface || format.name == "sterna" ||

@@ -189,7 +189,7 @@ TEST(SurfaceRoundTrip, EmptySurfaceIsWritten) {
   }
 }
 
-TEST(SurfaceRoundTrip, WhatCannotBeWrittenIsRefusedAndTheOldFileStays) {
+TEST(SurfaceRoundTrip, UnwritableSurfaceIsRefusedAndOldFileStays) {
   TriMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{VertexId(0), VertexId(1), VertexId(2)}};

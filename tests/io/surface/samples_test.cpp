@@ -93,7 +93,7 @@ TEST(Samples, EveryFormatGivesTheSameSurface) {
   }
 }
 
-TEST(Samples, GzipCrlfAndAMissingLineEndChangeNothing) {
+TEST(Samples, GzipCrlfAndMissingLineEndChangeNothing) {
   STERNA_NEEDS_SHARED_DATA();
   const std::filesystem::path folder = scratch();
   for (const Body& body : k_bodies) {
@@ -148,7 +148,7 @@ TEST(Samples, RealVolumeMeshesGiveTheirBoundary) {
   EXPECT_EQ(brick.patch_names, (std::vector<std::string>{"x_m", "x_p", "y_m", "y_p", "z_m", "z_p"}));
 }
 
-TEST(Samples, EveryRealSurfaceHasTheTrianglesOfItsRow) {
+TEST(Samples, RealSurfacesHaveTheirListedTriangleCounts) {
   STERNA_NEEDS_SHARED_DATA();
   // Rows of the README there: "| surfaces/clean/x.stl | ... | tri=880 |".
   std::istringstream rows(bytes_of(corpus() / "shared" / "README.md"));

@@ -49,7 +49,7 @@ TEST(SurfaceStl, SpellingsOfText) {
   expect_same_soup(read_surface_text("a.stl", "\xEF\xBB\xBF  solid \"x\"\n" + facet("+1.0E+00") + "endsolid\n"), soup);
 }
 
-TEST(SurfaceStl, ATextWithoutEndsolidIsReadWithAWarning) {
+TEST(SurfaceStl, TextWithoutEndsolidIsReadWithWarning) {
   std::vector<std::string> warnings;
   EXPECT_EQ(read_surface_text("a.stl", "solid x\n" + facet("0"), &warnings).triangles.size(), 1u);
   ASSERT_EQ(warnings.size(), 1u);
@@ -66,7 +66,7 @@ TEST(SurfaceStl, BinaryWhateverItsHeaderSays) {
   }
 }
 
-TEST(SurfaceStl, BytesAfterTheLastFacetAreIgnoredWithAWarning) {
+TEST(SurfaceStl, BytesAfterLastFacetAreIgnoredWithWarning) {
   std::vector<std::string> warnings;
   EXPECT_EQ(read_surface_text("a.stl", binary(2, 2) + "junk", &warnings).triangles.size(), 2u);
   ASSERT_EQ(warnings.size(), 1u);

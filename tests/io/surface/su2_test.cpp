@@ -52,7 +52,7 @@ TEST(SurfaceSu2, BlocksComeInAnyOrder) {
   expect_same_soup(read_su2("NDIME= 3\n" + markers + elements + points), soup);
 }
 
-TEST(SurfaceSu2, BlanksInsideANameAreRemovedAsSu2DoesAndEmptyMarkersVanish) {
+TEST(SurfaceSu2, BlanksInNamesAndEmptyMarkersAreRemoved) {
   std::string text = replaced(k_tetrahedron, "MARKER_TAG= wing", "MARKER_TAG=  left wing ");
   text = replaced(text, "NMARK= 2\n", "NMARK= 3\nMARKER_TAG= nothing\nMARKER_ELEMS= 0\n");
   EXPECT_EQ(read_su2(text).patch_names, (std::vector<std::string>{"leftwing", "tip"}));
@@ -92,7 +92,7 @@ TEST(SurfaceSu2, LinesInMarkersAreLeftOutAndTold) {
   EXPECT_NE(warnings[0].find("2 lines (type 3) in markers"), std::string::npos) << warnings[0];
 }
 
-TEST(SurfaceSu2, FacesBesideMarkersAreLeftOutWithAWarning) {
+TEST(SurfaceSu2, FacesBesideMarkersAreOmittedWithWarning) {
   std::vector<std::string> warnings;
   const SurfaceSoup soup = read_surface_text("mesh.su2", replaced(k_tetrahedron, "NELEM= 1\n", "NELEM= 2\n5 0 1 2\n"), &warnings);
   expect_same_soup(soup, read_su2(k_tetrahedron));

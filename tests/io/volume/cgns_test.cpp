@@ -102,7 +102,7 @@ TEST(CgnsWrite, VtkFindsTheSame) {
   }
 }
 
-TEST(Cgns, NamesThatCgnsCannotTakeAreMappedAndComeBack) {
+TEST(Cgns, UnsupportedNamesAreMappedAndRestored) {
   HybridMesh mesh = test::hexahedron_with_roof();
   const std::string longer = "a patch whose name is longer than thirty-two bytes";
   mesh.patches[PatchId(0)].name = longer + "/1";

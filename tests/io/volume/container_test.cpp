@@ -82,7 +82,7 @@ TEST(ContainerImage, IsATree) {
   test::expect_error(ErrorCode::file_malformed, "/group: this is not a dataset", [&] { image.data(image.child(image.root(), "group")); });
 }
 
-TEST(ContainerImage, EveryByteChangedOrMissingIsAnImageOrAnError) {
+TEST(ContainerImage, ChangedOrMissingBytesGiveImageOrError) {
   const std::string whole = image_bytes();
   int n_refused = 0;
   const auto attempt = [&](const std::string& bytes) {
@@ -171,7 +171,7 @@ TEST(ContainerHdf5, LinksAreNotFollowed) {
   test::expect_error(ErrorCode::unsupported_format, "/group/cycle is a link", [&] { image.child(image.child(image.root(), "group"), "cycle"); });
 }
 
-TEST(ContainerHdf5, NoMoreIsBelievedThanTheFileCanHold) {
+TEST(ContainerHdf5, DeclaredSizesAreLimitedByFileSize) {
   const ContainerImage image = container_with([](hid_t file) {
     make_dataset(file, "huge", {1u << 30, 1u << 20}, H5P_DEFAULT);
     make_dataset(file, "never_written", {100}, H5P_DEFAULT);

@@ -94,7 +94,7 @@ constexpr std::size_t k_near = 2;
 /// A wing from its STL file to OpenFOAM. Its triangles are up to 30 times longer than wide: at 72 % of the wall's edges, the line between centres is more than
 /// 70 degrees off the edge's normal, and straight prisms on them have that angle in every layer. Beyond two cells from a ridge the layer contributes no further
 /// faces; tetrahedra contribute a few.
-TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) {
+TEST(FoamRealMesh, CheckMeshPassesExceptRidgesAndForcedFaces) {
   STERNA_NEEDS_SHARED_DATA();
   const auto folder = test::scratch();
   const std::string script = "local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() +

@@ -145,7 +145,7 @@ TEST(Foam, NeverCrashesOnDamagedFiles) {
 }
 
 /// The file that ParaView opens and OpenFOAM's tools find: an empty file beside constant/.
-TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
+TEST(Foam, FileIsParaViewCaseFoldersStayCases) {
   const auto scratch = test::scratch();
   const auto poly_of = [](const std::filesystem::path& folder) { return folder / "constant" / "polyMesh"; };
   write(test::hexahedra_block(2), scratch / "case.foam");
@@ -187,7 +187,7 @@ TEST(Foam, FoldersOfCasesAreMade) {
   EXPECT_THAT(*output, testing::HasSubstr("Mesh OK."));
 }
 
-TEST(Foam, TheOldFolderStaysUntilTheNewOneIsComplete) {
+TEST(Foam, OldFolderStaysUntilNewIsComplete) {
   const auto scratch = test::scratch(), folder = scratch / "case.foam", poly = scratch / "constant" / "polyMesh";
   write(test::hexahedron_with_roof(), folder);
   std::ofstream(poly / "cellZones") << "of the old mesh";

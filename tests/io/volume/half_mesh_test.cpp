@@ -20,7 +20,7 @@ HybridMesh half_mesh() { return test::half_shell_of_all_kinds(6, {.shell = {.n_l
 
 using test::write;
 
-TEST(HalfMesh, HasQuadsAndTrianglesOfEveryKindInItsPlane) {
+TEST(HalfMesh, HasAllQuadAndTriangleKindsInPlane) {
   const HybridMesh mesh = half_mesh();
   std::vector<int> n_quads(mesh.patches.size()), n_triangles(mesh.patches.size());
   for (const BoundaryQuad& face : mesh.boundary_quads) ++n_quads[face.patch.index()];

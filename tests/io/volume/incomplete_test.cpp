@@ -48,7 +48,7 @@ std::multiset<std::vector<std::array<double, 3>>> faces_of(const HybridMesh& mes
   return faces;
 }
 
-TEST(IncompleteMesh, EveryFormatGetsTheBoundaryThatItsFileLacks) {
+TEST(IncompleteMesh, EveryFormatGetsItsMissingBoundary) {
   const HybridMesh whole = explicit_cells(mesh_of_six_patches());
   HybridMesh bare = whole;
   bare.boundary_triangles.clear();
@@ -76,7 +76,7 @@ TEST(IncompleteMesh, EveryFormatGetsTheBoundaryThatItsFileLacks) {
   EXPECT_GE(n, 8);
 }
 
-TEST(IncompleteMesh, APartOfTheBoundaryIsReportedAndCompletedOnlyOnRequest) {
+TEST(IncompleteMesh, PartialBoundaryIsReportedAndCompletedOnRequest) {
   const HybridMesh whole = explicit_cells(mesh_of_six_patches());
   HybridMesh partial = whole;
   const PatchId lost = whole.boundary_triangles.front().patch;
@@ -101,7 +101,7 @@ TEST(IncompleteMesh, CompleteMeshesAreReadWithoutAWord) {
   EXPECT_THAT(read_with_warnings(path).warnings, IsEmpty());
 }
 
-TEST(IncompleteMesh, ThePatchOfAddedFacesGetsAFreeName) {
+TEST(IncompleteMesh, PatchOfAddedFacesGetsUnusedName) {
   HybridMesh mesh = explicit_cells(mesh_of_six_patches());
   mesh.patches[PatchId(0)].name = "boundary";
   mesh.boundary_quads.clear();

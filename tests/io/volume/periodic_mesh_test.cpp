@@ -101,7 +101,7 @@ TEST(PeriodicMesh, OtherFormatsHaveTwoPatches) {
   }
 }
 
-TEST(PeriodicMesh, SidesThatDoNotMatchAreNotWrittenAsCyclic) {
+TEST(PeriodicMesh, UnmatchedSidesAreNotWrittenAsCyclic) {
   HybridMesh mesh = periodic_plate();
   const PeriodicMatch match = match_periodic(mesh, mesh.periodic[0].first, mesh.periodic[0].second, 1e-10);
   mesh.points[match.nodes[7][1]].y += 1e-6;

@@ -8,14 +8,14 @@ namespace {
 
 Error refusal(const std::string& problem) { return Error({.code = ErrorCode::file_malformed, .attempted = "reading x", .problem = problem}); }
 
-TEST(SaysWhere, OfTextAndBinaryFilesALineAByteOrACell) {
+TEST(SaysWhere, TextOrBinaryFilesReportLineByteCell) {
   for (const char* const problem : {"line 3: found \"a\"", "block at line 7: too long", "byte 0: no head", "cell 12: has five faces", "the file is empty"})
     EXPECT_TRUE(says_where(refusal(problem), false)) << problem;
   for (const char* const problem : {"it is damaged", "the line is bad", "byte: none", "/Base/Zone: found no coordinates"})
     EXPECT_FALSE(says_where(refusal(problem), false)) << problem;
 }
 
-TEST(SaysWhere, OfContainersANodeByNameOrTheWholeFileWithTheReason) {
+TEST(SaysWhere, ContainersReportNodeOrWholeFileWithReason) {
   for (const char* const problem :
        {"/Base/Zone: found no GridCoordinates", "/VTKHDF, attribute \"Version\": found text", "variable \"points_xc\": there is none",
         "variable 3: the NetCDF library says: no", "attribute \"marker_1\": the NetCDF library says: no",

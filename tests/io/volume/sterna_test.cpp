@@ -136,7 +136,7 @@ TEST(Sterna, VerbsOfTheFormatTable) {
   test::expect_error(ErrorCode::file_malformed, "found nothing, expected a surface or a mesh", [&] { read_surface_file(folder / "empty.sterna", k_context); });
 }
 
-TEST(Sterna, OnlyWhatOlderReadersWouldMisreadNeedsLaterVersions) {
+TEST(Sterna, VersionRisesOnlyWhereOldReadersFail) {
   const auto path = test::scratch() / "mesh.sterna";
   const auto version = [&] { return static_cast<int>(test::bytes_of(path)[16]); };
   write_sterna(Everything().parts(), path, k_context);
@@ -173,7 +173,7 @@ TEST(Sterna, OnlyWhatOlderReadersWouldMisreadNeedsLaterVersions) {
   EXPECT_EQ(version(), 4);
 }
 
-TEST(Sterna, TheLayerOfAnOpenedWallIsBesideTheMesh) {
+TEST(Sterna, LayerOfOpenedWallIsStoredBesideMesh) {
   const auto path = test::scratch() / "run.sterna";
   const Everything all;
   const HybridMesh opened = test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}});

@@ -79,7 +79,7 @@ TEST(Su2Write, SameBytesForAnyNumberOfThreads) {
   }
 }
 
-TEST(Su2Write, NamesThatSu2CannotTakeAreChangedWithAWarning) {
+TEST(Su2Write, UnsupportedNamesAreChangedWithWarning) {
   HybridMesh mesh = prism_and_tet();
   mesh.patches = {{"left wing (a)", PatchKind::wall}, {"SEND_RECEIVE", PatchKind::wall}, {"", PatchKind::farfield}, {"unused", PatchKind::wall}};
   std::vector<std::string> log;

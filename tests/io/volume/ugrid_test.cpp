@@ -68,7 +68,7 @@ TEST(UgridWrite, SamplesByteForByte) {
   EXPECT_EQ(test::bytes_of(folder / "pt.mapbc"), "3\n1 4000 wall\n2 6662 side\n3 5000 farfield\n");
 }
 
-TEST(Ugrid, RoundTripOfAMixedMeshInEveryVariant) {
+TEST(Ugrid, RoundTripOfMixedMeshInEveryVariant) {
   const auto folder = test::scratch();
   for (const HybridMesh& mesh : {test::mixed_mesh(), test::hexahedron_with_roof()}) {
     const HybridMesh expected = explicit_cells(mesh);

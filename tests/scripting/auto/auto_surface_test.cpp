@@ -148,7 +148,7 @@ TEST_F(AutoSurfaceTest, StagesTakeTheirOptions) {
   EXPECT_THAT(sterna({"surface", "bar.off", "-o", "a.off", "--set", "remesh.max_edge=0.03"}).errors, HasSubstr("is given without --auto"));
 }
 
-TEST_F(AutoSurfaceTest, ASmoothBodyIsNotDentedForItsBudget) {
+TEST_F(AutoSurfaceTest, SmoothBodyIsNotDentedForItsBudget) {
   // Fine triangles, many of them needles: every third ring lies close to the preceding one.
   constexpr int k_rings = 60, k_sides = 80;
   std::ofstream file(folder_ / "car.off");
@@ -252,7 +252,7 @@ TEST_F(AutoSurfaceTest, ReadSurfaceTakesTheSame) {
   EXPECT_THAT(error("read_surface{ " + open + ", repair = { hoel = 1 } }"), HasSubstr("hole"));
 }
 
-TEST_F(AutoSurfaceTest, PartsOfCadThatStandInEachOtherAreUnited) {
+TEST_F(AutoSurfaceTest, OverlappingCadPartsAreUnited) {
   run("box{ {0, 0, 0}, {1, 1, 1}, name = 'a' }:write(" + out("a.step") + ") box{ {0.5, 0.25, 0.25}, {2, 0.75, 0.75}, name = 'b' }:write(" + out("b.step") +
       ")");
   const test::ProcessResult result = sterna({"surface", "a.step", "b.step", "-o", "hull.stl"});
@@ -262,7 +262,7 @@ TEST_F(AutoSurfaceTest, PartsOfCadThatStandInEachOtherAreUnited) {
 
 /// TetGen split boundary triangles here ("2 boundary triangles that are no face of a tetrahedron") until repair joined touching parts. A new input for such
 /// splits of the wall is still to be found.
-TEST_F(AutoSurfaceTest, TetGenFillsTheRocketAtTheFirstAttempt) {
+TEST_F(AutoSurfaceTest, TetGenFillsRocketAtFirstAttempt) {
   STERNA_NEEDS_SHARED_DATA();
   const test::ProcessResult split = sterna({"mesh", (test::shared_data() / "surfaces/nasty/martlet_rocket_Martlet2.stl").string(), "-o", "rocket.su2", "--auto",
                                             "--layers", "1", "--first-height", "0.1", "--engine", "tetgen", "--improve-rounds", "0", "--threads", "1"});

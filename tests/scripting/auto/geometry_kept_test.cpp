@@ -141,7 +141,7 @@ double volume_of_union(const std::vector<Triangles>& solids) {
   return volume_of(unite_meshes(parts, {.remesh = false}, RunContext()).mesh);  // strips with new triangles would not be exact
 }
 
-TEST_F(GeometryKept, TeeOfPipesIsTheUnionOfTheirInsides) {
+TEST_F(GeometryKept, PipeTeeIsTheUnionOfInsides) {
   const auto main = pipe(0.2, -1, 1, 20, 0, {}), branch = pipe(0.15, 0, 1, 18, 2, {0.1, 0, 0}, 0.1);
   const SurfaceValue wall = automatic(
       {{"main", main[0]}, {"inlet", main[1]}, {"outlet", main[2]}, {"branch", branch[0]}, {"inner_end", branch[1]}, {"branch_out", branch[2]}}, "inside");
@@ -150,7 +150,7 @@ TEST_F(GeometryKept, TeeOfPipesIsTheUnionOfTheirInsides) {
   EXPECT_THAT(log_, HasSubstr("warning: repair: the result has no patch \"inner_end\""));
 }
 
-TEST_F(GeometryKept, PipesThroughAPlenumKeepAllEndsAndTheBodyInIt) {
+TEST_F(GeometryKept, PipesThroughPlenumKeepEndsAndInnerBody) {
   const auto one = pipe(0.2, -2, 2, 12, 0, {}), other = pipe(0.1, -2, 2, 10, 1, {0.3, 0, 0.2}, 0.05);
   const Triangles plenum = block({-1, -1, -1}, {1, 1, 1}), body = block({-0.9, 0.4, 0.4}, {-0.5, 0.8, 0.8});
   const SurfaceValue wall = automatic(
@@ -160,7 +160,7 @@ TEST_F(GeometryKept, PipesThroughAPlenumKeepAllEndsAndTheBodyInIt) {
   EXPECT_NEAR(-volume_of(wall.mesh), volume_of_union({plenum, all_of(one), all_of(other)}) - signed_volume(body), 1e-6);
 }
 
-TEST_F(GeometryKept, InnerShellOfOppositeSenseIsKeptWhereItTouchesTheOuter) {
+TEST_F(GeometryKept, OppositeInnerShellIsKeptWhereItTouches) {
   const auto wheel = pipe(0.5, -0.2, 0.2, 12, 1, {0, 0, 0.5}, std::numbers::pi);  // touches the floor along one edge
   const Triangles box = block({-4, -2, 0}, {4, 2, 3});
   for (const char* fluid : {"outside", "inside"}) {
@@ -227,14 +227,14 @@ TEST_F(GeometryKept, SectionBetweenTwoPlanesIsAnOpenDomain) {
   EXPECT_THAT(log_, HasSubstr("planes y = 0.2 m and y = 0.8 m"));
 }
 
-TEST_F(GeometryKept, LongTubeAndHoleInAFaceAreClosed) {
+TEST_F(GeometryKept, LongTubeAndFaceHoleAreClosed) {
   EXPECT_TRUE(automatic({{"tube", pipe(0.5, 0, 9, 16, 0, {})[0]}}).report.is_closed);
   Triangles box = block({0, 0, 0}, {1, 1, 1});
   box.pop_back();
   EXPECT_TRUE(automatic({{"box", box}}).report.is_closed);
 }
 
-TEST_F(GeometryKept, HalfWithNormalsInwardsAndAFarfieldIsABody) {
+TEST_F(GeometryKept, InwardHalfModelWithFarfieldIsABody) {
   write({{"body", turned_over(spindle(-0.25, 0.5, 12, 8))}});
   const std::vector<std::string> more = {"--layers", "3", "--first-height", "2e-3", "--threads", "1", "-o", "m.su2"};
   const std::vector<std::vector<std::string>> beginnings = {{"mesh", "in.stl", "--auto"}, {"mesh", "in.stl", "--allow-open", "--farfield-radius", "10"}};
@@ -247,7 +247,7 @@ TEST_F(GeometryKept, HalfWithNormalsInwardsAndAFarfieldIsABody) {
   }
 }
 
-TEST_F(GeometryKept, BodyInsideAnotherIsNamedWhereItBecomesACavity) {
+TEST_F(GeometryKept, InnerBodyIsNamedWhereItBecomesCavity) {
   const std::array files{write({{"zone", block({-2, -2, -2}, {2, 2, 2})}, {"propeller", block({-1, -1, -0.1}, {1, 1, 0.1})}})};
   log_.clear();
   const RunContext context({.threads = 1, .log = [&](LogLevel level, std::string_view line) {

@@ -83,7 +83,7 @@ const std::string k_case = k_model +
                            "print(mesh) print(mesh.coverage, mesh.mean_height) mesh:check() "
                            "mesh:write('OUT/a.su2', 'OUT/a.vtu', 'OUT/a.cgns', 'OUT/a.sterna', 'OUT/a.taumesh', 'OUT/a.ugrid')";
 
-TEST_F(CachedRun, OfACadFileEveryOutputHasTheSameBytesWithoutColdAndWarm) {
+TEST_F(CachedRun, CadOutputsAreEqualWithAndWithoutCache) {
   run(k_model + "m:write 'IN/block.step'", false);
   const std::string text = "local m = read_cad 'IN/block.step' " + k_case.substr(k_model.size());
   const Files without = run(text, false);
@@ -106,7 +106,7 @@ TEST_F(CachedRun, OfACadFileEveryOutputHasTheSameBytesWithoutColdAndWarm) {
   EXPECT_THAT(moved.at("a.su2.json"), HasSubstr("sub/block.step"));
 }
 
-TEST_F(CachedRun, AStageIsMadeAnewFromTheOneOnThatHasAnotherOption) {
+TEST_F(CachedRun, StagesRepeatFromTheFirstChangedOption) {
   const std::string more =
       "local mesh = volume_mesh{ surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=EDGE }, layers=2, first_height=0.01, farfield=sphere{ radius=6, "
       "edge=3 }, improve_rounds=ROUNDS } mesh:write 'OUT/a.su2'";
@@ -125,7 +125,7 @@ TEST_F(CachedRun, AStageIsMadeAnewFromTheOneOnThatHasAnotherOption) {
   EXPECT_THAT(log_, HasSubstr("volume_mesh of "));
 }
 
-TEST_F(CachedRun, StepsByHandAndStagesInAFileAreTheSameToo) {
+TEST_F(CachedRun, ManualStepsAndStoredStagesGiveSameBytes) {
   const std::string text =
       k_model +
       "local w = surface_mesh{ m, max_edge=0.8 } local ff = sphere{ radius=6, edge=3 } "
@@ -139,7 +139,7 @@ TEST_F(CachedRun, StepsByHandAndStagesInAFileAreTheSameToo) {
   EXPECT_THAT(log_, AllOf(HasSubstr("envelope of "), HasSubstr("tetrahedra of "), HasSubstr("prisms of ")));
 }
 
-TEST_F(CachedRun, NewVerticesOfAWallFromTheCacheLieOnTheModel) {
+TEST_F(CachedRun, NewVerticesOfCachedWallLieOnModel) {
   const std::string text =
       "local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } "
       "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, improve_rounds=ROUNDS, sources={ sphere{ {3,0,0}, radius=1, size=0.15 } }, "
@@ -182,7 +182,7 @@ TEST_F(CachedRun, ModelsComeBackAsTheyWere) {
   EXPECT_THAT(log_, HasSubstr("union of "));
 }
 
-TEST_F(CachedRun, WhatOpenCascadeNeedsOfAKeptModelIsMadeWhenItIsAskedFor) {
+TEST_F(CachedRun, CachedModelMakesOpenCascadeShapeOnDemand) {
   run("cylinder{ {0,0,0}, {2,0,0}, radius=0.5, name='tank' }:write 'IN/tank.step'", false);
   const std::string read = "local tank = read_cad 'IN/tank.step' ";
   const auto text = [&](const std::string& name) {
@@ -266,7 +266,7 @@ TEST_F(CachedRun, AFunctionWithAMemoryIsNotFooled) {
   }
 }
 
-TEST_F(CachedRun, ErrorsOfAFunctionAreTheUsersAlsoWhenItIsAskedForTheCache) {
+TEST_F(CachedRun, FunctionErrorsDuringCacheLookupReachUser) {
   const std::string text =
       "local ok, e = pcall(surface_mesh, { box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) if x > LIMIT then error('too far') end "
       "return 0.5 end }) print(ok, ok or e.message:match('too far'))";
@@ -326,7 +326,7 @@ TEST_F(CachedRun, DamagedEntriesOfARunAreMadeAnew) {
   }
 }
 
-TEST_F(CachedRun, TwoProcessesAtOnceAndOneThatIsKilled) {
+TEST_F(CachedRun, TwoProcessesAtOnceAndOneKilled) {
   std::ofstream(folder_ / "case.lua") << "volume_mesh{ surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.5 }, layers=3, first_height=0.01, "
                                          "farfield=sphere{ radius=6, edge=2 } }:write 'a.su2'";
   const auto started = [&](const std::string& name, const std::vector<std::string>& more, double interrupt_after = -1.0) {
@@ -358,7 +358,7 @@ TEST_F(CachedRun, TwoProcessesAtOnceAndOneThatIsKilled) {
   EXPECT_THAT(test::run_process(test::sterna_program(), {"cache", "--folder", "cache", "--clear"}, folder_).output, HasSubstr("removed 3 entries"));
 }
 
-TEST_F(CachedRun, MeshOfTheCommandLineHasItsCacheToo) {
+TEST_F(CachedRun, CommandLineMeshUsesTheCache) {
   run("surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.7 }:write 'IN/b.stl' box{ {0,0,0}, {2,1,1}, name='b' }:write 'IN/b.step'", false);
   for (const std::string input : {"b.stl", "b.step"}) {
     const auto mesh = [&](const std::string& output, const std::vector<std::string>& more) {

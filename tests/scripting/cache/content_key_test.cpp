@@ -23,7 +23,7 @@ void change(const Option& option) {
   else option.store(std::get<std::string>(value) + "x");
 }
 
-TEST(ContentKeys, EveryOptionOfAVolumeMeshIsInItsKeyAndInTheEnvelopesWhereItBelongsToIt) {
+TEST(ContentKeys, VolumeMeshOptionsEnterTheirKeys) {
   volmesh::MeshCase defaults;
   const ContentKey volume = volume_options_key(defaults), envelope = envelope_options_key(defaults);
   std::set<ContentKey> seen = {volume};
@@ -40,7 +40,7 @@ TEST(ContentKeys, EveryOptionOfAVolumeMeshIsInItsKeyAndInTheEnvelopesWhereItBelo
   }
 }
 
-TEST(ContentKeys, WhatIsNoNumberOfAVolumeMeshCountsToo) {
+TEST(ContentKeys, NonNumericVolumeMeshInputsEnterKey) {
   const volmesh::MeshCase defaults;
   std::set<ContentKey> volume = {volume_options_key(defaults)}, envelope = {envelope_options_key(defaults)};
   const auto expect = [&](const volmesh::MeshCase& options, bool is_of_envelope, const char* what) {
@@ -88,7 +88,7 @@ TEST(ContentKeys, WhatIsNoNumberOfAVolumeMeshCountsToo) {
   expect(options, true, "a point of it");
 }
 
-TEST(ContentKeys, EveryOptionOfASurfaceMeshIsInItsKey) {
+TEST(ContentKeys, SurfaceMeshOptionsEnterTheirKey) {
   SurfaceRecipe defaults;
   std::set<ContentKey> seen = {key_of(defaults)};
   for (std::size_t i = 0; i < sterna::options_of(defaults.options).size(); ++i) {
@@ -115,7 +115,7 @@ TEST(ContentKeys, EveryOptionOfASurfaceMeshIsInItsKey) {
   EXPECT_TRUE(seen.insert(key_of(recipe)).second);
 }
 
-TEST(ContentKeys, ASurfaceIsItsMeshAndWhatManifestsSayOfIt) {
+TEST(ContentKeys, SurfaceKeyHasMeshAndManifestData) {
   SurfaceValue surface;
   surface.mesh = test::sphere(1);
   const auto first = key_of(surface);
@@ -160,7 +160,7 @@ TEST(ContentKeys, ASurfaceIsItsMeshAndWhatManifestsSayOfIt) {
   expect_other(other, "unit");
 }
 
-TEST(ContentKeys, ComponentsAreWhatTheyAreNowNotHowTheyCameAbout) {
+TEST(ContentKeys, ComponentKeysIgnoreTheirHistory) {
   ComponentValue component;
   Wing wing{.name = "wing"};
   wing.sections.resize(2);
@@ -177,7 +177,7 @@ TEST(ContentKeys, ComponentsAreWhatTheyAreNowNotHowTheyCameAbout) {
   EXPECT_NE(key_of(component), before);
 }
 
-TEST(ContentKeys, ACopyOfAModelHasNoKeyUntilItsMakerSaysSo) {
+TEST(ContentKeys, ModelCopyHasNoKeyUntilSet) {
   ModelValue model;
   EXPECT_FALSE(model.provenance.key());
   model.provenance = ContentKey{};

@@ -67,7 +67,7 @@ TEST_F(StageCacheTest, WhatWasStoredComesBackAndNothingElse) {
   EXPECT_EQ(log_, "");
 }
 
-TEST_F(StageCacheTest, TheSameValueTwiceIsOneEntryOfTheSameBytes) {
+TEST_F(StageCacheTest, EqualValuesGiveOneEntryOfEqualBytes) {
   store(cache(), 1, "text");
   const std::string before = bytes_of(only_file());
   store(cache(), 1, "text");
@@ -97,7 +97,7 @@ TEST_F(StageCacheTest, DamagedEntriesAreNoticedRemovedAndMadeAnew) {
   }
 }
 
-TEST_F(StageCacheTest, AnEntryUnderTheNameOfAnotherIsRefused) {
+TEST_F(StageCacheTest, EntryUnderOtherNameIsRefused) {
   const StageCache one = cache();
   store(one, 1, "one");
   const std::string bytes = bytes_of(only_file());
@@ -122,7 +122,7 @@ TEST_F(StageCacheTest, ReadersThatFindSomethingElseRemoveTheEntry) {
   EXPECT_TRUE(StageCache::entries(folder_).empty());
 }
 
-TEST_F(StageCacheTest, AboveTheLimitGoesWhatWasNotUsedForLongest) {
+TEST_F(StageCacheTest, LeastRecentlyUsedEntriesAreRemovedAboveLimit) {
   const StageCache one = cache(3500.0);
   const auto age = [&](double seconds) {  // instead of waiting for the clock
     for (const CacheEntry& entry : StageCache::entries(folder_))
@@ -160,7 +160,7 @@ TEST_F(StageCacheTest, WhatIsBeingReadDoesNotGo) {
   EXPECT_TRUE(is_read);
 }
 
-TEST_F(StageCacheTest, AFolderThatCannotBeWrittenToIsAWarning) {
+TEST_F(StageCacheTest, UnwritableFolderIsAWarning) {
   const StageCache one = cache();
   std::filesystem::remove_all(folder_);
   std::ofstream(folder_) << "a file";

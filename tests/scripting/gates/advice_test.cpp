@@ -57,7 +57,7 @@ void write_cubes_with_gap(const std::filesystem::path& path) {
   file << "endsolid cubes\n";
 }
 
-TEST_F(Advice, RemeshingTheWallsOfAGapHelpsTheCellsInIt) {
+TEST_F(Advice, RemeshingGapWallsImprovesTheirCells) {
   write_cubes_with_gap(folder_ / "cubes.stl");
   const std::string read = "local wall = read_surface{ 'cubes.stl' } ",
                     mesh = " local mesh = volume_mesh{ wall, layers = 8, first_height = 1e-3, farfield = sphere{ radius = 10 } }";
@@ -109,7 +109,7 @@ local mesh = volume_mesh{ wall, first_height = 2e-4, farfield = sphere{ radius =
 
 const std::string k_short_can = "local can = cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' } local wall = surface_mesh{ can, max_edge=0.5 } ";
 
-TEST_F(Advice, ALayerThatIsLowerThanTheBoundaryLayer) {
+TEST_F(Advice, LayerLowerThanTheBoundaryLayer) {
   const std::string flow = "local cruise = flow{ mach = 0.2, altitude = 0, length = 2 } ";
   const CheckReport before =
       checked(flow + k_short_can + "local mesh = volume_mesh{ wall, layers = 5, first_height = y_plus{ 100, cruise }, farfield = sphere{ radius = 10 } }");
@@ -119,7 +119,7 @@ TEST_F(Advice, ALayerThatIsLowerThanTheBoundaryLayer) {
   expect_mended(Measure::boundary_layer, "total_height = boundary_layer{ ... }", before, after);
 }
 
-TEST_F(Advice, FewLayersThatReachTheTotalHeightByLargeGrowth) {
+TEST_F(Advice, FewLayersWithLargeGrowthReachTotalHeight) {
   const auto script = [](int layers) {
     return k_short_can + "local mesh = volume_mesh{ wall, layers = " + std::to_string(layers) +
            ", first_height = 1e-3, total_height = 0.3, farfield = sphere{ radius = 10 } }";

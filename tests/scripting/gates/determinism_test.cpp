@@ -62,7 +62,7 @@ TEST_F(Determinism, MeshesAreEqualForAnyNumberOfThreads) {
 
 /// HXT reads memory that it has not written, or has given back (the key of glibc's cache differs from run to run); glibc fills what it gives out and takes back
 /// with the bytes that MALLOC_PERTURB_ asks for, which our own process must not see, either.
-TEST_F(Determinism, MeshesDoNotDependOnWhatWasInMemory) {
+TEST_F(Determinism, MeshesDoNotDependOnMemoryContent) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string wall = (test::shared_data() / "surfaces/clean/pygeo_bwb.stl").string();
   std::vector<std::string> meshes;

@@ -42,7 +42,7 @@ const FamilyRule& rule(const FamilyReport& report, const std::string& name, std:
   throw std::runtime_error("no rule " + name);
 }
 
-TEST(FamilyRules, AnIdealFamilyPassesAndEachSlipIsFound) {
+TEST(FamilyRules, IdealFamilyPassesAndDeviationsAreFound) {
   const FamilyReport ideal = check_family({member(1 / 1.5), member(1), member(1.5)}, {});
   EXPECT_EQ(ideal.state(), GateState::pass) << to_text(ideal);
   ASSERT_EQ(ideal.steps.size(), 2u);
@@ -98,7 +98,7 @@ const std::string k_family =
     "local m = cylinder{ {0,0,0}, {3,0,0}, radius=0.5, name='can' } local function member(f) local w = surface_mesh{ m, max_edge=0.2, refinement=f } "
     "return volume_mesh{ w, layers=12, first_height=2e-3, max_growth=1.25, refinement=f, farfield=sphere{ radius=10 } } end ";
 
-TEST_F(FamilyGate, MeshesMadeHereAndTheirFilesSayTheSame) {
+TEST_F(FamilyGate, MeshesAndTheirFilesGiveSameVerdict) {
   const std::string printed =
       run(k_family +
               "local a, b = member(1), member(1.5) local r = check_family{ a, b } print(r.verdict, r[1].rules.layers, r[1].rules.first_height, r[1].factor) "
@@ -124,7 +124,7 @@ TEST_F(FamilyGate, MeshesMadeHereAndTheirFilesSayTheSame) {
   }
 }
 
-TEST_F(FamilyGate, ALayerThatIsNotRefinedIsNoFamily) {
+TEST_F(FamilyGate, UnrefinedLayerIsNoFamily) {
   const std::string broken = k_family +
                              "local a = member(1) local b = volume_mesh{ surface_mesh{ m, max_edge=0.2, refinement=1.5 }, layers=12, first_height=2e-3, "
                              "max_growth=1.25, farfield=sphere{ radius=10 } } ";

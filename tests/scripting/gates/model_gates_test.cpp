@@ -32,7 +32,7 @@ class ModelGates : public ScriptFixture {
 const std::string k_can = "local can = cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' } local wall = surface_mesh{ can, max_edge=0.5 } ";
 const std::string k_mesh = "local mesh = volume_mesh{ wall, layers=3, first_height=1e-2, farfield=sphere{ radius=10 } } ";
 
-TEST_F(ModelGates, AMeshIsComparedWithTheModelOfItsWall) {
+TEST_F(ModelGates, MeshIsComparedWithModelOfItsWall) {
   const std::string printed = run(k_can + k_mesh + "mesh:check{ wall = wall } mesh:write(" + out("can.su2") + ") mesh:write(" + out("can.sterna") +
                                   ") can:write(" + out("can.step") + ") wall:check()");
   EXPECT_THAT(printed, AllOf(HasSubstr("  G17  wall nodes off the CAD, / length pass "), HasSubstr("  G18  wall facets against the CAD      pass ")));

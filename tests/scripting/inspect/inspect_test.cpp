@@ -55,7 +55,7 @@ TEST_F(InspectFiles, NameATriangleThatWasTurnedOver) {
   EXPECT_TRUE(report.find(FindingKind::not_looked_at));
 }
 
-TEST_F(InspectFiles, SayWhatReadingRefusesAndLookAtTheRest) {
+TEST_F(InspectFiles, RefusedFilesAreReportedAndInspected) {
   TriMesh mesh = test::cube(4);
   TriMesh open;
   open.points = mesh.points;

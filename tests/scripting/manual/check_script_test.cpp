@@ -103,7 +103,7 @@ TEST_F(CheckScript, ShippedScriptsAreCorrect) {
   EXPECT_GE(n_scripts, 10u);
 }
 
-TEST_F(CheckScript, WhatIsNotMadeTakesPartInEverythingAndDecidesNothing) {
+TEST_F(CheckScript, PlaceholdersWorkEverywhereAndDecideNothing) {
   EXPECT_THAT(
       problems("local m = aircraft{ fuselage{ name = 'body', frames = { { x = 0, diameter = 0.4 }, { x = 4, diameter = 1.2 } } } }:measures()\n"
                "assert(m.wings.wing.span > 3 and m.volume == 7)\n"
@@ -123,7 +123,7 @@ TEST_F(CheckScript, AMistakeInsideATableHidesNoneOutside) {
   EXPECT_THAT(found[1], testing::AllOf(HasSubstr("case.lua:2: volume_mesh"), HasSubstr("\"farfeild\", did you mean \"farfield\"?")));
 }
 
-TEST_F(CheckScript, AfterAnErrorOfLuaItSaysWhatWasNotLookedAt) {
+TEST_F(CheckScript, LuaErrorReportsUncheckedLines) {
   const auto found = problems("local settings = {}\nprint(settings.wing.span)\nvolume_mesh{}\n");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0], testing::AllOf(HasSubstr("case.lua:2:"), HasSubstr("what the script does after this line was not looked at")));
@@ -154,7 +154,7 @@ TEST_F(CheckScript, DeflectionsAreLookedForInTheFile) {
   EXPECT_THAT(problems("read_cpacs{ '" + file + "', deflections = { Elevator = 5*deg } }"), testing::IsEmpty());
 }
 
-TEST_F(CheckScript, AllMistakesOfAScriptAreFoundAtOnce) {
+TEST_F(CheckScript, AllScriptMistakesAreFoundAtOnce) {
   const auto found = problems(
       "local wall = read_surface{ 'absent.stl' }\n"
       "local m = volume_mesh{ wall, layer = 30, first_height = 40*deg, max_growth = 7 }\n"
@@ -169,7 +169,7 @@ TEST_F(CheckScript, AllMistakesOfAScriptAreFoundAtOnce) {
   EXPECT_THAT(found[4], testing::AllOf(HasSubstr("case.lua:5:"), HasSubstr("did you mean \"check\"?")));
 }
 
-TEST_F(CheckScript, TheFunctionOfASeriesRunsOnceAndNothingIsMade) {
+TEST_F(CheckScript, SeriesFunctionRunsOnceWithoutMeshing) {
   const std::string good =
       "local first = series{ 'first', over = { x = {2, 3} }, run = jobs{ 2 }, case = function(p)\n"
       "  local wall = surface_mesh{ box{ {0,0,0}, {1,1,p.x} }, max_edge = 0.5 }\n"
@@ -270,7 +270,7 @@ TEST_F(CheckScript, WorkersOfASeriesGetTheArguments) {
 
 // ---- Envelope step by step ------------------------------------------------------------------------------------------------------------------------
 
-TEST_F(CheckScript, StepsByHandRefuseWhatTheyDoNotDo) {
+TEST_F(CheckScript, ManualStepsRefusePartsInOwnFrames) {
   const std::string two = "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {4,0,0}, {5,1,1} }:rotate{ pitch = 10*deg }, max_edge = 0.5 }\n";
   EXPECT_THAT(error(two + "envelope.classify{ wall }"),
               testing::AllOf(HasSubstr("envelope.classify: the wall has 2 parts whose envelopes are made in their own frames"),
@@ -279,7 +279,7 @@ TEST_F(CheckScript, StepsByHandRefuseWhatTheyDoNotDo) {
               HasSubstr("the wall has 1 part whose envelopes are made in their own frames"));
 }
 
-TEST_F(CheckScript, StepsInTheirOrderGiveTheSameBytesAsOneVerb) {
+TEST_F(CheckScript, OrderedStepsGiveBytesOfOneVerb) {
   const std::string wall = "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.3 }\n";
   run(wall + "local env = make_envelope{ wall, layers = 4, first_height = 0.01, max_growth = 1.3 } env:write(" + out("one.sterna") +
       ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("one.su2") + ")");
@@ -299,7 +299,7 @@ TEST_F(CheckScript, StepsInTheirOrderGiveTheSameBytesAsOneVerb) {
   EXPECT_EQ(text_of("one.su2"), text_of("steps.su2"));
 }
 
-TEST_F(CheckScript, EnvelopesThatAreNotReadyAreRefusedWithAReason) {
+TEST_F(CheckScript, UnfinishedEnvelopesAreRefusedWithReason) {
   const std::string first =
       "local wall = surface_mesh{ union{ box{ {0,0,0}, {1,1,1} }, box{ {0.4,0.4,0.5}, {0.6,0.6,2} } }, max_edge = 0.2 } local class = envelope.classify{ "
       "wall "

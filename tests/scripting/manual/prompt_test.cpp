@@ -36,7 +36,7 @@ TEST_F(Prompt, PrintsExpressionsAndGoesOnAfterErrors) {
   EXPECT_THAT(result.errors, testing::AllOf(HasSubstr("did you mean volume_mesh?"), HasSubstr("arithmetic on a nil value")));
 }
 
-TEST_F(Prompt, EndsAtExitAndAtTheEndOfTheInput) {
+TEST_F(Prompt, EndsAtExitAndAtInputEnd) {
   EXPECT_EQ(say("print 'a'\nexit\nprint 'b'\n").output, "a\n");
   EXPECT_EQ(say("print 'a'\n").status, 0);
   EXPECT_EQ(say("x = {\n").status, 2);

@@ -24,7 +24,7 @@ TEST(TimeLeft, EvenWorkEndsWhenItSays) {
   }
 }
 
-TEST(TimeLeft, AShareThatFallsWithinTheWorkIsNoNewWork) {
+TEST(TimeLeft, FallingShareWithinWorkIsNoNewWork) {
   TimeLeft left;
   left.note({"mesh/envelope", 0.0}, 0.0);
   left.note({"mesh/tetrahedra", 0.5}, 50.0);

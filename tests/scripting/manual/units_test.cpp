@@ -101,7 +101,7 @@ const std::vector<std::vector<std::string>> k_commands = {
     {"foam-case", "m.su2", "-o", "case"},
 };
 
-TEST_F(Units, EveryOptionOfEveryCommandCountsInTheUnitOfItsHelp) {
+TEST_F(Units, CommandOptionsCountInUnitsOfTheirHelp) {
   std::size_t n = 0;
   std::map<std::string, std::string> helps;
   for (const std::vector<std::string>& command : k_commands) {
@@ -198,7 +198,7 @@ TEST_F(Units, RulesOfPatchesAndConditionsOfBoundaries) {
   EXPECT_DOUBLE_EQ(rules[0].first_height, rules[1].first_height);
 }
 
-TEST_F(Units, TextsOfSourcesSheetsGatesDiscsFarfieldsFlowsAndViews) {
+TEST_F(Units, UnitsInStringsOfSourcesDiscsAndViews) {
   const volmesh::SizeSource bare = source_of_text("cylinder from=1,0,0 to=8,0,0 radius=0.5 size=0.05"),
                             named = source_of_text("cylinder from=100cm,0,0m to=8m,0,0 radius=500mm size=5cm");
   EXPECT_EQ(bare.from, named.from);
@@ -229,7 +229,7 @@ TEST_F(Units, TextsOfSourcesSheetsGatesDiscsFarfieldsFlowsAndViews) {
   EXPECT_EQ(draw::sphere_of("1,2,0 radius=0.5")->radius, draw::sphere_of("1m,2m,0 radius=500mm")->radius);
 }
 
-TEST_F(Units, ArgumentsOfScriptsCountInTheUnitThatTheScriptSays) {
+TEST_F(Units, ScriptArgumentsCountInDeclaredUnits) {
   std::ofstream(folder_ / "case.lua") << "local p = args{ alpha = number{ 1, min = -10, max = 10, unit = deg } }\nprint(string.format('%.17g', p.alpha))";
   EXPECT_EQ(sterna({"run", "case.lua", "alpha=4"}).output, sterna({"run", "case.lua", "alpha=4deg"}).output);
   EXPECT_NEAR(std::stod(sterna({"run", "case.lua", "alpha=4"}).output), 4.0 * k_degree, 1e-15);

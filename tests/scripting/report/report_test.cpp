@@ -52,7 +52,7 @@ TEST_F(Report, HoldsTheMeshItsGatesPlacesAndHistograms) {
   EXPECT_THAT(fields, testing::IsSupersetOf({"edge_length", "layer_height", "first_height", "skew", "coverage", "scaled_jacobian"}));
 }
 
-TEST_F(Report, WithoutTimesTheSameBytesForAnyNumberOfThreads) {
+TEST_F(Report, WithoutTimesBytesAreEqualForAnyThreads) {
   for (const int threads : {1, 2, 7})
     run(mesh_script() + "report{ mesh, " + out("box" + std::to_string(threads) + ".html") + ", title = 'box', times = false }", {}, threads);
   // The manifest contains the file name of the page.
@@ -122,7 +122,7 @@ TEST_F(Report, CellsAreAVtuBesideTheMesh) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cells.csv"));
 }
 
-TEST_F(Report, GatesOfTheUserDecideVerdictManifestAndPage) {
+TEST_F(Report, UserGatesDecideVerdictManifestAndPage) {
   const std::string printed = run(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 89*deg, target = 89.5*deg, usual = false } } } mesh:write(" +
                                   out("box.su2") + ") report{ mesh, " + out("box.html") + " }");
   EXPECT_THAT(printed, HasSubstr("FAIL"));

@@ -54,7 +54,7 @@ class ReferenceSeries : public SeriesFixture {
   std::string wall(const std::string& name) const { return text_of("bend/" + name + "/wall.off"); }
 };
 
-TEST_F(ReferenceSeries, BentCasesKeepTrianglesAndStartTheirEnvelopeFromThere) {
+TEST_F(ReferenceSeries, BentCasesReuseTrianglesAndEnvelope) {
   STERNA_NEEDS_SHARED_DATA();
   const test::ProcessResult result = run(bend_series(cases({{0, 0}, {0.1, 0}, {0.1, 3}, {0, 3}}), "cache = false,"), {"--tasks", "2", "--threads", "2"});
   ASSERT_EQ(result.status, 0) << result.errors;
@@ -89,7 +89,7 @@ TEST_F(ReferenceSeries, GivesTheSameBytesHoweverItIsRun) {
     EXPECT_THAT(text, HasSubstr(": topology of bend=0_alpha=0"));
 }
 
-TEST_F(ReferenceSeries, WhatWouldNotBeGoodIsMeshedAnewAndSaysWhy) {
+TEST_F(ReferenceSeries, UnsuitableReferencesAreRemeshedWithReason) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string script =
       bend_series(cases({{0, 0}, {8, 0}, {0.1, 0}}, ", surface_only = true"), "cache = false,", ", max_edge = p.bend == 0.1 and 0.45 or 0.5");
@@ -100,7 +100,7 @@ TEST_F(ReferenceSeries, WhatWouldNotBeGoodIsMeshedAnewAndSaysWhy) {
   EXPECT_THAT(reused("bend=0.1_alpha=0"), HasSubstr(": meshed anew: options differ from the reference's: max_edge"));
 }
 
-TEST_F(ReferenceSeries, ADamagedReferenceFileIsAnErrorOfTheCasesThatNeedIt) {
+TEST_F(ReferenceSeries, DamagedReferenceFileIsErrorOfDependentCases) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string script = bend_series(cases({{0, 0}, {0.1, 0}}, ", surface_only = true"), "cache = false,");
   ASSERT_EQ(run(script, {"--threads", "2"}).status, 0);
@@ -129,7 +129,7 @@ series{ "kinds", over = { kind = { "fans", "plain", "wakes" }, bend = { 0, 0.03 
 end }
 )lua";
 
-TEST_F(ReferenceSeries, FansAndSheetsAreMadeAnewOnTheBentWingAndResumed) {
+TEST_F(ReferenceSeries, BentFansAndSheetsAreRemadeAndResumed) {
   const std::filesystem::path at_once = folder_ / "at_once", stopped = folder_ / "stopped";
   const test::ProcessResult result = run(k_kinds_series, {"--tasks", "2"}, at_once);
   ASSERT_EQ(result.status, 0) << result.errors;

@@ -25,7 +25,7 @@ std::string error_of(const std::string& over) {
   return "no error";
 }
 
-TEST(SeriesCases, AreTheProductInAlphabeticalOrderTheLastFastest) {
+TEST(SeriesCases, AreProductInAlphabeticalOrderLastFastest) {
   EXPECT_EQ(names_of(R"({"beta": [0, 5], "alpha": [-4, 2.5]})"), "alpha=-4_beta=0 alpha=-4_beta=5 alpha=2.5_beta=0 alpha=2.5_beta=5 ");
   EXPECT_EQ(names_of(R"({"alpha": 3, "flap": [true, false]})"), "alpha=3_flap=true alpha=3_flap=false ");
 }

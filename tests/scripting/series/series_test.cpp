@@ -53,7 +53,7 @@ class Series : public SeriesFixture {
   }
 };
 
-TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
+TEST_F(Series, EveryCaseHasFolderWithItsFiles) {
   const test::ProcessResult result = run(k_small);
   EXPECT_EQ(result.status, 1) << result.errors;  // one case fails
   EXPECT_THAT(result.output, HasSubstr("4\t1\t0.02\tVALID"));
@@ -76,7 +76,7 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
 }
 
 /// More than one gate warns, the worse one behind the other in the order of gates.
-TEST_F(Series, TheWorstValueOfTheTableIsTheOneThatTheLogNamesFirst) {
+TEST_F(Series, TableAndLogNameTheSameWorstValue) {
   run(R"(local wall = surface_mesh{ aircraft{ wing{ name = "wing", symmetric = true, trailing_edge = 0, sections = {
   { y = 0, chord = 1, airfoil = "naca0012" }, { y = 2, chord = 0.5, sweep = 20*deg } } } }, max_edge = 0.3 }
 series{ "small", over = { height = { 1e-3 } },
@@ -140,7 +140,7 @@ TEST_F(Series, WhatIsDoneIsTakenAsItIs) {
   EXPECT_EQ(difference(expected, second), "");
 }
 
-TEST_F(Series, WhatItWasMadeOfDecidesWhetherACaseRunsAgain) {
+TEST_F(Series, CaseInputsDecideWhetherItRunsAgain) {
   run(k_small);
   EXPECT_EQ(n_run(run(k_small, {"--seed", "7"})), 4u);
   EXPECT_EQ(n_run(run(k_small, {"--seed", "7", "--tasks", "1", "--threads", "2"})), 0u);
@@ -278,7 +278,7 @@ bool wait_for(const std::filesystem::path& file, const std::string& text) {
   return false;
 }
 
-TEST_F(Series, CtrlCStopsTheWorkersAndKeepsWhatIsDone) {
+TEST_F(Series, CtrlCStopsWorkersAndKeepsFinishedCases) {
   write(k_endless, folder_);
   test::StartedProcess main("/bin/sh", {"-c", "exec \"$0\" run case.lua 2> errors.txt", test::sterna_program().string()}, folder_);
   ASSERT_TRUE(wait_for(folder_ / "small/x=1/status.json", "done"));
@@ -316,7 +316,7 @@ end }
   EXPECT_EQ(n_run(again), 1u) << again.errors;
 }
 
-TEST_F(Series, WorkersEndWithTheirMainAndTheLockWithThem) {
+TEST_F(Series, WorkersAndLockEndWithMainProcess) {
   write(k_endless, folder_);
   test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
   ASSERT_TRUE(wait_for(folder_ / "small/x=3/status.json", "running"));
@@ -358,7 +358,7 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
 }
 
 /// The program may be replaced while a series runs: the result of a worker from another build must not count as a failure of this build.
-TEST(CaseRunners, AWorkerOfAnotherBuildIsToldAsSuch) {
+TEST(CaseRunners, WorkerOfOtherBuildIsReported) {
   const std::filesystem::path folder = test::scratch();
   const RunContext context;
   const CaseTask task{.of = nullptr, .folder = folder / "case", .key = "ours"};

@@ -47,7 +47,7 @@ class SlurmSeries : public SeriesFixture {
 };
 
 // A single test, because Slurm takes seconds to start.
-TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
+TEST_F(SlurmSeries, RunsAsJobsIsCancelledSurvivesLostJobs) {
   STERNA_NEEDS_SHARED_DATA();
   STERNA_NEEDS(test::SlurmCluster::is_possible(), "slurm-wlm with munge, or the right to start it,");
   test::SlurmCluster cluster;

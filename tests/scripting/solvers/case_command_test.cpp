@@ -64,7 +64,7 @@ TEST_F(CaseCommands, WriteWhatTheVerbsWrite) {
   EXPECT_EQ(text_of("by_command.cfg"), text_of("by_verb.cfg"));
 }
 
-TEST_F(CaseCommands, SayWhatIsWrongBeforeTheyReadTheMesh) {
+TEST_F(CaseCommands, ReportMistakesBeforeReadingTheMesh) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"foam-case", "none.sterna", "-o", "case", "--mach", "0.5", "--reynolds", "1e6", "--length", "1"}, "state of the gas"},
       {{"foam-case", "none.sterna", "-o", "case", "--model", "kEpsilon", "--reynolds", "1e6", "--length", "1"}, "kOmegaSST"},
@@ -103,7 +103,7 @@ TEST_F(CaseCommands, KindsOfPatchesAreThoseOfTheCase) {
   EXPECT_THAT(text_of("slip.cfg"), AllOf(HasSubstr("MARKER_EULER= ( wall )"), Not(HasSubstr("MARKER_HEATFLUX"))));
 }
 
-TEST_F(CaseCommands, MonitorIsATextWhosePatternsAllMeanSomething) {
+TEST_F(CaseCommands, MonitorIsTextWithMatchingPatterns) {
   const std::string mesh = "read_mesh(" + out("ball.sterna") + ")";
   const std::string flow = ", reynolds = 100, length = 1, ";
   EXPECT_THAT(error(mesh + ":foam_case{ " + out("no") + flow + "monitor = {'wing*', 'body'} }"),

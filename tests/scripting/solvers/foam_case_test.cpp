@@ -137,7 +137,7 @@ TEST_F(FoamCases, ForcesAreThoseOfTheFlow) {
 }
 
 /// A steady run begins with first order, goes on with second order once forces have settled, and ends when they have settled again.
-TEST_F(FoamCases, ARunHasItsStagesAndEndsWhenForcesSettle) {
+TEST_F(FoamCases, RunHasStagesAndEndsWhenForcesSettle) {
   if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
   run(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 }, model = 'laminar', reference_area = math.pi, iterations = 1200 }"));
   const std::string told = run_case("case");
@@ -154,7 +154,7 @@ TEST_F(FoamCases, ARunHasItsStagesAndEndsWhenForcesSettle) {
 }
 
 /// The last iteration has its results also where parts and intervals do not divide it; what has run is not run again.
-TEST_F(FoamCases, TheEndOfARunIsWrittenAndASecondRunGoesOn) {
+TEST_F(FoamCases, EndIsWrittenAndSecondRunContinues) {
   if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
   run(with_mesh("m:foam_case{ " + at("case") +
                 ", flow{ reynolds = 100, length = 2 }, model = 'laminar', iterations = 170, write_interval = 20, residual = 1e-12 }"));
@@ -194,7 +194,7 @@ TEST_P(DivergingRuns, StopAndNameThePlace) {
 
 INSTANTIATE_TEST_SUITE_P(Forces, DivergingRuns, testing::Values("1e4", "1e100"));
 
-TEST(FoamRun, ForcesThatHaveSettledAreToldFromThoseThatMove) {
+TEST(FoamRun, SettledForcesAreDistinguishedFromMovingForces) {
   const std::string judge = file_of(foam_case(test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}}), {}, {},
                                               volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0}), {.area = 1.0}, {}, RunContext()),
                                     "system/judge.awk");

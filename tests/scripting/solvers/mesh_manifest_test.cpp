@@ -99,7 +99,7 @@ TEST_F(MeshManifest, IsWhatConfigurationsAreMadeOf) {
   EXPECT_THAT(text_of("case/0/U"), HasSubstr("inletOutlet"));
 }
 
-TEST_F(MeshManifest, ThatIsMissingOrStaleMakesKindsAQuestion) {
+TEST_F(MeshManifest, MissingOrStaleManifestMakesKindsUnknown) {
   write("duct.su2");
   std::filesystem::remove(folder_ / "duct.su2.json");
   for (const bool is_stale : {false, true}) {

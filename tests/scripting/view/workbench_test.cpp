@@ -111,7 +111,7 @@ class WorkbenchTest : public testing::Test {
   int port_ = 0;
 };
 
-TEST_F(WorkbenchTest, ShowsTheArgumentsOfScriptAndModulesInTheirOrder) {
+TEST_F(WorkbenchTest, ShowsArgumentsOfScriptAndModulesInOrder) {
   std::ofstream(folder_ / "parts.lua") << "return args{ zeta = 1,\n  span = number{ 10, min = 6, max = 20 } }";
   write("local g = args{ level = 'coarse', depth = 3 }\nlocal m = require 'parts'\nlocal b = box{ {0,0,0}, {m.span,1,1} }");
   start({"case.lua", "--no-browser", "span=12"});
@@ -124,7 +124,7 @@ TEST_F(WorkbenchTest, ShowsTheArgumentsOfScriptAndModulesInTheirOrder) {
   EXPECT_EQ(now["values"]["span"], "12");
 }
 
-TEST_F(WorkbenchTest, FollowsAScriptFromItsFirstLineToItsMesh) {
+TEST_F(WorkbenchTest, FollowsScriptFromFirstLineToMesh) {
   start({"case.lua", "--no-browser", "--threads", "2", "span=12"});
   EXPECT_TRUE(body_of(exchange_bytes(port_, get_request(port_, secret_))).starts_with("<!DOCTYPE html>"));
 

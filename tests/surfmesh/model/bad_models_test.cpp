@@ -54,7 +54,7 @@ ErrorInfo failure_of(const Model& model, const SurfaceMeshOptions& options) {
   return {};
 }
 
-TEST(BadModels, AFaceThatCannotBeMeshedStaysAHole) {
+TEST(BadModels, UnmeshableFaceStaysAHole) {
   Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
   Border& border = model.faces[FaceId(2)].borders.front();
   std::swap(border[0].parameter, border[2].parameter);  // the border crosses itself in the parameters
@@ -70,7 +70,7 @@ TEST(BadModels, AFaceThatCannotBeMeshedStaysAHole) {
   EXPECT_NEAR(area, 5.0, 1e-12);
 }
 
-TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
+TEST(BadModels, OverlappingSolidsRequireUnion) {
   const Model a = make_box("left", {0, 0, 0}, {1, 1, 1}), b = make_box("right", {0.5, 0.3, 0.3}, {2, 0.7, 0.7});
   const Model model = both(a, b);
   const ErrorInfo info = failure_of(model, edges_and_crossings(0.2));
@@ -92,7 +92,7 @@ TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
   EXPECT_EQ(united.report.n_free_edges, 0);
 }
 
-TEST(BadModels, SolidsThatTouchAreToBeUnitedAtOnce) {
+TEST(BadModels, TouchingSolidsRequireUnionAtOnce) {
   // Finer triangles cannot separate coincident faces: one round only, also on curved faces.
   const Model boxes = both(make_box("left", {0, 0, 0}, {1, 1, 1}), make_box("right", {1, 0.1, 0.2}, {2, 0.9, 0.7}));
   const Model tubes = both(make_cylinder("outer", {0, 0, 0}, {3, 0, 0}, 0.5), make_cylinder("inner", {1, 0, 0}, {2, 0, 0}, 0.5));
@@ -102,7 +102,7 @@ TEST(BadModels, SolidsThatTouchAreToBeUnitedAtOnce) {
   }
 }
 
-TEST(BadModels, SolidsThatOnlyRunNearToEachOtherArePartedByFinerTriangles) {
+TEST(BadModels, NearbySolidsAreSeparatedByFinerTriangles) {
   // A rod in a hole that is 4 mm wider: facets of 0.35 m would cross.
   SurfaceMeshOptions options = edges_and_crossings(0.35);
   options.curvature_angle = 0.7;
@@ -120,7 +120,7 @@ TEST(BadModels, SolidsThatOnlyRunNearToEachOtherArePartedByFinerTriangles) {
   expect_joined(model, mesh);
 }
 
-TEST(BadModels, AnOpenPartInAnotherOneCannotBeUnited) {
+TEST(BadModels, OpenPartInsideAnotherCannotBeUnited) {
   Model sheet = make_box("sheet", {-1, -1, 0.5}, {2, 2, 0.6});
   Column<FaceId, ModelFace> faces;
   faces.push_back(sheet.faces[FaceId(std::uint64_t{0})]);
@@ -216,7 +216,7 @@ TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
   }
 }
 
-TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
+TEST(BadModels, SphereCapNeedsNeitherSeamNorPole) {
   const auto surface = std::make_shared<SphereSurface>(Frame{}, 1.0);
   Model model;
   model.components.push_back({"cap", ComponentKind::body});
@@ -248,7 +248,7 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
   }
 }
 
-TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
+TEST(BadModels, TipsOfHalvesDoNotShareClosingEdge) {
   // A pointed cone of two halves: the last triangles of both would have the same three corners (found on the core of simpletest-pylon-nacelle).
   const double pi = std::numbers::pi, slope = 0.4;  // used to fail at any size
   const auto surface = std::make_shared<ConeSurface>(Frame{}, slope, std::atan(slope), ParameterBox{{0.0, 2 * pi}, {-1.0 / std::cos(std::atan(slope)), 0.0}});
@@ -302,7 +302,7 @@ TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
   EXPECT_THAT(to_text(coarse.report), HasSubstr("normals within the curvature angle on"));
 }
 
-TEST(BadModels, HolesThatTouchTheBorderAndLinesForFacesInFiles) {
+TEST(BadModels, HolesAtBordersAndLinesAsFaces) {
   STERNA_NEEDS_SHARED_DATA();
   // Two holes touch the end circle of a tube in one point each; sixteen faces of the F-16 degenerate to lines.
   for (const auto& [file, n_absorbed] : {std::pair{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 0u}, std::pair{"afem_f16_F-16.stp", 16u}}) {
@@ -371,7 +371,7 @@ TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
   }
 }
 
-TEST(BadModels, ASurfaceThatFoldsIsNamedWithItsPlace) {
+TEST(BadModels, FoldedSurfaceIsNamedWithLocation) {
   STERNA_NEEDS_SHARED_DATA();
   // The lip of the nacelle: du and dv are parallel at y = -0.511, and the normal reverses.
   SurfaceMeshOptions options = edges_and_crossings(0.1);

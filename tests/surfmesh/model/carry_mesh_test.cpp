@@ -77,7 +77,7 @@ TEST(CarryMesh, OnItsOwnModelItIsTheMesh) {
   }
 }
 
-TEST(CarryMesh, FollowsABendWithTheSameTrianglesOnTheNewSurface) {
+TEST(CarryMesh, FollowsBendWithSameTrianglesOnNewSurface) {
   for (const Model& model : {twisted_wing(0.0), body()}) {
     const StructuredMesh from = mesh_of(model);
     const Model to = bent(model, 0.03);
@@ -103,7 +103,7 @@ TEST(CarryMesh, FollowsATwistedWing) {
   EXPECT_GT(most, 0.03);
 }
 
-TEST(CarryMesh, IsRefusedWithAPlaceWhereItWouldNotBeGood) {
+TEST(CarryMesh, IsRefusedWithLocationOfBadTriangles) {
   const StructuredMesh from = mesh_of(twisted_wing(0.0));
   const CarriedMesh result = carried(from, bent(twisted_wing(0.0), 1.0));
   EXPECT_FALSE(result.mesh);

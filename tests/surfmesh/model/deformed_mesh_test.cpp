@@ -44,7 +44,7 @@ TriMesh reevaluated(const SurfaceMesh& surface, const Model& model) {
   return result;
 }
 
-TEST(DeformedMesh, AMeshedWingBendsByItsFileOfDisplacements) {
+TEST(DeformedMesh, MeshedWingBendsByDisplacementFile) {
   STERNA_NEEDS_SHARED_DATA();
   const RunContext context({.threads = 2});
   const Model wing = io::read_cad(test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep", {}, context).model;
@@ -69,7 +69,7 @@ TEST(DeformedMesh, AMeshedWingBendsByItsFileOfDisplacements) {
   EXPECT_NEAR(before, 1.0, 0.02);
 }
 
-TEST(DeformedMesh, DisplacementsThatFoldSpaceAreRefusedWithTheirPlace) {
+TEST(DeformedMesh, FoldingDisplacementsAreRefusedWithLocation) {
   STERNA_NEEDS_SHARED_DATA();
   const Model wing = io::read_cad(test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep", {}, RunContext()).model;
   const std::filesystem::path path = test::scratch() / "fold.txt";

@@ -43,7 +43,7 @@ TriMesh triangle(const TriMesh& like, const std::array<Point, 3>& points) {
   return mesh;
 }
 
-TEST(Deviation, OfABallIsZeroAndItsFacetsTurnByHalfTheCurvatureAngle) {
+TEST(Deviation, BallHasZeroDistanceAndExpectedNormalAngle) {
   const Made ball(test::make_ball(2.0), edges_of(1.0, 12.0 * k_degree));
   const Deviation d = ball.measure(ball.surface.mesh);
   EXPECT_EQ(d.n_nodes, static_cast<std::int64_t>(ball.surface.mesh.n_vertices()));
@@ -61,7 +61,7 @@ TEST(Deviation, OfABallIsZeroAndItsFacetsTurnByHalfTheCurvatureAngle) {
   EXPECT_NEAR(d.normal.worst, exact, 1e-7);
 }
 
-TEST(Deviation, AMovedNodeAndATurnedFacetAreFoundWithTheirValues) {
+TEST(Deviation, MovedNodeAndTurnedFacetAreMeasured) {
   const Made ball(test::make_ball(2.0), edges_of(1.0, 12.0 * k_degree));
   for (const double off : {1e-5, 1e-3, -0.05}) {
     SCOPED_TRACE(off);
@@ -98,7 +98,7 @@ TEST(Deviation, FacesEndAtTheirBorders) {
   EXPECT_NEAR(off({0.4, 0.37, 1 - 0.2}), 0.2, 1e-14);
 }
 
-TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
+TEST(Deviation, PointsAroundCylinderMatchFormula) {
   const Made can(make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0), edges_of(0.5, 0.5));
   const auto exact = [](const Point& p) {
     const double r = std::hypot(p.y, p.z), outside = std::hypot(std::max(r - 1.0, 0.0), std::max({-p.x, p.x - 2.0, 0.0}));
@@ -116,7 +116,7 @@ TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
   }
 }
 
-TEST(Deviation, WingsWithSharpTrailingEdgesCompareEachSideWithItsOwn) {
+TEST(Deviation, SharpTrailingEdgesCompareEachSideWithItself) {
   // NACA 0006 with a modified last coefficient, so that both sides end in one point.
   const auto half_thickness = [](double x) { return 0.3 * (0.2969 * std::sqrt(x) - x * (0.1260 + x * (0.3516 - x * (0.2843 - x * 0.1036)))); };
   Wing wing{.name = "wing", .is_symmetric = true, .is_cubic = true};

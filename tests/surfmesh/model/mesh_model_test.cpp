@@ -107,7 +107,7 @@ TEST(MeshModel, ComponentsHaveDefaults) {
   }
 }
 
-TEST(MeshModel, TrailingEdgesThatAreAllButSharpBecomeLines) {
+TEST(MeshModel, NearlySharpTrailingEdgesBecomeLines) {
   const auto mesh_of = [](double thickness) {
     const Model model = lens_wing(false, thickness);
     const SurfaceMesh mesh = mesh_model(model, edges_of(0.1), {}, k_context);
@@ -168,7 +168,7 @@ TEST(MeshModel, SameBytesForAnyThreads) {
   }
 }
 
-TEST(MeshModel, AFaceThatNeedsTooManyTrianglesIsNamed) {
+TEST(MeshModel, FaceWithTooManyTrianglesIsNamed) {
   SurfaceMeshOptions options = edges_of(0.01);
   options.max_triangles = 1000;
   try {
@@ -180,7 +180,7 @@ TEST(MeshModel, AFaceThatNeedsTooManyTrianglesIsNamed) {
   }
 }
 
-TEST(MeshModel, ARimOfNearlyNoWidthDoesNotAskForMillions) {
+TEST(MeshModel, VeryNarrowRimNeedsNoMillionsOfTriangles) {
   for (const double width : {1e-6, 1e-9}) {
     const Model model = make_box("blade", {0, 0, 0}, {1, 0.01, width});
     try {
@@ -220,7 +220,7 @@ double chord_error_of(const Model& model, const SurfaceMesh& mesh) {
   return most;
 }
 
-TEST(MeshModel, AChordErrorIsMetAlsoOnPolesAndSharpEnds) {
+TEST(MeshModel, ChordErrorHoldsOnPolesAndSharpEnds) {
   Wing wing{.name = "W", .is_symmetric = true};
   for (const double y : {4.0, 0.0}) {
     WingSection s{.name = "y", .leading_edge = {0.3 * y, y, 0.0}, .chord = 2.0 - 0.3 * y};
@@ -289,7 +289,7 @@ TEST(MeshModel, CoarseMembersKeepRoundTipsSmooth) {
   }
 }
 
-TEST(MeshModel, AChordErrorThatNeedsAbsurdlyManyTrianglesIsRefusedAtOnce) {
+TEST(MeshModel, TooSmallChordErrorIsRefusedAtOnce) {
   SurfaceMeshOptions options;
   options.chord_error = 1e-9;
   try {

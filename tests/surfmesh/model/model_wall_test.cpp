@@ -24,7 +24,7 @@ using test::edges_of;
 using test::k_context;
 using test::k_degree;
 
-TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
+TEST(ModelWall, PointsMoveToSurfaceOrToRim) {
   const Model model = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
   const SurfaceMesh surface = mesh_model(model, edges_of(0.5, 0.5), {}, k_context);
   const ModelWall wall(model, surface);
@@ -57,7 +57,7 @@ TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
   EXPECT_GT(n_rim, 40);  // each of the two circles from both sides
 }
 
-TEST(SmoothAngle, IsThatOfTheSkinAndNotOfTheRim) {
+TEST(SmoothAngle, IsAngleOfSkinNotOfRim) {
   const Model can = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
   // Edges of a regular polygon turn by its angle, which the curvature angle bounds. The end circles turn by 90 degrees.
   for (const double angle : {10.0 * k_degree, 20.0 * k_degree}) {

@@ -116,7 +116,7 @@ TEST(PeriodicRims, ABarThroughBothSides) {
   EXPECT_EQ(n_stops(rims_of(model, alike(0.15))), 2u);  // the boolean operation leaves a corner at a different location of each side
 }
 
-TEST(PeriodicRims, WingsWithSharpBluntAndNearlySharpTrailingEdges) {
+TEST(PeriodicRims, WingsWithSharpBluntNearlySharpTrailingEdges) {
   for (const double trailing_edge : {0.0, 2e-4, 0.01}) {  // the second edge is absorbed: both sides keep the same corner
     const Model model = through_duct({blade(trailing_edge)});
     const SurfaceMesh mesh = mesh_model(model, alike(0.1), {}, k_context);
@@ -155,7 +155,7 @@ TEST(PeriodicRims, PairsInTwoDirectionsShareEdges) {
   expect_images(mesh.mesh, "tunnel_floor", "tunnel_ceiling", {0, 0, 2}, 60);
 }
 
-TEST(PeriodicRims, CornersOfOneSideOnlyAreVerticesOfBoth) {
+TEST(PeriodicRims, CornersOfOneSideAreVerticesOfBoth) {
   // Two halves, rotated against each other, so that their seams lie at different locations.
   Model left = make_cylinder("bar", {0.0, -1.0, 0.0}, {0.0, 0.0, 0.0}, 0.25), right = make_cylinder("bar", {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.25);
   right = transformed(right, rotation({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.7));
@@ -168,7 +168,7 @@ TEST(PeriodicRims, CornersOfOneSideOnlyAreVerticesOfBoth) {
   expect_images(mesh.mesh, "tunnel_left", "tunnel_right", {0, 1, 0}, 60);
 }
 
-TEST(PeriodicRims, OpenEndsInTwoPlanesAreSidesByTheNamesOfThePlanes) {
+TEST(PeriodicRims, OpenEndsAreSidesNamedAfterTheirPlanes) {
   // The remainder of a wing between two planes: volume_mesh closes the end planes by patches of these names.
   Model wing = through_duct({blade(0.01)});
   Column<FaceId, ModelFace> left;
@@ -188,7 +188,7 @@ TEST(PeriodicRims, OpenEndsInTwoPlanesAreSidesByTheNamesOfThePlanes) {
   for (const Point& p : low) EXPECT_TRUE(std::ranges::any_of(high, [&](const Point& q) { return distance(p + Vec3{0, 1, 0}, q) < 1e-9; })) << format_point(p);
 }
 
-TEST(PeriodicRims, TheWayBetweenRoundSidesIsFoundFromTheirBorders) {
+TEST(PeriodicRims, TranslationBetweenRoundSidesFollowsFromBorders) {
   TestSectionOptions options;
   options.length = 4.0;
   options.diameter = 1.0;

@@ -32,7 +32,7 @@ SurfaceSoup with_hole(const TriMesh& mesh, const Point& at) {
   return soup;
 }
 
-TEST(ReplacedFaces, WhatCameThroughIsExactAndTheRestIsNamedWithItsDistance) {
+TEST(ReplacedFaces, KeptFacesAreExactOthersNamedWithDistance) {
   const Model model = make_cylinder("tube", {0, 0, 0}, {2, 0, 0}, k_radius);
   SurfaceMeshOptions options;
   options.max_edge = 0.15;
@@ -55,7 +55,7 @@ TEST(ReplacedFaces, WhatCameThroughIsExactAndTheRestIsNamedWithItsDistance) {
   EXPECT_THAT(to_lines(behind.faces, 5).front(), testing::AllOf(testing::HasSubstr("\"tube\""), testing::HasSubstr("m from the model")));
 }
 
-TEST(ReplacedFaces, OfTrianglesThatAreAllTheirOwnNothingIsTold) {
+TEST(ReplacedFaces, UnchangedTrianglesGiveNoReport) {
   const Model model = make_box("crate", {0, 0, 0}, {1, 1, 1});
   const SurfaceMesh made = mesh_model(model, {}, {}, k_context);
   const ModelWall before(model, made);

@@ -36,7 +36,7 @@ TEST(SurfaceForecast, IsNearWhatIsMade) {
   }
 }
 
-TEST(SurfaceForecast, TheCauseIsTheRuleThatAsksForMost) {
+TEST(SurfaceForecast, CauseIsRuleThatRequiresMost) {
   const Model box = make_box("box", {0, 0, 0}, {1, 0.4, 0.2});
   SurfaceMeshOptions options;
   options.max_edge = 0.001;

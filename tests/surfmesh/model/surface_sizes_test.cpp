@@ -126,7 +126,7 @@ TEST(SurfaceSizes, GrowFromAFineEdgeOverAPlane) {
   for (int i = 0; i <= 10; ++i) EXPECT_NEAR(made.on_edge(e, model.edges[e].range.from + 0.1 * i * model.edges[e].range.length()), 0.002, 1e-12);
 }
 
-TEST(SurfaceSizes, GrowFromAPointOnAnEdgeOverAPlane) {
+TEST(SurfaceSizes, GrowFromEdgePointOverPlane) {
   const Model model = plate("plate", 0.0);
   Field field(model, 0.3, 0.2);
   const EdgeId e = model.faces[k_first_face].borders[0][1].edge;
@@ -191,7 +191,7 @@ TEST(SurfaceSizes, NothingCrossesAGap) {
     EXPECT_EQ(made.on_edge(use.edge, 0.5 * (model.edges[use.edge].range.from + model.edges[use.edge].range.to)), 0.3);
 }
 
-TEST(SurfaceSizes, SizesRunAroundTheEdgeOfABoxAndNotThroughIt) {
+TEST(SurfaceSizes, SizesSpreadAroundBoxEdgesNotThroughBox) {
   const Model model = make_box("box", {0, 0, 0}, {1, 1, 0.02});
   Field field(model, 0.3, 0.2);
   // The middle of an edge of the face z = 0.02 at x = 0; from the face below, the path is 0.02 longer.

@@ -157,7 +157,7 @@ void expect_bands(const Model& model, const SurfaceMesh& surface, double chordwi
   EXPECT_GT(surface.report.share_20_130, 0.998);  // the triangles outside the range are at the tips' sharp ends
 }
 
-TEST(WingBands, StretchedRowsAlongBothEdgesOfASweptWing) {
+TEST(WingBands, StretchedRowsAlongBothSweptWingEdges) {
   const Model model = swept_wing(0.0);
   for (const auto& [chordwise, stretch] : {std::pair(0.003, 8.0), std::pair(0.002, 20.0), std::pair(0.001, 50.0)}) {
     SCOPED_TRACE(stretch);

@@ -145,7 +145,7 @@ TEST(RemeshSurface, BoxStaysABox) {
   EXPECT_NEAR(static_cast<double>(result.mesh.n_triangles()), 6.0 / (0.433 * 0.01), 400.0);
 }
 
-TEST(RemeshSurface, NeedlesOfAWingGoAndItsEdgesStay) {
+TEST(RemeshSurface, WingSliversAreRemovedAndEdgesStay) {
   const TriMesh wall = strip_wing(24);
   const RemeshResult result = remeshed(wall);
   expect_sound(wall, result.mesh);
@@ -336,7 +336,7 @@ TEST(RemeshSurface, SameBytesForAnyThreads) {
   }
 }
 
-TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
+TEST(RemeshSurface, UnreachableDemandEndsItEarly) {
   const TriMesh wall = test::sphere(8);
   const auto demanding = [&](const RemeshDemand& demand) { return remesh_surface(wall, {}, {}, {}, demand, k_context); };
   // Limits that are met: the result is the same as without limits.
@@ -369,14 +369,14 @@ TriMesh line_like_box() {
   return box;
 }
 
-TEST(RemeshSurface, PiecesAsThinAsALineAreGivenAnEnd) {
+TEST(RemeshSurface, LineThinPiecesDoNotRefineEndlessly) {
   const TriMesh wall = line_like_box();
   const TriMesh mesh = remeshed(wall).mesh;
   expect_sound(wall, mesh);
   EXPECT_LE(mesh.n_triangles(), 100'000u);
 }
 
-TEST(RemeshSurface, HalvingWithoutEndIsAnErrorWithItsPlace) {
+TEST(RemeshSurface, EndlessHalvingIsErrorWithLocation) {
   const Error error = test::error_of([] { remeshed(line_like_box(), {.max_edge = 1e-7, .max_triangles = 20'000}); });
   EXPECT_EQ(error.code(), ErrorCode::overflow);
   EXPECT_THAT(error.what(), testing::HasSubstr("halving long edges did not end"));

@@ -53,7 +53,7 @@ SurfaceSoup without(SurfaceSoup soup, const std::vector<std::size_t>& facets) {
 
 SurfaceSoup cube_soup(const Vec3& at = {}, double size = 1.0, int n = 2) { return shifted(soup_of(cube(n)), at, size); }
 
-TEST(RepairSurface, WhatIsAcceptedComesBackWithTheSameBytes) {
+TEST(RepairSurface, AcceptedSurfaceReturnsWithSameBytes) {
   const std::vector<SurfaceSoup> soups{soup_of(sphere(6)), shifted(cube_soup(), {3, 0, 0})};
   const TriMesh expected = surfmesh::stitch_surface(soups, {}, quiet()).mesh;
   const RepairResult result = repaired(soups);
@@ -137,7 +137,7 @@ TEST(RepairSurface, CurvedHolesAreFilledRound) {
   EXPECT_GT(result.report.from_result, 0.0);
 }
 
-TEST(RepairSurface, HolesAboveTheLimitAreAnErrorThatNamesWrap) {
+TEST(RepairSurface, HolesAboveLimitAreErrorNamingWrap) {
   RepairOptions options;
   options.half = "off";
   options.hole = options.flat_hole = 0.1;
@@ -285,7 +285,7 @@ TEST(RepairSurface, HalfModelsAreRecognised) {
   }
 }
 
-TEST(RepairSurface, AMissingFacetOfAFlatSideIsNoHalfModel) {
+TEST(RepairSurface, FlatSideMissingFacetIsNoHalfModel) {
   const RepairResult result = repaired({without(cube_soup({}, 1.0, 1), {0})});
   EXPECT_FALSE(result.report.half.has_value());
   EXPECT_NEAR(volume_of(result.mesh), 1.0, 1e-14);

@@ -94,7 +94,7 @@ TEST(Wrap, WhatIsInsideVanishesAndIsTold) {
   EXPECT_TRUE(has_message(result, "that are inside"));
 }
 
-TEST(Wrap, BodiesThatOverlapBecomeOneAndBodiesApartStayApart) {
+TEST(Wrap, OverlappingBodiesJoinAndSeparateBodiesStay) {
   const WrapOptions options{.edge = 0.15, .gap = 0.3};
   EXPECT_EQ(wrap({joined(soup_of(sphere(10)), shifted(soup_of(sphere(10)), {1.0, 0.0, 0.0}))}, options).report.n_components, 1);
   const WrapResult apart = wrap({joined(soup_of(sphere(10)), shifted(soup_of(sphere(10)), {3.0, 0.0, 0.0}))}, options);
@@ -118,7 +118,7 @@ SurfaceSoup cube_with_window(double unit = 1.0) {
   return open;
 }
 
-TEST(Wrap, OpeningsUpToTheGapAreClosedAndWiderOnesAreLeaksWithAPlace) {
+TEST(Wrap, OpeningsUpToGapCloseWiderOnesLeak) {
   const WrapResult closed = wrap({cube_with_window()}, {.edge = 0.06, .gap = 0.4, .half = "never"});
   expect_stitched(closed.mesh);
   EXPECT_NEAR(volume(closed.mesh), 1.0, 0.02);
@@ -155,7 +155,7 @@ SurfaceSoup half_sphere(std::size_t axis, bool is_above, double rough) {
   return soup;
 }
 
-TEST(Wrap, HalfModelsEndInTheirPlaneToTheBit) {
+TEST(Wrap, HalfModelsEndExactlyInTheirPlane) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const double rough : {0.0, 1e-6, 1e-3}) {
       const bool is_above = axis != 1;
@@ -175,7 +175,7 @@ TEST(Wrap, HalfModelsEndInTheirPlaneToTheBit) {
     }
 }
 
-TEST(Wrap, AnAutomaticGapIsTheLeastThatClosesWhatIsOpen) {
+TEST(Wrap, AutomaticGapIsTheLeastThatCloses) {
   SurfaceSoup soup = soup_of(cube(8)), open = soup;
   open.triangles.clear();
   open.patch.clear();
@@ -193,7 +193,7 @@ TEST(Wrap, AnAutomaticGapIsTheLeastThatClosesWhatIsOpen) {
   EXPECT_TRUE(has_message(closed, "openings are wider than 0.075 m: the gap is 0.15 m"));
 }
 
-TEST(Wrap, WhereNoGapClosesAnAutomaticOneStaysAndIsToldOnce) {
+TEST(Wrap, AutomaticGapWithoutClosureIsReportedOnce) {
   // A bowl: its opening is as wide as the bowl.
   const WrapResult bowl = wrap({half_sphere(2, false, 0.0)}, {.edge = 0.08, .half = "never"});
   expect_stitched(bowl.mesh);
@@ -205,7 +205,7 @@ TEST(Wrap, WhereNoGapClosesAnAutomaticOneStaysAndIsToldOnce) {
   EXPECT_NEAR(area(bowl.mesh), 4.0 * std::numbers::pi, 0.5) << "both sides";
 }
 
-TEST(Wrap, TheEdgeOfSheetsIsChosenByBothSides) {
+TEST(Wrap, SheetEdgeLengthCountsBothSides) {
   TriMesh sheet;
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}}) sheet.points.push_back(p);
   sheet.triangles.push_back({VertexId(0u), VertexId(1u), VertexId(2u)});

@@ -27,7 +27,7 @@ MeshCase with_rule(MeshCase mesh_case, const std::string& kind) {
 
 std::vector<SizeSource> sources_of(const TriMesh& wall, const MeshCase& mesh_case) { return with_family_wake(wall, mesh_case, test::k_context).sources; }
 
-TEST(FamilyWake, is_that_of_the_walls_where_nothing_else_refines_it) {
+TEST(FamilyWake, IsWallWakeWithoutOtherRefinement) {
   const TriMesh cube = test::cube(4);
   EXPECT_THAT(sources_of(cube, member(1.0)), testing::IsEmpty());
   EXPECT_THAT(sources_of(cube, member(1.5, "off")), testing::IsEmpty());
@@ -44,7 +44,7 @@ TEST(FamilyWake, is_that_of_the_walls_where_nothing_else_refines_it) {
   EXPECT_TRUE(has_bare_wake(cube, member(1.5, "off")));
 }
 
-TEST(FamilyWake, gives_way_to_sources_and_to_flow_that_is_not_around_a_body) {
+TEST(FamilyWake, IsOmittedWithSourcesOrInternalFlow) {
   const TriMesh cube = test::cube(4);
   MeshCase own = member(1.5);
   own.sources = {{.kind = SourceKind::sphere, .radius = 1.0, .size = 0.1}};
@@ -62,7 +62,7 @@ TEST(FamilyWake, gives_way_to_sources_and_to_flow_that_is_not_around_a_body) {
   }
 }
 
-TEST(FamilyWake, puts_tetrahedra_behind_the_body) {
+TEST(FamilyWake, PutsTetrahedraBehindTheBody) {
   const TriMesh cube = test::cube(4);
   const auto tetrahedra_behind = [&](const MeshCase& mesh_case) {
     const HybridMesh mesh = volume_mesh(cube, mesh_case, test::k_context).mesh;

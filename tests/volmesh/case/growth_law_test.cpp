@@ -33,7 +33,7 @@ TEST(GrowthLaw, RatioOfEquationOneIsClamped) {
   EXPECT_EQ(growth_for_edge(1e-3, 1e-4, 1.4, 10), 1.0);
 }
 
-TEST(GrowthLaw, LayerParametersEndAtOneAndStartWithTheFirstHeight) {
+TEST(GrowthLaw, LayerParametersRunFromFirstHeightToOne) {
   std::vector<double> t(31);
   layer_parameters(1e-6, 0.01, 30, t.data());
   EXPECT_EQ(t[0], 0.0);
@@ -47,7 +47,7 @@ TEST(GrowthLaw, LayerParametersEndAtOneAndStartWithTheFirstHeight) {
 
 /// For any total height of the growth line, flat cells grow by the common ratio, no cell is lower than the cell below it, and the last parameter is the whole
 /// height.
-TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
+TEST(GrowthLaw, FlatCellsOfLineGrowByCommonRatio) {
   const double h0 = 1e-6, g = 1.3;
   for (const int n : {2, 12, 30, 45}) {
     for (const double edge : {1e-4, 1e-2, 1.0}) {
@@ -85,7 +85,7 @@ TEST(GrowthLaw, FlatCellsOfALineGrowByTheCommonRatio) {
 }
 
 /// A growth line of a hundredth of the height beside a line of full height: flat cells keep their proportions, so that faces between them do not lean.
-TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
+TEST(GrowthLaw, FlatCellsKeepProportionsOnVeryLowLines) {
   const double h0 = 1e-6, g = 1.25, edge = 0.1;
   const int n = 45;
   const double full = layer_height(h0, growth_for_edge(h0, edge, g, n), n);
@@ -110,7 +110,7 @@ TEST(GrowthLaw, FlatCellsKeepTheirProportionsOnLinesFarTooLow) {
 /// Beside vertices without a layer, two growth lines may have a thousandth of their full height, on edges of different length. Flatness must be judged by the
 /// cells made, not by those of a line of full height; otherwise lines bend while their cells are 1e4 times wider than tall (found on bjet and D150: faces at
 /// 89.97 degrees).
-TEST(GrowthLaw, LinesFarTooLowKeepTheirProportionsWhateverTheirEdges) {
+TEST(GrowthLaw, VeryLowLinesKeepProportionsForAnyEdges) {
   const double h0 = 7e-6, g = 1.25;
   const int n = 50;
   const LineGrowth near{.h0 = h0, .common = g, .edge = 0.1, .target = 0.08}, beside{.h0 = h0, .common = g, .edge = 0.15, .target = 0.1};

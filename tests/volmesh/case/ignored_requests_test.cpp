@@ -38,7 +38,7 @@ Outcome outcome_of(const std::vector<PatchRule>& rules, const EnvelopeOptions& a
   return outcome;
 }
 
-TEST(IgnoredRequests, EachWithoutEffectIsAnErrorThatNamesIt) {
+TEST(IgnoredRequests, EachIneffectiveRequestIsAnErrorWithName) {
   struct Case {
     PatchRule rule;
     std::string request, patch, remedy;
@@ -84,7 +84,7 @@ TEST(IgnoredRequests, WhatHasAnEffectOrIsReplacedPasses) {
   }
 }
 
-TEST(IgnoredRequests, OptionsOfAllWallsThatNoneUsesAreWarnings) {
+TEST(IgnoredRequests, UnusedOptionsOfAllWallsAreWarnings) {
   EnvelopeOptions all;
   all.first_height = 1e-3;
   EXPECT_THAT(outcome_of({{.names = "wing", .first_height = 1e-4}}, all).log, HasSubstr("first_height = 0.001 of all walls has no effect"));

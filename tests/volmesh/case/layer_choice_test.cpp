@@ -23,7 +23,7 @@ std::string message_of(const std::function<void()>& work) {
   return "no error";
 }
 
-TEST(SolveLayers, the_fewest_layers_that_reach_the_height) {
+TEST(SolveLayers, TheFewestLayersThatReachTheHeight) {
   for (const double growth : {1.0, 1.1, 1.2, 1.4}) {
     const LayerChoice asked{.layers = 30, .first_height = 1e-4, .max_growth = growth, .total_height = 0.01};
     const int n = solve_layers(asked, "layers", "walls").layers;
@@ -32,12 +32,12 @@ TEST(SolveLayers, the_fewest_layers_that_reach_the_height) {
   }
 }
 
-TEST(SolveLayers, the_growth_that_reaches_the_height) {
+TEST(SolveLayers, TheGrowthThatReachesTheHeight) {
   const LayerChoice solved = solve_layers({.layers = 25, .first_height = 2e-5, .max_growth = 9.0, .total_height = 0.01}, "max_growth", "walls");
   EXPECT_NEAR(layer_height(2e-5, solved.max_growth, 25), 0.01, 1e-12);
 }
 
-TEST(SolveLayers, refuses_what_cannot_be) {
+TEST(SolveLayers, RefusesWhatCannotBe) {
   const LayerChoice asked{.layers = 10, .first_height = 1e-4, .max_growth = 1.2, .total_height = 0.05};
   EXPECT_THAT(message_of([&] { solve_layers(asked, "none", "patch wing"); }),
               testing::AllOf(testing::HasSubstr("patch wing"), testing::HasSubstr("needs a growth of"), testing::HasSubstr("26 layers would do")));
@@ -54,7 +54,7 @@ TEST(SolveLayers, refuses_what_cannot_be) {
   EXPECT_EQ(solved_for(true, true, false, ""), "none");
 }
 
-TEST(Refined, first_height_growth_and_layers_are_exact) {
+TEST(Refined, FirstHeightGrowthAndLayersAreExact) {
   MeshCase medium;
   medium.envelope.layers = 30;
   medium.envelope.first_height = 1e-4;
@@ -89,7 +89,7 @@ VolumeMeshResult member(int frequency, double f, const MeshCase& medium) {
   return volume_mesh(test::sphere(frequency), options, RunContext({.threads = 2}));
 }
 
-TEST(Refined, nodes_grow_with_the_third_power) {
+TEST(Refined, NodesGrowWithTheThirdPower) {
   MeshCase medium;
   medium.envelope.layers = 8;
   medium.envelope.first_height = 0.01;
@@ -102,7 +102,7 @@ TEST(Refined, nodes_grow_with_the_third_power) {
   EXPECT_EQ(coarse.mesh.layers.n_layers * 2, fine.mesh.layers.n_layers);
 }
 
-TEST(TotalHeight, is_met_where_nothing_is_in_the_way) {
+TEST(TotalHeight, IsMetWhereSpaceIsFree) {
   const TriMesh wall = test::sphere(8);
   MeshCase options;
   options.envelope.layers = 12;
@@ -117,7 +117,7 @@ TEST(TotalHeight, is_met_where_nothing_is_in_the_way) {
   EXPECT_THAT(log, testing::HasSubstr("12 layers grow by 1.155 "));
 }
 
-TEST(TotalHeight, of_a_patch_alone) {
+TEST(TotalHeight, OfAPatchAlone) {
   TriMesh wall = test::sphere(8);
   wall.patches.push_back({"north", PatchKind::wall});
   for (const TriangleId t : wall.triangles.ids())

@@ -19,7 +19,7 @@ MeshCase asked(int layers) {
   return mesh_case;
 }
 
-TEST(ThinLayers, says_how_many_are_enough_and_nothing_where_they_are) {
+TEST(ThinLayers, ReportsSufficientNumberOnlyWhereTooFew) {
   const TriMesh cube = test::cube(4);  // all triangles are equal
   const auto thin = thin_layers(cube, asked(8));
   ASSERT_TRUE(thin.has_value());
@@ -31,7 +31,7 @@ TEST(ThinLayers, says_how_many_are_enough_and_nothing_where_they_are) {
   EXPECT_EQ(thin->enough, 1 + static_cast<int>(std::ceil(std::log(wanted / 1e-4) / std::log(1.3))));
 }
 
-TEST(ThinLayers, says_nothing_of_what_is_not_one_request) {
+TEST(ThinLayers, IsSilentForSeveralRequests) {
   const TriMesh cube = test::cube(4);
   MeshCase with_height = asked(8), with_rule = asked(8), member = asked(8);
   with_height.envelope.total_height = 0.1;

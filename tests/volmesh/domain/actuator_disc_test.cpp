@@ -136,7 +136,7 @@ CheckReport mesh_of(const TriMesh& wall, const std::vector<ActuatorDisc>& discs,
   return check(mesh, {}, k_context);
 }
 
-TEST(ActuatorDisc, DiscsInTheFluidAreValidWithBothEngines) {
+TEST(ActuatorDisc, DiscsInFluidAreValidWithBothEngines) {
   const std::vector<ActuatorDisc> discs = {{.name = "prop", .center = {-1.6, 0, 0}, .radius = 1.2, .edge = 0.25},
                                            {.name = "fan", .center = {0.1, 0, 0}, .axis = {1, 0.1, 0}, .radius = 2.0, .inner_radius = 1.15, .edge = 0.3}};
   for (const char* engine : {"tetgen", "hxt"}) {

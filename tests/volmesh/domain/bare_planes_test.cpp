@@ -67,7 +67,7 @@ VolumeMeshResult meshed_half(const MeshCase& options, std::string* log = nullptr
   return result;
 }
 
-TEST(BarePlanes, AnInviscidHalfModelHasAGradedSymmetryPlane) {
+TEST(BarePlanes, InviscidHalfModelHasGradedSymmetryPlane) {
   std::string log;
   const VolumeMeshResult result = meshed_half(case_of(0), &log);
   EXPECT_EQ(count_cells(result.mesh).prisms, 0);
@@ -94,7 +94,7 @@ TEST(BarePlanes, WallsWithoutLayersBesideOthers) {
   EXPECT_LT(edges_of(result.mesh, "symmetry").longest_near, 0.6);
 }
 
-TEST(BarePlanes, AGroundPlaneHasLayersAndItsOwnEdges) {
+TEST(BarePlanes, GroundPlaneHasLayersAndOwnEdges) {
   for (const int n_layers : {0, 6}) {
     MeshCase options = case_of(6, "box");
     options.farfield.farfield_from_x = options.farfield.farfield_from_y = -8.0;
@@ -117,7 +117,7 @@ TEST(BarePlanes, AGroundPlaneHasLayersAndItsOwnEdges) {
   }
 }
 
-TEST(BarePlanes, AGroundPlaneBetweenAnInflowAndAnOutflow) {
+TEST(BarePlanes, GroundPlaneBetweenInflowAndOutflow) {
   // The remainder of the box is one patch of two sides and the lid, none of whose corners is on the ground.
   MeshCase options = case_of(6, "box");
   options.farfield.farfield_from_x = options.farfield.farfield_from_y = -8.0;

@@ -89,7 +89,7 @@ TEST(CutDiscs, OutlineIsOneClosedPolygonInThePlane) {
   }
 }
 
-TEST(CutDiscs, RimsLieInTheFluidOrInsideOfBodies) {
+TEST(CutDiscs, RimsLieInFluidOrInsideBodies) {
   TriMesh wall = duct();
   append(wall, hub());
   const auto rims = [&](double inner, double outer) {
@@ -104,7 +104,7 @@ TEST(CutDiscs, RimsLieInTheFluidOrInsideOfBodies) {
   EXPECT_EQ(rims(1.5, 2.5), (std::array{false, true}));
 }
 
-TEST(CutDiscs, FreeDiscsAndThoseThatMeetOtherPatchesCutNothing) {
+TEST(CutDiscs, FreeAndOversizedDiscsCutNothing) {
   for (const double radius : {0.7, 40.0}) {
     const Cut cut(hub(), {{.center = {radius == 0.7 ? -3.0 : 0.0, 0, 0}, .radius = radius}});
     EXPECT_TRUE(cut.cuts.discs.empty());

@@ -28,7 +28,7 @@ TriMesh half_with_waves(double off) {
   return half;
 }
 
-TEST(FlattenRims, a_rim_near_a_plane_is_made_one_to_the_bit_and_told) {
+TEST(FlattenRims, RimNearPlaneBecomesPlaneAndIsReported) {
   std::vector<std::string> told;
   RunSettings settings;
   settings.log = [&](LogLevel, std::string_view text) { told.emplace_back(text); };
@@ -43,7 +43,7 @@ TEST(FlattenRims, a_rim_near_a_plane_is_made_one_to_the_bit_and_told) {
     if (topology.is_boundary(HalfedgeId(i))) EXPECT_EQ(half.points[topology.from(HalfedgeId(i))].y, 0.2);
 }
 
-TEST(FlattenRims, a_rim_farther_off_is_refused_still) {
+TEST(FlattenRims, RimFartherFromPlaneIsRefused) {
   try {
     complete_boundary(half_with_waves(1e-3), {}, RunContext());
     FAIL() << "accepted";

@@ -97,7 +97,7 @@ MeshCase case_over_floor(int n_layers, const std::string& floor = "terrain") {
   return options;
 }
 
-TEST(Floor, TerrainWithAHouseGetsSidesAndALid) {
+TEST(Floor, TerrainWithHouseGetsSidesAndLid) {
   const TriMesh sheet = terrain(true);
   for (const int n_layers : {8, 0}) {
     MeshCase options = case_over_floor(n_layers);

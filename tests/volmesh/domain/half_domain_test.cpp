@@ -68,7 +68,7 @@ TriMesh half_ball_domain(int fineness) {
   return mesh;
 }
 
-TEST(HalfDomain, LayersOfAHalfBallEndOnTheSymmetryPlane) {
+TEST(HalfDomain, HalfBallLayersEndOnSymmetryPlane) {
   const TriMesh surface = half_ball_domain(8);
   const VolumeMeshResult result = volume_mesh(surface, layers(12, 1e-4), RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
@@ -101,26 +101,26 @@ VolumeMeshResult meshed(const TriMesh& surface, const MeshCase& options) {
   return result;
 }
 
-TEST(HalfDomain, AFloorWithLayersEndsOnFourSidesAndTheirEdges) {
+TEST(HalfDomain, FloorLayersEndOnFourSidesAndEdges) {
   const VolumeMeshResult result = meshed(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }), layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 24}, {"right", 24}}));
   EXPECT_GT(result.layer.coverage, 0.999);
 }
 
-TEST(HalfDomain, FloorAndCeilingWithLayersLeaveTheMiddleOfTheEdges) {
+TEST(HalfDomain, FloorAndCeilingLayersLeaveEdgeMiddlesFree) {
   const VolumeMeshResult result =
       meshed(room([](const std::string& name) { return name == "floor" || name == "ceiling" ? PatchKind::wall : PatchKind::slip; }), layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 24}, {"outlet", 24}, {"left", 48}, {"right", 48}}));
   EXPECT_GT(result.layer.coverage, 0.999);
 }
 
-TEST(HalfDomain, FourWallsWithLayersMeetInCornersAndEndOnInletAndOutlet) {
+TEST(HalfDomain, FourLayeredWallsEndOnInletAndOutlet) {
   const VolumeMeshResult result = meshed(room([](const std::string&) { return PatchKind::wall; }), layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 48}, {"outlet", 48}}));
   EXPECT_GT(result.layer.coverage, 0.8);
 }
 
-TEST(HalfDomain, AStrutStandsOnAWallAndGoesThroughASlipCeiling) {
+TEST(HalfDomain, StrutOnWallPassesThroughSlipCeiling) {
   const auto strut = [](int i, int j, int) { return i >= 8 && i < 12 && j >= 5 && j < 7; };
   const VolumeMeshResult result =
       meshed(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, strut), layers(10, 1e-3));
@@ -133,7 +133,7 @@ TEST(HalfDomain, AWingOnASlipSideWall) {
   EXPECT_EQ(rim_edges(result), (Edges{{"left", 16}}));
 }
 
-TEST(HalfDomain, ABodyAwayFromSlipWallsNeedsNoFarfield) {
+TEST(HalfDomain, BodyAwayFromSlipWallsNeedsNoFarfield) {
   const auto body = [](int i, int j, int k) { return i >= 8 && i < 14 && j >= 4 && j < 8 && k >= 5 && k < 7; };
   const VolumeMeshResult result = meshed(room([](const std::string&) { return PatchKind::slip; }, body), layers(10, 1e-3));
   EXPECT_TRUE(result.mesh.boundary_quads.empty());
@@ -141,7 +141,7 @@ TEST(HalfDomain, ABodyAwayFromSlipWallsNeedsNoFarfield) {
 }
 
 /// A square duct in free air with a plug in it; the front of the plug is a fan face, its back a nozzle exit.
-TEST(HalfDomain, LayersInsideADuctEndOnFanFaceAndNozzle) {
+TEST(HalfDomain, DuctLayersEndOnFanFaceAndNozzle) {
   const auto is_fluid = [](int i, int j, int k) {
     const bool is_shell = i >= 10 && i < 22 && j >= 10 && j < 18 && k >= 10 && k < 18;
     const bool is_duct = is_shell && j >= 11 && j < 17 && k >= 11 && k < 17;
@@ -181,7 +181,7 @@ double area_of_patch(const VolumeMeshResult& result, const std::string& name) {
 
 /// The side of a layer cannot stand on the jet, so the jet carries the layer as well. Found on scripts/03: cells around vertices of a nozzle's border without a
 /// layer made the flow diverge.
-TEST(HalfDomain, OverAJetBeyondAnOuterEdgeTheLayerGoesOn) {
+TEST(HalfDomain, LayerContinuesOverJetBeyondOuterEdge) {
   const VolumeMeshResult result = volume_mesh(body_with_jet(), layers(8, 1e-3), RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_TRUE(result.mesh.boundary_quads.empty());
@@ -206,7 +206,7 @@ TEST(HalfDomain, AtAnOuterEdgeTheLayerRunsOut) {
   EXPECT_GT(result.layer.coverage, 0.7);
 }
 
-TEST(HalfDomain, ASymmetryPatchThatIsNotPlaneIsAnError) {
+TEST(HalfDomain, NonPlanarSymmetryPatchIsAnError) {
   TriMesh surface = half_ball_domain(6);
   const PatchId symmetry(surface.patches.size() - 1);
   for (const TriangleId t : surface.triangles.ids())

@@ -56,14 +56,14 @@ TEST(PeriodicDomain, AWingBetweenTwoSides) {
   EXPECT_EQ(result.layer.collapsed_area, 0.0);
 }
 
-TEST(PeriodicDomain, SidesOfAFileThatKnowsNoKindsAreNoWalls) {
+TEST(PeriodicDomain, SidesWithoutKindsInFileAreNoWalls) {
   TriMesh surface = room(all_slip, is_wing);
   for (Patch& patch : surface.patches)
     if (patch.name == "left" || patch.name == "right") patch.kind = PatchKind::wall;
   EXPECT_EQ(matched(surface, periodic_layers(10, 1e-3)).mesh.points, matched(room(all_slip, is_wing), periodic_layers(10, 1e-3)).mesh.points);
 }
 
-TEST(PeriodicDomain, LayersThatAreAskedForOnThemAreRefused) {
+TEST(PeriodicDomain, LayersRequestedOnSidesAreRefused) {
   for (const PatchRule& rule : {PatchRule{.names = "left", .kind = "wall"}, PatchRule{.names = "right", .layers = 5}}) {
     MeshCase options = periodic_layers(10, 1e-3);
     options.patches = {rule};
@@ -71,7 +71,7 @@ TEST(PeriodicDomain, LayersThatAreAskedForOnThemAreRefused) {
   }
 }
 
-TEST(PeriodicDomain, AFloorWithLayersHasTheSameEdgesAndCornersOnBothSides) {
+TEST(PeriodicDomain, FloorLayersHaveEqualEdgesOnBothSides) {
   const VolumeMeshResult result =
       matched(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, is_wing), periodic_layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 40}, {"right", 40}}));
@@ -159,7 +159,7 @@ TEST(PeriodicDomain, SidesThatAreAddedInPlanes) {
   EXPECT_EQ(rim_edges(result), (Edges{{"symmetry_y_min", 24}, {"symmetry_y_max", 24}}));
 }
 
-TEST(PeriodicDomain, ADifferentTriangulationOfTheSecondSideIsReplaced) {
+TEST(PeriodicDomain, DifferentTriangulationOfSecondSideIsReplaced) {
   TriMesh surface = room(all_slip);
   // One diagonal is flipped, and one inner vertex moved.
   const auto right = static_cast<std::size_t>(std::ranges::find(surface.patches, "right", &Patch::name) - surface.patches.begin());
@@ -178,7 +178,7 @@ TEST(PeriodicDomain, ADifferentTriangulationOfTheSecondSideIsReplaced) {
   EXPECT_NO_THROW(match_periodic(surface, joined[0].first, joined[0].second, 1e-12));
 }
 
-TEST(PeriodicDomain, TheWallKnowsItsTrianglesWhereASideIsReplaced) {
+TEST(PeriodicDomain, WallKeepsItsTrianglesBesideReplacedSide) {
   TriMesh surface = room(all_slip, is_wing);
   const auto right = PatchId(static_cast<std::size_t>(std::ranges::find(surface.patches, "right", &Patch::name) - surface.patches.begin()));
   // The triangles of the second side come first, and one inner vertex of that side is moved, so that its triangles are replaced and all others have different
@@ -203,7 +203,7 @@ TEST(PeriodicDomain, TheWallKnowsItsTrianglesWhereASideIsReplaced) {
   }
 }
 
-TEST(PeriodicDomain, VerticesFromFilesWithSixDigitsAreMovedOntoTheirImages) {
+TEST(PeriodicDomain, SixDigitVerticesMoveOntoTheirImages) {
   TriMesh surface = room(all_slip, is_wing);
   std::uint32_t state = 1;
   for (Point& p : surface.points) {
@@ -216,7 +216,7 @@ TEST(PeriodicDomain, VerticesFromFilesWithSixDigitsAreMovedOntoTheirImages) {
   EXPECT_LT(result.check.periodic[0].worst, 1e-14);
 }
 
-TEST(PeriodicDomain, VerticesOfAMesherGoAlongTheirBorderToTheImages) {
+TEST(PeriodicDomain, MesherVerticesMoveAlongBorderToImages) {
   TriMesh surface = room(all_slip, is_wing);
   // On the right, inner vertices on the wing's edges along x and on those of the floor are moved by a quarter of an edge.
   for (Point& p : surface.points)
@@ -236,7 +236,7 @@ TEST(PeriodicDomain, VerticesOfAMesherGoAlongTheirBorderToTheImages) {
               HasSubstr("have no partner"));
 }
 
-TEST(PeriodicDomain, WhatDoesNotMatchIsSaidWithPlacesAndDistances) {
+TEST(PeriodicDomain, MismatchesAreReportedWithLocationsAndDistances) {
   const auto problem_of = [](const TriMesh& surface, std::vector<PeriodicNames> pairs) {
     return test::error_of([&] { volume_mesh(surface, periodic_layers(8, 1e-3, std::move(pairs)), k_context); }).info();
   };
@@ -268,7 +268,7 @@ TEST(PeriodicDomain, WhatDoesNotMatchIsSaidWithPlacesAndDistances) {
   EXPECT_THAT(problem_of(patched, {{"left", "right"}}).problem, HasSubstr("ends on one periodic side and not on the other"));
 }
 
-TEST(PeriodicDomain, StepsGiveTheSameMeshForAnyNumberOfThreads) {
+TEST(PeriodicDomain, StepsGiveSameMeshForAnyThreads) {
   const TriMesh surface = room(all_slip, is_wing);
   const MeshCase options = periodic_layers(6, 1e-3);
   const VolumeMeshResult whole = volume_mesh(surface, options, k_context);

@@ -52,7 +52,7 @@ void expect_matched(const VolumeMeshResult& result, std::size_t n_pairs) {
   }
 }
 
-TEST(Row, ABarThroughBothSidesAndFloorAndCeilingToo) {
+TEST(Row, BarThroughBothSidesFloorAndCeiling) {
   const TriMesh surface = surface_of(make_cylinder("bar", {0, -1, 0}, {0, 1, 0}, 0.25), k_sides + ";tunnel_floor,tunnel_ceiling", k_context);
   MeshCase options = layers_between_sides(8);
   options.periodic.push_back({"tunnel_floor", "tunnel_ceiling"});
@@ -74,7 +74,7 @@ TEST(Row, SharpTrailingEdgesOpenFromSideToSide) {
   expect_matched(volume_mesh(surface_of(blade(0.0), k_sides, k_context), options, k_context), 1);
 }
 
-TEST(Row, AWingThatEndsInTwoPlanesOfItsFarfield) {
+TEST(Row, WingEndingInTwoFarfieldPlanes) {
   Model model = row_of(blade(0.012));
   Column<FaceId, ModelFace> wing;
   for (const ModelFace& face : model.faces)
@@ -107,7 +107,7 @@ TEST(Row, AnyNumberOfThreadsGivesTheSame) {
   }
 }
 
-TEST(Row, BordersThatAreCutAtOtherPlacesNameTheRemedy) {
+TEST(Row, BordersDividedDifferentlyNameTheRemedy) {
   const TriMesh surface = surface_of(blade(0.012), "", k_context, {{.names = "tunnel_left", .max_edge = 0.07}});
   const ErrorInfo error = test::error_info_of([&] { volume_mesh(surface, layers_between_sides(6), k_context); });
   EXPECT_EQ(error.code, ErrorCode::bad_argument);

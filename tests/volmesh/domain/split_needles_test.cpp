@@ -129,7 +129,7 @@ TEST(SplitNeedles, LongStripsBetweenCreasesAreSplitCompletely) {
   EXPECT_LT(split.n_triangles(), 2u * 16u * 96u);
 }
 
-TEST(SplitNeedles, TheBudgetIsKeptAndWhatIsLeftIsTold) {
+TEST(SplitNeedles, BudgetIsKeptAndRemainderIsReported) {
   const TriMesh given = long_strips(48, 20.0);
   TriMesh split = given;
   const NeedleSplits splits = split_needles(split, all_layered(given), {.needle_budget = 0.5}, k_context);
@@ -173,7 +173,7 @@ TEST(SplitNeedles, WithoutNeedlesAndWithoutLeaveNothingChanges) {
   expect_unchanged(long_strips(24, 1e4), k_rich);  // a thousand pieces each: beyond the limit
 }
 
-TEST(SplitNeedles, PatchesWithoutLayersAndRimsStayAsTheyAre) {
+TEST(SplitNeedles, PatchesWithoutLayersAndRimsDoNotChange) {
   TriMesh given = long_strips(48, 20.0);
   const PatchId slip = given.patches.push_back({"slip", PatchKind::slip});
   for (const TriangleId t : given.triangles.ids()) {
@@ -208,7 +208,7 @@ TEST(SplitNeedles, TheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-TEST(SplitNeedles, MeshesHaveTheFinerWallAndStepsByHandAreTheSame) {
+TEST(SplitNeedles, MeshesHaveFinerWallAlsoByManualSteps) {
   const TriMesh wall = long_strips(24, 6.0);
   MeshCase options = layers(6, 1e-3);
   options.farfield.farfield_radius = 60.0;
@@ -237,7 +237,7 @@ TEST(SplitNeedles, HalfModelsKeepTheirRims) {
   EXPECT_EQ(rim_edges(result), (Edges{{"symmetry", 24}}));
 }
 
-TEST(SplitNeedles, PartsWhoseWallHasChangedAreMadeWhereTheyAre) {
+TEST(SplitNeedles, PartsWithChangedWallAreMadeInPlace) {
   TriMesh surface = test::sphere(6);
   for (Point& p : surface.points) p.x += 10.0;
   const auto sphere = std::make_shared<const TriMesh>(surface), strips = std::make_shared<const TriMesh>(long_strips(24, 6.0));

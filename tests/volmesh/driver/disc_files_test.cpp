@@ -27,7 +27,7 @@ double area_of(const HybridMesh& mesh, const std::string& name) {
   return sum;
 }
 
-TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
+TEST(DiscFiles, FanInDuctAndPropellerOnNose) {
   STERNA_NEEDS_SHARED_DATA();
   struct Case {
     const char* file;
@@ -55,7 +55,7 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
   }
 }
 
-TEST(DiscFiles, OtherProgramsAcceptAFanBetweenHubAndDuct) {
+TEST(DiscFiles, OtherProgramsAcceptFanBetweenHubAndDuct) {
   TriMesh wall = duct();
   append(wall, hub());
   MeshCase options;

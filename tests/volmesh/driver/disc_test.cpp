@@ -26,7 +26,7 @@ std::size_t n_triangles_of(const HybridMesh& mesh, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::count_if(mesh.boundary_triangles, [&](const auto& t) { return mesh.patches[t.patch].name == name; }));
 }
 
-TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
+TEST(Discs, PropellerBeforeBodyAndRingAroundIt) {
   const TriMesh wall = test::sphere(8);
   const std::vector<ActuatorDisc> discs = {{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2},
                                            {.name = "fan", .center = {0.2, 0, 0}, .radius = 2.4, .inner_radius = 1.5}};
@@ -46,7 +46,7 @@ TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
   }
 }
 
-TEST(Discs, TheLayerKeepsClearOfADiscNearTheWall) {
+TEST(Discs, LayerKeepsClearOfDiscNearWall) {
   MeshCase options = ten_layers_with({{.name = "prop", .center = {-1.1, 0, 0}, .radius = 0.8}});
   options.envelope.first_height = 0.02;
   const VolumeMeshResult result = volume_mesh(test::sphere(8), options, k_context);
@@ -63,7 +63,7 @@ TEST(Discs, StagesByHandGiveTheSameMesh) {
   EXPECT_EQ(whole.mesh.tetrahedra, by_hand.mesh.tetrahedra);
 }
 
-TEST(Discs, ADiscWhoseRimGoesThroughTheBodyIsAnErrorWithPlaces) {
+TEST(Discs, DiscRimThroughBodyIsErrorWithLocations) {
   try {
     volume_mesh(test::sphere(6), ten_layers_with({{.name = "prop", .center = {1, 0, 0}, .axis = {0, 1, 0}, .radius = 0.5}}), k_context);
     FAIL() << "accepted";

@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Nasty, TooThick,
                                           testing::Values(k_thick, k_thicker)),
                          [](const auto& info) { return std::string(std::get<1>(info.param).name) + std::to_string(info.index); });
 
-TEST(WrongUnit, ALayerThinnerThanItsOwnCellsIsWarnedAbout) {
+TEST(WrongUnit, LayerThinnerThanItsCellsGivesWarning) {
   const TriMesh wall = test::sphere(5, 1e-3);  // coordinates in metres that were meant in millimetres
   MeshCase options;
   options.envelope.layers = 10;
@@ -82,7 +82,7 @@ TEST(WrongUnit, ALayerThinnerThanItsOwnCellsIsWarnedAbout) {
   EXPECT_GT(result.layer.compressed_area + result.layer.collapsed_area, 0.99);
 }
 
-TEST(OuterBoundary, AWallThatDoesNotFitIsRefusedWithPlaces) {
+TEST(OuterBoundary, WallThatDoesNotFitIsRefused) {
   const TriMesh wall = test::cube(3);
   MeshCase options;
   options.envelope.first_height = 1e-4;

@@ -240,7 +240,7 @@ TEST(OptionEffects, EachOptionChangesTheMeshWhereItMatters) {
   }
 }
 
-TEST(OptionEffects, UntanglingKeepsItsShareOfTheWayToWhereLinesMeet) {
+TEST(OptionEffects, UntanglingKeepsItsShareOfMeetingHeight) {
   Setting setting = setting_of("tall");
   std::vector<double> lowest;
   for (const double share : {0.3, 0.7}) {
@@ -253,7 +253,7 @@ TEST(OptionEffects, UntanglingKeepsItsShareOfTheWayToWhereLinesMeet) {
   EXPECT_LT(lowest[0], 0.6 * lowest[1]);
 }
 
-TEST(OptionEffects, GateG12ComparesWithTheBoundaryLayerAskedFor) {
+TEST(OptionEffects, GateG12ComparesWithRequestedBoundaryLayer) {
   const auto state = [](double boundary_layer, double total_height = k_automatic) {
     Setting setting = setting_of("block");
     setting.mesh_case.envelope.boundary_layer = boundary_layer;

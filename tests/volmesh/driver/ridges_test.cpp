@@ -59,7 +59,7 @@ std::vector<std::array<std::array<double, 3>, 3>> wall_faces(const HybridMesh& m
   return faces;
 }
 
-TEST(Ridges, OpenWallIsClosedAndHasTheGivenOneInIt) {
+TEST(Ridges, OpenedWallIsClosedAndContainsGivenWall) {
   const TriMesh wall = sharp_wing(30.0, 8);
   const Domain domain = opened(wall, {.open_ridges = "always"});
   const OpenedRidges& ridges = domain.ridges;
@@ -98,7 +98,7 @@ TEST(Ridges, TooSmallAFirstHeightIsRefused) {
                      [&] { open_ridges({.open_ridges = "always"}, patches_with_open_ridges(wall.patches, true, {}), 1e-3, {}, domain, k_context); });
 }
 
-TEST(Ridges, MeshesOfWedgesAreValidAndKeepTheWall) {
+TEST(Ridges, WedgeMeshesAreValidAndKeepWall) {
   for (const double angle : {5.0, 30.0, 70.0}) {
     const TriMesh wall = sharp_wing(angle, 12);
     const VolumeMeshResult closed = volume_mesh(wall, wing_case(false), k_context), open = volume_mesh(wall, wing_case(true), k_context);
@@ -155,7 +155,7 @@ TEST(Ridges, EqualForAnyNumberOfThreads) {
   }
 }
 
-TEST(Ridges, FansOfAHalfModelStandInItsPlane) {
+TEST(Ridges, HalfModelFansLieInItsPlane) {
   const TriMesh wall = half_sharp_wing(30.0, 6);
   const MeshingSite site(wall, wing_case(true), k_context);
   const Domain& domain = site.domain;
@@ -188,7 +188,7 @@ TEST(Ridges, FansOfAHalfModelStandInItsPlane) {
   expect_continued(wall, wing_case(true));
 }
 
-TEST(Ridges, BentInThePlaneOfAHalfModelTheyEndBeforeIt) {
+TEST(Ridges, RidgesBentAtSymmetryPlaneEndBeforeIt) {
   for (const auto& [sweep, n_feet] : {std::pair(0.5, 6), std::pair(1.0, 4)}) {  // tangents: 27 and 45 degrees
     TriMesh wall = half_sharp_wing(30.0, 6);
     for (Point& p : wall.points) p.x += sweep * p.y;
@@ -198,7 +198,7 @@ TEST(Ridges, BentInThePlaneOfAHalfModelTheyEndBeforeIt) {
   }
 }
 
-TEST(Ridges, OfPlacedPartsAreThoseOfTheWholeWall) {
+TEST(Ridges, PlacedPartsHaveRidgesOfWholeWall) {
   const TriMesh own = sharp_wing(30.0, 8);
   const Transform pitch = rotation({0, 0, 0}, {0, 1, 0}, 0.3);
   TriMesh wall = own;
@@ -238,7 +238,7 @@ TEST(Ridges, MembersOfAFamilyHaveThemToo) {
   EXPECT_DOUBLE_EQ(fine.mesh.request.first_height, 1e-3 / 1.5);
 }
 
-TEST(Ridges, EnvelopesOfDeformedWallsStartFromThatOfTheReference) {
+TEST(Ridges, EnvelopesOfDeformedWallsStartFromReference) {
   MeshingSite reference(sharp_wing(35.0, 8), wing_case(true), k_context);
   const StartingEnvelope start{reference.base.wall.points, build_envelope(reference.base, reference.options.envelope, reference.collider, k_context)};
   TriMesh bent = sharp_wing(35.0, 8);
@@ -276,7 +276,7 @@ TEST(Ridges, ContinuedMeshesWithClosedFansAreTheSame) {
   EXPECT_FALSE(geom2.whole.mesh.hexahedra.empty());
 }
 
-TEST(Ridges, WhatIsToStayClosedIsOfTheWall) {
+TEST(Ridges, ClosedFansMustBelongToTheWall) {
   const TriMesh wall = sharp_wing(30.0, 8);
   test::expect_error(ErrorCode::bad_argument, "one run", [&] { opened(wall, {.open_ridges = "always"}, {VertexId(wall.n_vertices())}); });
 }
@@ -394,7 +394,7 @@ TEST(Ridges, ThatWouldCrossTheWallStayClosed) {
   for (const OpenedRidges::Foot& foot : domain.ridges.feet) EXPECT_GT(foot.point.x, 1.5);
 }
 
-TEST(Ridges, MeshesWithCornersAreValidAndKeepTheWall) {
+TEST(Ridges, MeshesWithCornersAreValidAndKeepWall) {
   MeshCase closed_case = cube_case();
   closed_case.ridges.open_ridges = "never";
   const TriMesh tip = sharp_wing(30.0, 8);

@@ -69,7 +69,7 @@ TEST(SecondEngine, TheBetterMeshIsKept) {
   }
 }
 
-TEST(SecondEngine, IsNotAskedAgainstTheUsersChoiceOrWithoutNeed) {
+TEST(SecondEngine, RunsOnlyWhereNeededAndAllowed) {
   const FillBoundary boundary = cube_in_a_room();
   ImproveReport report;
   SecondEngine second = second_for_cube();

@@ -51,7 +51,7 @@ int largest_step(const LayerBlock& layers) {
   return step;
 }
 
-TEST(Truncation, GapsGetFewerAndTallerLayersInTheSameHeight) {
+TEST(Truncation, GapsGetFewerTallerLayersOfSameHeight) {
   constexpr int k_many = 30;
   const TriMesh wall = two_balls(0.2);
   const VolumeMeshResult whole = volume_mesh(wall, ball_case("never", k_many), k_context);
@@ -82,7 +82,7 @@ TEST(Truncation, GapsGetFewerAndTallerLayersInTheSameHeight) {
   }
 }
 
-TEST(Truncation, ALayerWithRoomEverywhereStaysAsItIs) {
+TEST(Truncation, LayerWithRoomEverywhereDoesNotChange) {
   const TriMesh wall = test::sphere(6);
   const HybridMesh never = volume_mesh(wall, ball_case("never"), k_context).mesh, always = volume_mesh(wall, ball_case("always"), k_context).mesh;
   EXPECT_TRUE(always.layers.is_uniform());

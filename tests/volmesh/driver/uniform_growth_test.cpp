@@ -49,7 +49,7 @@ TEST(UniformGrowth, FacesWithinColumnsDoNotLean) {
 }
 
 /// Few layers on a coarse ball, thin compared with its edges: the requested height leaves room for the first heights above the facets.
-TEST(UniformGrowth, ThinLayersOnCoarseWallsHaveTheirFirstHeights) {
+TEST(UniformGrowth, ThinLayersOnCoarseWallsKeepFirstHeights) {
   MeshCase mesh_case;
   mesh_case.envelope.layers = 12;
   mesh_case.envelope.first_height = 1e-4;
@@ -62,7 +62,7 @@ TEST(UniformGrowth, ThinLayersOnCoarseWallsHaveTheirFirstHeights) {
 
 /// Around a vertex without a layer, growth lines rise in proportion to their distance from the vertex, so that the cells of pyramids beside it grow like all
 /// others.
-TEST(UniformGrowth, FacesBesideAVertexWithoutALayerDoNotLean) {
+TEST(UniformGrowth, FacesBesideVertexWithoutLayerDoNotLean) {
   const TriMesh wall = test::chain_of_cubes(4);
   const VolumeMeshResult result = volume_mesh(wall, cube_case("uniform"), k_context);
   ASSERT_TRUE(result.check.is_valid()) << to_text(result.check);

@@ -98,7 +98,7 @@ double end_of(const TriMesh& wall) {
   return end;
 }
 
-TEST(TrailingEdges, OfAPlateItIsTheUpperOneOfTheBase) {
+TEST(TrailingEdges, PlateHasItsUpperBaseEdge) {
   const TriMesh wall = plate(0.05), thick = plate(0.2);
   const Topology topology(wall, k_context), of_thick(thick, k_context);
   const std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, {"*", wall.n_triangles()}, {1, 0, 0});
@@ -152,7 +152,7 @@ TEST(WakeSheets, TheWallIsAThinBodyThen) {
   EXPECT_NEAR(end, 1.0 + 2.0 * 1.176, 0.01);  // two chords, the nose included
 }
 
-TEST(WakeSheets, MeshesOfWedgesAreValidAndKeepTheWall) {
+TEST(WakeSheets, WedgeMeshesAreValidAndKeepWall) {
   for (const double angle : {5.0, 30.0}) {
     const TriMesh wall = sharp_wing(angle, 8);
     const VolumeMeshResult without = volume_mesh(wall, wake_case({}), k_context), with = volume_mesh(wall, wake_case({{.length = 1.0}}), k_context);
@@ -215,7 +215,7 @@ TEST(WakeSheets, EqualForAnyNumberOfThreads) {
   }
 }
 
-TEST(WakeSheets, OfAHalfModelItEndsInThePlane) {
+TEST(WakeSheets, HalfModelSheetEndsInThePlane) {
   const VolumeMeshResult with = volume_mesh(half_sharp_wing(20.0, 6), wake_case({{.length = 1.0}}), k_context);
   EXPECT_TRUE(with.check.is_valid());
   std::size_t n_behind = 0;  // layer quadrilaterals on the plane behind the wing
@@ -226,7 +226,7 @@ TEST(WakeSheets, OfAHalfModelItEndsInThePlane) {
   EXPECT_GT(n_behind, 20u);
 }
 
-TEST(WakeSheets, BehindABluntBaseItStartsAtTheUpperEdge) {
+TEST(WakeSheets, SheetBehindBluntBaseStartsAtUpperEdge) {
   const TriMesh wall = plate(0.05);
   const VolumeMeshResult with = volume_mesh(wall, wake_case({{.length = 0.6}}), k_context), without = volume_mesh(wall, wake_case({}), k_context);
   EXPECT_TRUE(with.check.is_valid());
@@ -350,7 +350,7 @@ TEST(WakeSheets, TheirDirectionIsTheStreamUnlessGiven) {
   EXPECT_EQ(end_height({.direction = upward}, k_stream), end_height({}, upward));
 }
 
-TEST(WakeSheets, BeginWhereEdgesOfATipAreNotShort) {
+TEST(WakeSheets, BeginWhereTipEdgesAreNotShort) {
   TriMesh wall = sharp_wing(20.0, 8);  // edges of 0.1 m; the last two 0.02 m
   for (Point& p : wall.points)
     if (p.y > 0.65) p.y = p.y > 0.75 ? 0.64 : 0.62;

@@ -23,7 +23,7 @@ MeshCase asked(double first_height) {
 
 int layers_of(const TriMesh& surface, const MeshCase& mesh_case) { return with_automatic_layers(surface, mesh_case, RunContext()).envelope.layers; }
 
-TEST(AutomaticLayers, the_last_cell_is_half_a_regular_tetrahedron) {
+TEST(AutomaticLayers, TheLastCellIsHalfARegularTetrahedron) {
   const TriMesh cube = test::cube(4);  // all triangles are equal: legs of a quarter
   const double edge = std::sqrt(4.0 / std::sqrt(3.0) * 0.5 * 0.25 * 0.25), wanted = 0.5 * k_regular_height * edge;
   for (const double h0 : {1e-6, 1e-4, 1e-3}) {
@@ -41,7 +41,7 @@ TEST(AutomaticLayers, the_last_cell_is_half_a_regular_tetrahedron) {
   EXPECT_EQ(layers_of(cube, given), 7);
 }
 
-TEST(AutomaticLayers, patches_count_with_what_they_ask_for) {
+TEST(AutomaticLayers, PatchesCountWithWhatTheyAskFor) {
   const TriMesh cube = test::cube(4);
   const int of_all = layers_of(cube, asked(1e-4));
   MeshCase finer = asked(1e-4), slower = asked(1e-4), own = asked(1e-4), none = asked(1e-4), slip = asked(1e-4);
@@ -58,7 +58,7 @@ TEST(AutomaticLayers, patches_count_with_what_they_ask_for) {
 }
 
 /// A member of a mesh family has more layers in proportion to its refinement.
-TEST(AutomaticLayers, follow_the_member_of_a_family) {
+TEST(AutomaticLayers, FollowTheMemberOfAFamily) {
   const TriMesh coarse = test::cube(4), fine = test::cube(8);
   MeshCase member = asked(1e-4);
   member.family.refinement = 2.0;
@@ -66,7 +66,7 @@ TEST(AutomaticLayers, follow_the_member_of_a_family) {
   EXPECT_NEAR(n_fine, 2.0 * n, 2.0);
 }
 
-TEST(AutomaticLayers, a_total_height_is_solved_for_the_layers) {
+TEST(AutomaticLayers, ATotalHeightIsSolvedForTheLayers) {
   MeshCase mesh_case = asked(1e-4);
   mesh_case.envelope.total_height = 0.05;
   const EnvelopeOptions found = effective_options(mesh_case, RunContext()).envelope;

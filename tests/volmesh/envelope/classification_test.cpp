@@ -135,7 +135,7 @@ TEST(Classes, SaddleBetweenConvexAndConcaveCrease) {
   disk.expect_drawn("saddle", {1.5, -2.0, 2.5});
 }
 
-TEST(Classes, ConeTipIsACornerWhereItsFacesAreFewAndSeenFromItsAxisInAnyCase) {
+TEST(Classes, ConeTipWithFewFacesIsACorner) {
   const double half = 15.0 * k_degree;
   const TriMesh coarse_mesh = test::cone(half, 7), fine_mesh = test::cone(half, 40);
   const Classified coarse(coarse_mesh), fine(fine_mesh);
@@ -173,7 +173,7 @@ TEST(FeatureAngle, GapOfTheHistogram) {
   EXPECT_EQ(feature_angle_of(base, options, k_context), 0.5);  // the user's value has priority
 }
 
-TEST(FeatureAngle, FollowsTheLargestSmoothTurnWhereItIsKnown) {
+TEST(FeatureAngle, FollowsLargestSmoothTurnWhereKnown) {
   const TriMesh mesh = test::cube(4);
   const LayerBase base(mesh, k_context);
   std::string log;

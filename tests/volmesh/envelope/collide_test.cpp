@@ -91,7 +91,7 @@ TEST(Collider, AgreesWithOneSearchOverAllTriangles) {
   }
 }
 
-TEST(Collider, AfterAMoveTheSearchAroundItFindsAllThatIsNew) {
+TEST(Collider, SearchAroundMoveFindsAllNewCrossings) {
   const TriMesh wall = test::sphere(8);
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
@@ -187,7 +187,7 @@ TEST(RetractCollisions, LayersStayInsideACloseOuterBoundary) {
   }
 }
 
-TEST(RetractCollisions, ABodyWithinTheLayerOfAnotherIsSeenThroughItsWall) {
+TEST(RetractCollisions, BodyInsideAnothersLayerIsDetected) {
   TriMesh wall = test::sphere(4);
   TriMesh crumb = test::sphere(1, 0.02);
   for (Point& p : crumb.points) p += Vec3{0, 0, 1.2};

@@ -107,7 +107,7 @@ double share_different(const ConstrainedLayer& half, const ConstrainedLayer& who
   return n / static_cast<double>(half.base.wall.n_vertices());
 }
 
-TEST(ConstrainRims, FindsThePlanesOfHalfAndQuarterCubesAndTurnsTheirNormals) {
+TEST(ConstrainRims, FindsPlanesOfHalfAndQuarterCubes) {
   const TriMesh cube = test::cube(4);
   EXPECT_TRUE(constraints_of_rims(cube, Topology(cube, k_context)).vertex.empty());
   const TriMesh half = test::cut_off(cube, 1, 0.5);
@@ -272,7 +272,7 @@ TEST(ConstrainedLayer, FixedVerticesStayOnTheWall) {
   }
 }
 
-TEST(ConstrainedLayer, NodesLieOnTheCylinderThatTheWallEndsOn) {
+TEST(ConstrainedLayer, NodesLieOnCylinderWhereWallEnds) {
   // A half cube whose open boundary is bent onto a cylinder about the z axis with radius 3, the tunnel wall at y = -2.5 + 3.
   TriMesh half = test::cut_off(test::cube(8), 1, 0.5);
   const auto tunnel = std::make_shared<ConstraintCylinder>(Point{0.5, 3.0, 0}, Vec3{0, 0, 1}, 2.5);
@@ -311,7 +311,7 @@ TEST(ConstrainedLayer, SameBytesForAnyNumberOfThreads) {
   }
 }
 
-TEST(ConstrainedLayer, HalfAWingIsHalfOfTheWingsLayer) {
+TEST(ConstrainedLayer, HalfWingHasHalfOfTheLayer) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = io::read_surface_file(test::shared_data() / "surfaces/clean/pygeo_bwb.stl", k_context);
   const TriMesh wing = surfmesh::stitch_surface({soup}, {}, k_context).mesh;

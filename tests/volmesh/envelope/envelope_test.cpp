@@ -72,7 +72,7 @@ TEST(Classification, CubeHasCornersRidgesAndSmoothFaces) {
   EXPECT_EQ(n_ridges, 12 * 3);
 }
 
-TEST(InitialEnvelope, CubeCornerGrowsAlongTheDiagonalAndTheSphereAlongItsRadius) {
+TEST(InitialEnvelope, CubeCornersGrowDiagonallySpheresRadially) {
   const TriMesh cube = test::cube(4);
   const LayerBase base(cube, k_context);
   const Envelope envelope = initial_envelope(base, layers_of(1e-4, 10), k_context);
@@ -120,7 +120,7 @@ TEST(Unwarp, TangledHeightsBecomeValidAndOnlyFall) {
   for (const VertexId v : cube.points.ids()) EXPECT_LE(envelope.height[v], before.height[v]);
 }
 
-TEST(BuildEnvelope, OpposingCubesShareTheirGapAndDoNotCollide) {
+TEST(BuildEnvelope, OpposingCubesShareGapWithoutCollision) {
   TriMesh two = test::cube(6);
   TriMesh other = two;
   for (Point& p : other.points) p.x += 1.1;  // gap of a tenth

@@ -106,7 +106,7 @@ void expect_proved(const LayerBase& base, Collider& collider, const Envelope& en
   EXPECT_TRUE(certificate.is_proved()) << to_text(certificate);
 }
 
-TEST(ShareGaps, TwoPlatesShareInProportionToWhatTheyAskFor) {
+TEST(ShareGaps, TwoPlatesShareInProportionToRequests) {
   // Lower plate with edges of 1/8, upper plate with edges of 1/4: by eq. (1) the upper plate requests the taller layer.
   TriMesh wall = block(8, {0, 0, -0.2}, {1, 1, 0.2});
   const std::size_t n_first = wall.n_vertices();
@@ -183,7 +183,7 @@ TEST(ShareGaps, TwoSpheresKeepTheirDistance) {
   EXPECT_GT(n_cut, 5);
 }
 
-TEST(ShareGaps, AnAnnulusWhoseLayersWouldPassThroughEachOther) {
+TEST(ShareGaps, AnnulusWithLayersThatWouldCross) {
   TriMesh wall = test::sphere(8);
   TriMesh shell = test::sphere(8, 1.5);
   for (const TriangleId t : shell.triangles.ids()) std::swap(shell.triangles[t][1], shell.triangles[t][2]);  // normals inwards

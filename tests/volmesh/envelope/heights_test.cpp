@@ -65,7 +65,7 @@ TEST(LayerEdge, FollowsTheSurfaceAndNotSingleTriangles) {
   EXPECT_LT(relative_scatter(envelope.target), 0.03);
 }
 
-TEST(LayerEdge, OfStretchedTrianglesTheOneWithTheirAreaButAtLeastAThird) {
+TEST(LayerEdge, StretchedTrianglesGiveEqualAreaEdgeOrThird) {
   for (const double stretch : {1.0, 4.0, 40.0}) {
     TriMesh wall = test::cube(8);
     for (Point& p : wall.points) p.x *= stretch;
@@ -97,7 +97,7 @@ double mean_square_slope(const LayerBase& base, const Envelope& envelope) {
   return sum / n;
 }
 
-TEST(Membrane, EvensOutWhatTheBoundsLeaveAndTakesLittleHeight) {
+TEST(Membrane, EvensHeightsWithinBoundsAtLittleCost) {
   const TriMesh wall = test::sphere(10);
   const LayerBase base(wall, k_context);
   EnvelopeOptions options = layers_of(1e-3, 10, 10.0);

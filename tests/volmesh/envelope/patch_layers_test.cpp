@@ -58,7 +58,7 @@ struct Layer {
 
 const Patch& patch_at(const TriMesh& mesh, TriangleId t) { return mesh.patches[mesh.triangle_patch[t]]; }
 
-TEST(PatchRules, SetKindsAndTheOneThatSpellsOutMoreWins) {
+TEST(PatchRules, SetKindsAndMoreSpecificPatternWins) {
   TriMesh room = test::cube_room(2);
   std::vector<PatchRule> rules = {{.names = "z0", .layers = 7}, {.names = "*", .layers = 5, .max_growth = 1.2}, {.names = "z?", .kind = "slip"}};
   sort_by_pattern(rules);
@@ -76,7 +76,7 @@ TEST(PatchRules, SetKindsAndTheOneThatSpellsOutMoreWins) {
   }
 }
 
-TEST(PatchRules, ANameThatNoPatchHasIsAnErrorWithTheNames) {
+TEST(PatchRules, UnknownPatchNameIsErrorWithKnownNames) {
   TriMesh room = test::cube_room(1);
   try {
     apply_patch_kinds(room, std::vector<PatchRule>{{.names = "z00*"}});
@@ -142,7 +142,7 @@ TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
   }
 }
 
-TEST(DemandOf, OneNumberOfLayersForWhatIsConnectedAndAnotherForWhatIsNot) {
+TEST(DemandOf, OnlyConnectedWallsShareNumberOfLayers) {
   TriMesh walls = test::cube_room(2);
   const TriMesh body = test::sphere(2);
   const auto n_room = static_cast<std::uint64_t>(walls.n_vertices());
@@ -204,7 +204,7 @@ struct CornerHeights {
   double least_on_edge = 1e300, mean_on_edge = 0.0, least_near = 1e300;
 };
 
-TEST(ConcaveCorners, KeepTheirFullNumberOfLayersDownTo45Degrees) {
+TEST(ConcaveCorners, KeepAllLayersDownTo45Degrees) {
   constexpr int k_n = 16;
   for (const double degrees : {90.0, 60.0, 45.0}) {
     SCOPED_TRACE(degrees);

@@ -60,7 +60,7 @@ EnvelopeOptions fifteen_layers() {
   return options;
 }
 
-TEST(Periodic, PartnersHaveTheNormalsAndEdgesOfAllTheirTriangles) {
+TEST(Periodic, PartnersHaveNormalsAndEdgesOfAllTriangles) {
   TriMesh wall = bar(6, 10, 2.0);
   // One end is widened like a funnel and has longer triangles.
   for (Point& p : wall.points)
@@ -99,7 +99,7 @@ TEST(Periodic, PairsInTwoDirectionsMakeOneGroup) {
   EXPECT_EQ(base.groups[0], (std::vector<VertexId>{a, b, c, d}));
 }
 
-TEST(Periodic, HeightsAndDirectionsAreEqualAtPartnersAndTheLayerStaysSound) {
+TEST(Periodic, PartnersHaveEqualHeightsAndDirections) {
   // A box beside one end only: the layer there is lower and leans.
   TriMesh wall = bar(6, 10, 2.0);
   TriMesh pod = test::cube(6);

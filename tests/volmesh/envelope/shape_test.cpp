@@ -79,7 +79,7 @@ TEST(EnvelopeShape, OfABlockAndASphere) {
 
 class RealEnvelopeShape : public testing::TestWithParam<const char*> {};
 
-TEST_P(RealEnvelopeShape, HasNoNeedlesAndNoFoldsOfItsOwn) {
+TEST_P(RealEnvelopeShape, HasNoAddedSliversAndFolds) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = io::read_surface_file(test::shared_data() / "surfaces/clean" / GetParam(), k_context);
   const TriMesh wall = surfmesh::stitch_surface({soup}, {}, k_context).mesh;
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Clean, RealEnvelopeShape,
                          testing::Values("vspgeom_geom2_geom2.stl", "pygeo_bwb.stl", "cgal_data_couplingdown.off", "caturbs_wing_wing.stl",
                                          "cgal_data_anchor_dense.off"));
 
-TEST(EdgeFold, AnglesOfTheFluidAreThoseOfAHinge) {
+TEST(EdgeFold, FluidAnglesAreHingeAngles) {
   for (double degrees = 4.0; degrees < 179.0; degrees += 7.0) {
     const double angle = degrees * k_one_degree;
     // The edge lies along x; one triangle lies in the plane z = 0 towards +y, with the fluid above; the other is turned up towards the first.
@@ -107,7 +107,7 @@ TEST(EdgeFold, AnglesOfTheFluidAreThoseOfAHinge) {
   }
 }
 
-TEST(EdgeFold, TrianglesDoNotSwapSidesInAConcaveCorner) {
+TEST(EdgeFold, TrianglesKeepSidesInConcaveCorner) {
   const double angle = 20.0 * k_one_degree;
   const FoldPoints above = {Point{0, 0, 0}, Point{1, 0, 0}, Point{0.4, 1, 0}, Point{0.6, std::cos(angle), std::sin(angle)}};
   FoldPoints below = above;

@@ -13,7 +13,7 @@
 namespace sterna::volmesh {
 namespace {
 
-TEST(StandardAtmosphere, its_tables) {
+TEST(StandardAtmosphere, MatchesItsTables) {
   struct Row {
     double altitude, temperature, pressure, density;
   };
@@ -31,14 +31,14 @@ TEST(StandardAtmosphere, its_tables) {
   EXPECT_NEAR(speed_of_sound(288.15), 340.294, 1e-3);
 }
 
-TEST(StandardAtmosphere, an_offset_warms_at_the_same_pressure) {
+TEST(StandardAtmosphere, AnOffsetWarmsAtTheSamePressure) {
   const AirState standard = standard_atmosphere(3000.0), warm = standard_atmosphere(3000.0, 20.0);
   EXPECT_EQ(warm.pressure, standard.pressure);
   EXPECT_DOUBLE_EQ(warm.temperature, standard.temperature + 20.0);
   EXPECT_NEAR(warm.density * warm.temperature, standard.density * standard.temperature, 1e-9);
 }
 
-TEST(StandardAtmosphere, ends_where_its_formulas_end) {
+TEST(StandardAtmosphere, EndsWhereItsFormulasEnd) {
   for (const double altitude : {-5000.1, 84852.1, 1e9, std::nan("")})
     test::expect_error(ErrorCode::bad_argument, "is outside of the standard atmosphere, -5000 .. 84852 m", [&] { (void)standard_atmosphere(altitude); });
   test::expect_error(ErrorCode::bad_argument, "with an offset of -200 K the air at 11000 m has 16.65 K, expected at least",
@@ -48,7 +48,7 @@ TEST(StandardAtmosphere, ends_where_its_formulas_end) {
 FlowState at_reynolds(double reynolds, double length) { return flow_state({.length = length, .reynolds = reynolds}); }
 
 // aiaa-dpw.org/Workshop4/gridding_guidelines_4.html, as docs/method/quality.md, "Workshop guidelines", gives it: CRM, c_ref = 275.80 in.
-TEST(FirstHeight, the_spacings_of_dpw_4_within_2_percent) {
+TEST(FirstHeight, MatchesDpw4SpacingsWithin2Percent) {
   constexpr double k_inch = 0.0254, k_chord = 275.80 * k_inch;
   struct Level {
     double reynolds, y_plus, spacing_in;
@@ -61,7 +61,7 @@ TEST(FirstHeight, the_spacings_of_dpw_4_within_2_percent) {
     }
 }
 
-TEST(FirstHeight, laws_agree_where_they_overlap) {
+TEST(FirstHeight, LawsAgreeWhereTheyOverlap) {
   // Local laws agree within a tenth at Re 5e6, as in published comparisons. The mean over a plate is 1/0.8 .. 1/0.85 of the local value at its end (exactly
   // 1/0.8 for Re^-0.2).
   const double local = skin_friction("schlichting", 5e6);
@@ -75,7 +75,7 @@ TEST(FirstHeight, laws_agree_where_they_overlap) {
   test::expect_error(ErrorCode::bad_argument, "Reynolds number 1e+12 is outside of 10000 .. ", [&] { (void)skin_friction("prandtl", 1e12); });
 }
 
-TEST(FirstHeight, is_linear_in_y_plus_and_twice_as_high_for_cell_centres) {
+TEST(FirstHeight, IsLinearAndDoubledForCellCentres) {
   const FlowState flow = flow_state({.length = 4.2, .mach = 0.78, .altitude = 11000.0});
   const FirstHeight one = first_height({.y_plus = 1.0}, flow);
   EXPECT_DOUBLE_EQ(first_height({.y_plus = 30.0}, flow).height, 30.0 * one.height);
@@ -86,7 +86,7 @@ TEST(FirstHeight, is_linear_in_y_plus_and_twice_as_high_for_cell_centres) {
                                             testing::HasSubstr("11000 m of the standard atmosphere")));
 }
 
-TEST(FlowState, ways_to_the_same_flow) {
+TEST(FlowState, EquivalentInputsGiveTheSameFlow) {
   const FlowState flight = flow_state({.length = 4.2, .mach = 0.78, .altitude = 11000.0});
   EXPECT_NEAR(flight.speed, 0.78 * 295.0696, 1e-3);
   EXPECT_NEAR(flight.reynolds, flight.speed * flight.density * 4.2 / flight.viscosity, 1e-3);
@@ -106,7 +106,7 @@ TEST(FlowState, ways_to_the_same_flow) {
   EXPECT_EQ(describe(alone), "Re 3e+06 at 2 m");
 }
 
-TEST(FlowState, refuses_what_is_missing_or_told_twice) {
+TEST(FlowState, RefusesMissingOrDuplicateInputs) {
   const auto message = [](const FlowConditions& given) {
     try {
       flow_state(given);
@@ -125,7 +125,7 @@ TEST(FlowState, refuses_what_is_missing_or_told_twice) {
               testing::HasSubstr("temperature_offset needs an altitude"));
 }
 
-TEST(BoundaryLayer, its_thickness) {
+TEST(BoundaryLayer, ThicknessMatchesFormula) {
   const FlowState flow = at_reynolds(1e7, 2.0);
   EXPECT_NEAR(layer_thickness({}, flow), 0.37 * 2.0 / std::pow(1e7, 0.2), 1e-12);
   EXPECT_NEAR(layer_thickness({.factor = 1.3}, flow), 1.3 * layer_thickness({}, flow), 1e-12);

@@ -191,7 +191,7 @@ TEST(Improve, RepairsVolumesWithinRoundingOfDoublePrecision) {
   EXPECT_GT(tet_quality({0, 0, 0}, {1, 0, 0}, {1, 1e-4, 0}, {1, 0.5e-4, 0.8e-4}, 1.0), 0.1);
 }
 
-TEST(TetQuality, is_the_smallest_weighted_sine) {
+TEST(TetQuality, IsTheSmallestWeightedSine) {
   std::mt19937_64 random(1);
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   int n_positive = 0;
@@ -219,7 +219,7 @@ TEST(TetQuality, is_the_smallest_weighted_sine) {
   EXPECT_NEAR(regular, std::sqrt(8.0) / 3.0, 1e-12);
 }
 
-TEST(TetQuality, both_limits_are_one_threshold) {
+TEST(TetQuality, BothLimitsAreOneThreshold) {
   const QualityLimits limits = quality_limits(12 * k_degree, 160 * k_degree);
   // Wedges about the z axis with a given angle there; the other angles are uncritical.
   const auto wedge = [&](double angle) {
@@ -257,7 +257,7 @@ double region_volume(const Region& region) {
   return sum;
 }
 
-TEST(Region, removes_an_edge_with_a_ring_of_any_size) {
+TEST(Region, RemovesEdgeWithRingOfAnySize) {
   for (int n = 3; n <= 7; ++n) {
     // The edge passes the ring off its centre, near one side: the tetrahedron there is flat at the edge.
     const double half_side = std::numbers::pi / n;
@@ -280,7 +280,7 @@ TEST(Region, removes_an_edge_with_a_ring_of_any_size) {
   }
 }
 
-TEST(Region, only_tries_with_all_neighbours_at_hand_count) {
+TEST(Region, OnlyAttemptsWithAllNeighboursCount) {
   // A flat tetrahedron at the edge 0-1, which is removed if all three around the edge are given; if one is missing, no operation helps.
   const std::vector<Vec3> points = {{0.45, 0, -1.0}, {0.45, 0, 1.0}, {0.5, -0.87, 0.0}, {0.5, 0.87, 0.0}, {-1.0, 0.0, 0.0}};
   const std::vector<Region::Corners> tets = around_edge(3);
@@ -296,7 +296,7 @@ TEST(Region, only_tries_with_all_neighbours_at_hand_count) {
   EXPECT_EQ(tries(3, VertexRole::kept_boundary), 0);
 }
 
-TEST(Region, two_three_flip_opens_a_flat_pair) {
+TEST(Region, TwoThreeFlipOpensAFlatPair) {
   // Two tetrahedra over a triangle, with apexes close to it: three around the new edge are better.
   const std::vector<Vec3> points = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.15}, {0, 0, -0.15}};
   const std::vector<VertexRole> fixed(points.size(), VertexRole::boundary);
@@ -308,7 +308,7 @@ TEST(Region, two_three_flip_opens_a_flat_pair) {
   EXPECT_NEAR(region_volume(region), 0.3 * 0.5 * 1.6 * 1.5 / 3.0, 1e-12);
 }
 
-TEST(Region, smooths_a_free_vertex_to_the_middle) {
+TEST(Region, SmoothsAFreeVertexToTheMiddle) {
   // An octahedron around a vertex that lies almost on a face.
   const std::vector<Vec3> points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0.32, 0.33, 0.33}};
   std::vector<Region::Corners> tets;
@@ -330,20 +330,20 @@ TEST(Region, smooths_a_free_vertex_to_the_middle) {
   EXPECT_NEAR(region_volume(region), 4.0 / 3.0, 1e-12);
 }
 
-TEST(Improve, shaken_cubes_lose_their_slivers) {
+TEST(Improve, ShakenCubesLoseTheirSlivers) {
   Filled filled = shaken_cube(10, 0.55);
   // If displaced too far, some cells are inverted; such a mesh is not a valid input.
   if (filled.worst(1.0) <= 0.0) filled = shaken_cube(10, 0.3);
   expect_improved(filled, {.improve_min_angle = 18 * k_degree, .improve_max_angle = 150 * k_degree}, 0.02);
 }
 
-TEST(Improve, engine_meshes_reach_the_limits) { expect_improved(shell(12, 2.0), {}, 0.0); }
+TEST(Improve, EngineMeshesReachTheLimits) { expect_improved(shell(12, 2.0), {}, 0.0); }
 
-TEST(Improve, engine_meshes_reach_stricter_limits_but_for_the_boundary) {
+TEST(Improve, EngineMeshesReachStricterLimitsExceptAtBoundary) {
   expect_improved(shell(12, 1.4), {.improve_min_angle = 17 * k_degree, .improve_max_angle = 150 * k_degree}, 0.02);
 }
 
-TEST(Improve, passes_that_bring_little_are_the_last) {
+TEST(Improve, PassesWithLittleGainAreTheLast) {
   // Limits that cannot be reached: nearly all tetrahedra are bad and stay bad, as on walls full of needles. The improver stops after three passes that cost
   // more than they gain; without that rule it makes all allowed passes (measured).
   Filled filled = shell(4, 2.0);
@@ -365,7 +365,7 @@ TEST(Improve, passes_that_bring_little_are_the_last) {
   EXPECT_GE(filled.worst(limits.obtuse_weight), worst);
 }
 
-TEST(Improve, what_a_sharp_boundary_forces_is_listed_with_its_angle) {
+TEST(Improve, AnglesForcedBySharpBoundaryAreListed) {
   // A wedge of 5 degrees: a single tetrahedron, no operation applies.
   const double angle = 5 * k_degree;
   Filled wedge;
@@ -395,20 +395,20 @@ std::vector<std::uint32_t> forcing_of_all(const Filled& filled) {
   return forcing_triangles(filled.boundary(), all, 12 * k_degree, 160 * k_degree, RunContext());
 }
 
-TEST(Forcing, a_slender_tetrahedron_with_good_dihedral_angles_forces_nothing) {
+TEST(Forcing, SlenderTetrahedronWithGoodAnglesForcesNothing) {
   // Corners of 0.6 degrees, dihedral angles of 60 and 90 degrees.
   const Filled needle = one_tetrahedron({{0.01, 0, 0}, {-0.005, 0.00866, 0}, {-0.005, -0.00866, 0}, {0, 0, 1}});
   ASSERT_GT(needle.worst(1.0), std::sin(12 * k_degree));
   EXPECT_THAT(forcing_of_all(needle), testing::Each(k_unforced));
 }
 
-TEST(Forcing, a_flat_tetrahedron_is_forced_on_all_its_triangles) {
+TEST(Forcing, FlatTetrahedronIsForcedOnAllTriangles) {
   const Filled flat = one_tetrahedron({{0, 0, 0}, {1, 0, 0.02}, {1, 1, 0}, {0, 1, 0.02}});
   ASSERT_GT(flat.worst(1.0), 0.0);
   EXPECT_THAT(forcing_of_all(flat), testing::Each(testing::Ne(k_unforced)));
 }
 
-TEST(Forcing, sheets_force_each_other_only_when_cores_overlap) {
+TEST(Forcing, SheetsForceEachOtherOnlyWhenCoresOverlap) {
   // Two triangles face to face; the height of each core is tan 12 times the radius of the inscribed circle.
   const double core = std::tan(12 * k_degree) * 0.5 / std::sqrt(3.0);
   const auto sheets = [&](double gap) {
@@ -422,7 +422,7 @@ TEST(Forcing, sheets_force_each_other_only_when_cores_overlap) {
   EXPECT_THAT(sheets(2.1 * core), testing::Each(k_unforced));
 }
 
-TEST(Improve, a_thin_slab_is_forced_and_a_cube_is_not) {
+TEST(Improve, ThinSlabIsForcedAndCubeIsNot) {
   Filled slab;
   slab.add(test::cube(4), true);
   for (Vec3& p : slab.points) p.z *= 0.01;
@@ -444,7 +444,7 @@ TEST(Improve, a_thin_slab_is_forced_and_a_cube_is_not) {
   EXPECT_EQ(improve_tetrahedra(cube.boundary(), cube.tets, {}, RunContext()).n_bad_after, 0);
 }
 
-TEST(Improve, group_boundaries_stop_no_flip) {
+TEST(Improve, GroupBoundariesStopNoFlip) {
   // Some thousand bad tetrahedra, so that groups of them touch; the smooth boundary forces none.
   Filled filled = shell(24, 2.0);
   const ImproveReport report = improve_tetrahedra(filled.boundary(), filled.tets, {.improve_min_angle = 15 * k_degree}, RunContext());
@@ -493,7 +493,7 @@ Wishes unmet(const Filled& filled, const std::vector<double>& layer) {
   return unmet;
 }
 
-TEST(Improve, steps_of_volume_on_the_layer_and_obtuse_angles_become_what_gates_wish_for) {
+TEST(Improve, VolumeStepsAndObtuseAnglesReachGateTargets) {
   const Filled start = shell(12, 2.0);
   const std::vector<double> layer = fitting_layer(start);
   const Wishes before = unmet(start, layer);
@@ -517,7 +517,7 @@ TEST(Improve, steps_of_volume_on_the_layer_and_obtuse_angles_become_what_gates_w
   }
 }
 
-TEST(TetQuality, a_step_of_volumes_beyond_the_limit_is_beyond_the_target) {
+TEST(TetQuality, VolumeStepBeyondLimitIsBeyondTarget) {
   QualityLimits limits = quality_limits(12 * k_degree, 155 * k_degree);
   const TetShape shape = tet_shape({1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}, limits.obtuse_weight);
   EXPECT_NEAR(shape.six_volumes, 16.0, 1e-12);
@@ -536,7 +536,7 @@ TEST(TetQuality, a_step_of_volumes_beyond_the_limit_is_beyond_the_target) {
   EXPECT_GT(among(1e9 * volume), 0.0);
 }
 
-TEST(Improve, is_the_same_for_any_number_of_threads) {
+TEST(Improve, IsTheSameForAnyNumberOfThreads) {
   const Filled start = shell(16, 1.8);
   std::optional<TetraResult> first;
   for (const int threads : {1, 2, 7}) {
@@ -548,7 +548,7 @@ TEST(Improve, is_the_same_for_any_number_of_threads) {
   EXPECT_NE(first->tetrahedra, start.tets.tetrahedra);
 }
 
-TEST(Improve, no_rounds_change_nothing) {
+TEST(Improve, NoRoundsChangeNothing) {
   const Filled start = shell(6, 1.8);
   TetraResult tets = start.tets;
   const ImproveReport report = improve_tetrahedra(start.boundary(), tets, {.improve_rounds = 0}, RunContext());
@@ -556,7 +556,7 @@ TEST(Improve, no_rounds_change_nothing) {
   EXPECT_EQ(report.n_bad_before, report.n_bad_after);
 }
 
-TEST(Improve, does_not_depend_on_the_unit) {
+TEST(Improve, DoesNotDependOnTheUnit) {
   Filled start = shell(6, 1.8);
   TetraResult tets = start.tets;
   improve_tetrahedra(start.boundary(), tets, {}, RunContext());

@@ -107,7 +107,7 @@ TEST(Inspect, SaysNothingOfCleanShapes) {
   }
 }
 
-TEST(Inspect, SaysWhatItLeavesOutWithoutAFirstHeight) {
+TEST(Inspect, ReportsOmittedChecksWithoutFirstHeight) {
   const InspectReport report = inspect(test::cube(16));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::not_looked_at));
   EXPECT_FALSE(report.layer.is_known);
@@ -221,7 +221,7 @@ TriMesh wedge(double angle, int n) {
   return mesh;
 }
 
-TEST(Inspect, FindsAFoldAndHowBadlyItsEdgeIsSeen) {
+TEST(Inspect, FindsFoldAndVisibilityOfItsEdge) {
   InspectRequest request;
   request.limits.fold_angle = 10.0 * k_degree;
   const InspectReport report = inspect(wedge(8.0 * k_degree, 7), request);
@@ -459,7 +459,7 @@ TEST(Inspect, LengthScalesDoNotMatter) {
   EXPECT_NEAR(one.layer.coverage, large.layer.coverage, 1e-3);
 }
 
-TEST(Inspect, TrianglesThatCannotBeJoinedAreLookedAtOneByOne) {
+TEST(Inspect, UnjoinableTrianglesAreInspectedOneByOne) {
   TriMesh mesh = test::cube(2);
   mesh.points[VertexId(0)] = {std::nan(""), 0.0, 0.0};
   const InspectReport report = inspect_triangles(mesh, {}, RunContext({.threads = 1}));

@@ -55,7 +55,7 @@ VertexId face_centre(const TriMesh& cube) {
   return VertexId(0);
 }
 
-TEST(LayerLine, NodesAreTheLawsDistancesAlongTheNormalWhateverTheSlantAndTheCurve) {
+TEST(LayerLine, NodeDistancesAlongNormalFollowGrowthLaw) {
   const TriMesh cube = test::cube(4);
   const LayerBase base(cube, k_context);
   const VertexId v = face_centre(cube);
@@ -83,7 +83,7 @@ TEST(LayerLine, NodesAreTheLawsDistancesAlongTheNormalWhateverTheSlantAndTheCurv
   }
 }
 
-TEST(LayerLine, ALineWithoutRoomForItsCellsIsEquallySpaced) {
+TEST(LayerLine, LineWithoutRoomIsEquallySpaced) {
   const TriMesh cube = test::cube(4);
   const LayerBase base(cube, k_context);
   const VertexId v = face_centre(cube);
@@ -96,7 +96,7 @@ TEST(LayerLine, ALineWithoutRoomForItsCellsIsEquallySpaced) {
   for (std::size_t j = 0; j <= 10; ++j) EXPECT_NEAR(p[j].z - 1.0, 0.1 * static_cast<double>(j) * normal_height(base, envelope, v), 1e-14);
 }
 
-TEST(LayerLine, LinesOnAPlaneKeepItsCoordinateToTheBit) {
+TEST(LayerLine, LinesOnPlaneKeepItsCoordinateExactly) {
   const TriMesh cube = test::cube(4);
   const VertexId v = face_centre(cube);
   Constraints constraints;
@@ -112,7 +112,7 @@ TEST(LayerLine, LinesOnAPlaneKeepItsCoordinateToTheBit) {
   for (const Point& node : p) EXPECT_EQ(node.y, 0.5);
 }
 
-TEST(Curving, StaysBelowTheLimitsFallsOnlyAndIsUntouchedFarAway) {
+TEST(Curving, StaysBelowLimitsAndIsUnchangedFarAway) {
   const TriMesh sphere = test::sphere(12);
   const LayerBase base(sphere, k_context);
   Curving curving(base, 0.2);
@@ -139,7 +139,7 @@ TEST(Curving, StaysBelowTheLimitsFallsOnlyAndIsUntouchedFarAway) {
   EXPECT_EQ(curving.distribution()[0], 1);
 }
 
-TEST(Extrude, AnEvenLayerOnASphereNeedsNoRepair) {
+TEST(Extrude, EvenLayerOnSphereNeedsNoRepair) {
   const TriMesh sphere = test::sphere(8);
   const LayerBase base(sphere, k_context);
   const EnvelopeOptions options = layers_of(1e-3, 10);
@@ -172,7 +172,7 @@ struct LeaningCase {
   }
 };
 
-TEST(Extrude, CurvingGivesWayBeforeHeightsDoAndOnlyAroundThePlace) {
+TEST(Extrude, CurvingIsReducedLocallyBeforeHeights) {
   LeaningCase c;
   const Column<VertexId, double> heights = c.envelope.height;
   const Extrusion straight = extrude_prisms(c.base, c.options, {.wall_perpendicularity = 0.0}, c.envelope, k_context);
@@ -204,7 +204,7 @@ TEST(Extrude, CurvedLinesGrowLittleMoreThanTheirHeights) {
   }
 }
 
-TEST(LayerCells, ASideIsCutAlongTheSameDiagonalOnBothSidesOrNotAtAll) {
+TEST(LayerCells, SidesAreCutAlongOneDiagonalOrNone) {
   // A unit square between two prisms; its upper corner is pushed towards one prism and then towards the other.
   const auto can_be_cut = [](double push, bool has_beyond) {
     const std::array<Point, 2> from = {Point{0, 0, 0}, {0, 0, 1}}, to = {Point{1, 0, 0}, {1, push, 1}}, own = {Point{0.5, 1, 0}, {0.5, 1, 1}},
@@ -248,7 +248,7 @@ TEST(Extrude, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(results[0].curving_shares, results[2].curving_shares);
 }
 
-TEST(Extrude, ASecondCallFollowsTheEnvelopeAsIfItWereTheFirst) {
+TEST(Extrude, SecondCallFollowsEnvelopeLikeFirst) {
   LeaningCase c;
   const PrismOptions options{.wall_perpendicularity = 0.0};
   Extruder extruder(c.base, c.options, options, k_context);
@@ -270,7 +270,7 @@ TEST(Extrude, ASecondCallFollowsTheEnvelopeAsIfItWereTheFirst) {
   EXPECT_EQ(certificate.n_proved, certificate.n_cells);
 }
 
-TEST(LayerCertificate, CountsWhatIsNotProvedAndFindsTheWorst) {
+TEST(LayerCertificate, CountsUnprovedElementsAndFindsWorst) {
   const TriMesh sphere = test::sphere(6);
   const LayerBase base(sphere, k_context);
   Envelope envelope = even_envelope(base, 0.05);

@@ -46,7 +46,7 @@ TriMesh cube_of_patches() {
   return cube;
 }
 
-TEST(SplitLayer, NewVerticesOfASphereAreOnTheSphere) {
+TEST(SplitLayer, NewVerticesOfSphereLieOnSphere) {
   const TriMesh wall = test::sphere(4);
   MeshCase options = with_splits(wall);
   options.sources.push_back({.kind = SourceKind::point, .from = {1.5, 0.1, 0.2}, .size = 0.1});  // the triangles of the sphere itself need no splits

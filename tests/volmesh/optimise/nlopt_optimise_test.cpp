@@ -114,7 +114,7 @@ TEST_P(Nlopt, RealWingImprovesUntilTheEvaluationsAreSpent) {
   expect_kept(c, result, report);
 }
 
-TEST_P(Nlopt, CubeConvergesToTheOptimumOfEveryVertexForItself) {
+TEST_P(Nlopt, CubeConvergesToOptimumOfEachVertex) {
   // Without converging growth lines no constraint is active: full height, along the sum of the face normals.
   const Case c = Case::cube();
   NloptReport report;
@@ -181,7 +181,7 @@ TEST_P(Nlopt, TimeLimitIsReportedWhenItStruck) {
   expect_kept(c, result, report);
 }
 
-TEST_P(Nlopt, StopRequestInTheMiddleEndsTheRunAsAnError) {
+TEST_P(Nlopt, StopRequestEndsRunningOptimisationAsError) {
   const Case c = Case::cube();
   std::stop_source source;
   const RunContext context({.threads = 2, .stop = source.get_token(), .progress = [&](const ProgressState&) { source.request_stop(); }});
@@ -221,7 +221,7 @@ TEST_P(Nlopt, NothingMovesWhenAllIsCollapsed) {
 INSTANTIATE_TEST_SUITE_P(Solvers, Nlopt, testing::Values(NloptMethod::mma, NloptMethod::ccsaq));
 
 /// Heights that cannot move: the height allowed by the user is just the height of the first layers.
-TEST(GlobalOptimisation, WithNothingToMoveTheEnvelopeStaysWithEachOptimiser) {
+TEST(GlobalOptimisation, EnvelopeWithoutFreeVerticesDoesNotChange) {
   const TriMesh wall = test::cube(3);
   for (const char* optimiser : {"mma", "ccsaq", "descent", "lbfgs"}) {
     EnvelopeOptions options;

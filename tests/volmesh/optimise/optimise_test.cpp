@@ -151,7 +151,7 @@ TEST_P(Methods, SameBytesForAnyNumberOfThreads) {
 
 INSTANTIATE_TEST_SUITE_P(Own, Methods, testing::Values(OptimiseMethod::descent, OptimiseMethod::lbfgs));
 
-TEST(Optimise, ConstrainedVerticesStayInTheirPlaneOrOnTheirLine) {
+TEST(Optimise, ConstrainedVerticesStayInPlaneOrOnLine) {
   const TriMesh cube = test::cube(4);
   Constraints constraints;
   constraints.vertex.resize(cube.n_vertices());

@@ -219,7 +219,7 @@ class OnSurface : public testing::TestWithParam<std::string> {
   }
 };
 
-TEST_P(OnSurface, SumsAgreeWithTheEquationsWrittenDownByElement) {
+TEST_P(OnSurface, SumsAgreeWithEquationsByElement) {
   const RoughCase rough(GetParam());
   double f1 = 0.0, f2 = 0.0, g1 = 0.0, g2 = 0.0;
   for (const TriangleId t : rough.mesh.triangles.ids()) {

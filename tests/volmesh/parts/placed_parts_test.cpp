@@ -77,7 +77,7 @@ PartEnvelope alone(const Scene& scene, PartEnvelopeTask& task) {
 const Transform k_pitch = rotation({0.1, 0, 0}, {0, 1, 0}, 0.3);
 const Transform k_yaw = translation({0.2, -0.1, 0.3}) * rotation({0, 0, 0}, {0, 0.2, 1}, -0.5);
 
-TEST(PlacedParts, TheEnvelopeOfAPartIsTheSameAtEveryAttitude) {
+TEST(PlacedParts, PartEnvelopeIsEqualAtEveryAttitude) {
   PartEnvelopeTask first, second;
   const PartEnvelope one = alone(body_at(k_pitch), first), other = alone(body_at(k_yaw), second);
   EXPECT_EQ(first.wall.points.raw(), second.wall.points.raw());
@@ -105,7 +105,7 @@ TEST(PlacedParts, MeshesAreValidAtEveryAttitude) {
 
 double least_height(const EnvelopeStage& stage) { return *std::min_element(stage.envelope.height.begin(), stage.envelope.height.end()); }
 
-TEST(PlacedParts, NearAWallOfTheTunnelLayersAreLowerAndValid) {
+TEST(PlacedParts, LayersNearTunnelWallAreLowerAndValid) {
   // Turned by 45 degrees, its lower edge 0.03 m above the floor; the layer height is 0.07 m.
   const Transform near = translation({0, 0, -2.0 + std::sqrt(0.5) + 0.03}) * rotation({}, {1, 0, 0}, std::atan(1.0));
   const Scene far = body_at(k_pitch), scene = body_at(near);
@@ -150,7 +150,7 @@ PatchRule floor_rule(std::string_view column) {
   return rule;
 }
 
-TEST(PlacedParts, WhatIsAskedOfWallsAroundThemIsAskedOfThemAsWithoutParts) {
+TEST(PlacedParts, RequestsOfSurroundingWallsApplyAsWithoutParts) {
   for (const std::string_view column : {"layers", "first_height", "max_growth", "total_height", "max_thickness"}) {
     Scene scene = body_at(k_pitch);
     std::uint32_t n_floor = 0;
@@ -187,7 +187,7 @@ TEST(PlacedParts, ThreadsDoNotMatter) {
   }
 }
 
-TEST(PlacedParts, APartThatIsNotWhereItsPlacementSaysIsMeshedInPlace) {
+TEST(PlacedParts, MisplacedPartIsMeshedInPlace) {
   Scene scene = body_at(k_pitch);
   scene.surface.points[VertexId(scene.parts.front().first_vertex)].x += 1e-9;
   const MeshCase options = scene.options();

@@ -54,7 +54,7 @@ Started started(const TriMesh& wall, const StartingEnvelope& from, const Envelop
 
 Point bend(const Point& p) { return {p.x, p.y + 0.15 * p.x * p.x, p.z}; }
 
-TEST(WarmStart, BentWallsHaveTheHeightsOfTheStartAndAreProved) {
+TEST(WarmStart, BentWallsKeepStartHeightsAndAreProved) {
   for (const TriMesh& wall : {test::cube(6), test::sphere(6)}) {
     const StartingEnvelope from = start_of(wall);
     const Started result = started(mapped(wall, bend), from);
@@ -94,7 +94,7 @@ TEST(WarmStart, HeightsFollowWhatIsAskedForHere) {
   for (const VertexId v : wall.points.ids()) EXPECT_LE(result.start.envelope->height[v], 1.01 * result.start.envelope->target[v]);
 }
 
-TEST(WarmStart, IsRefusedWhereTheLayerWouldBeMuchLower) {
+TEST(WarmStart, IsRefusedWhereLayerWouldBeMuchLower) {
   // Two cubes so close to each other that their layers must share the gap.
   const auto cubes = [](double gap) {
     TriMesh both = test::cube(6);

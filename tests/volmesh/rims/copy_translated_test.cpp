@@ -42,7 +42,7 @@ TEST(CopyTranslated, PartnersHaveTheSameTrianglesTurnedOver) {
   for (std::size_t i = 0; i < copy.new_points.size(); ++i) EXPECT_EQ(copy.new_points[i], (triangles.new_points[i] + Vec3{0, 0.3, 0}));
 }
 
-TEST(CopyTranslated, LoopsThatDifferAreAnErrorWithTheirPlaces) {
+TEST(CopyTranslated, DifferentLoopsAreErrorWithLocations) {
   const EndRegion from = left();
   const EndTriangles triangles = triangulate_end(from, {}, k_context);
   const auto failure = [&](const EndRegion& to) {

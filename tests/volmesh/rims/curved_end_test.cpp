@@ -62,7 +62,7 @@ TEST(CurvedEnd, QuarterOfACylinderInItsProjection) {
   EXPECT_NEAR(facts.area, 3.14 * 6.0 - 0.09 * k_pi, 0.02 * 18.8);
 }
 
-TEST(CurvedEnd, WholeTunnelKeepsWhatIsAwayFromTheFootprint) {
+TEST(CurvedEnd, WholeTunnelKeepsTrianglesAwayFromFootprint) {
   const TriMesh original = grid(on_tunnel, 0, 4 * k_pi, 64, 0, 6, 30, true);
   EndRegion region{.surface = &k_tunnel, .original = &original, .name = "tunnel"};
   add_border(region, original);
@@ -75,7 +75,7 @@ TEST(CurvedEnd, WholeTunnelKeepsWhatIsAwayFromTheFootprint) {
   EXPECT_GT(result.min_angle, 20.0 * k_pi / 180.0);
 }
 
-TEST(CurvedEnd, CoarseTunnelWithLargeFootprintIsCutNearIt) {
+TEST(CurvedEnd, CoarseTunnelIsCutNearLargeFootprint) {
   // The footprint spans 70 degrees, its edges 12. If re-meshing extends by three edge lengths around the footprint there is no projection; with a smaller
   // extent there is one.
   const TriMesh original = grid(on_tunnel, 0, 4 * k_pi, 48, 0, 6, 22, true);
@@ -161,7 +161,7 @@ TEST(CurvedEnd, SphericalCapAndWholeSphere) {
   }
 }
 
-TEST(CurvedEnd, BoxTunnelAsOnePatchKeepsItsSharpEdges) {
+TEST(CurvedEnd, BoxTunnelAsOnePatchKeepsSharpEdges) {
   // Walls of a square tunnel of side 2 in one patch, x from 0 to 6; normals inwards.
   const Map wall = [](double u, double v) {
     const double w = std::fmod(u + 8.0, 8.0);

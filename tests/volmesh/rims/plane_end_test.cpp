@@ -34,7 +34,7 @@ std::vector<Point> half_disc(const Map& map, double radius, int n) {
   return points;
 }
 
-TEST(PlaneEnd, SquareWithRoundHoleFrom1e3To100Metres) {
+TEST(PlaneEnd, LargeSquareWithSmallRoundHole) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, rectangle(on_xz, -500, -500, 500, 500, 10, 10));
   add_loop(region, circle(on_xz, 0.1, 0.2, -0.16, 1000));
@@ -50,7 +50,7 @@ TEST(PlaneEnd, SquareWithRoundHoleFrom1e3To100Metres) {
   for (const Point& p : result.new_points) EXPECT_EQ(p.y, 0.0);
 }
 
-TEST(PlaneEnd, TheGoalForAnglesIsKeptWhereThereIsOne) {
+TEST(PlaneEnd, AngleTargetIsMetWherePossible) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, rectangle(on_xz, -500, -500, 500, 500, 10, 10));
   add_loop(region, circle(on_xz, 0.1, 0.2, -0.16, 200));
@@ -75,7 +75,7 @@ TEST(PlaneEnd, CoordinateOfAxisPlanesToTheBit) {
   for (const Point& p : result.new_points) EXPECT_EQ(p.y, where);
 }
 
-TEST(PlaneEnd, AerofoilWithSharpTrailingEdgeInDiscOf500Metres) {
+TEST(PlaneEnd, SharpAerofoilInDiscOf500Metres) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, half_disc(on_xz, 500.0, 64));
   add_loop(region, aerofoil_hole(on_xz, 0.12, 400));
@@ -219,7 +219,7 @@ TEST(PlaneEndErrors, FootprintBeyondTheBorder) {
   EXPECT_EQ(info.n_places, 120) << "the inner loop's edges: the region is on their other side";
 }
 
-TEST(PlaneEndErrors, TouchingAlongAnEdgeOrInPointsThatAreNotShared) {
+TEST(PlaneEndErrors, TouchingInEdgeOrUnsharedPoints) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, rectangle(on_xz, -3, -3, 3, 3, 6, 6));
   EndRegion point = region;

@@ -79,7 +79,7 @@ TEST_P(FillWith, DoesNotDependOnUnitPlaceOrHandedness) {
   expect_tiling(domain, fill(domain));
 }
 
-TEST_P(FillWith, GivesTheSameMeshInUnitsOfAPowerOfTwo) {
+TEST_P(FillWith, GivesSameMeshInPowerOfTwoUnits) {
   const Domain domain = domain_around(test::sphere(4));
   Domain small = domain;
   for (Vec3& p : small.points) p *= 0x1p-20;

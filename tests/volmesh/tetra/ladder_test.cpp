@@ -103,13 +103,13 @@ TEST_F(Ladder, CanBeForbidden) {
   EXPECT_THAT(log_, ElementsAre(HasSubstr("signal 11")));
 }
 
-TEST_F(Ladder, SaysWhatTheFirstEngineSaidWhenAllFail) {
+TEST_F(Ladder, ReportsFirstEngineErrorWhenAllFail) {
   const ErrorInfo error = error_info_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = folder("both", "echo first >&2; exit 3", k_crash)}); });
   EXPECT_THAT(error.problem, HasSubstr("first"));
   EXPECT_THAT(log_, Contains(HasSubstr("signal 11")));
 }
 
-TEST_F(Ladder, AFailureWithoutAPlaceNamesWhatIsHardForEngines) {
+TEST_F(Ladder, FailureWithoutLocationNamesDifficultLocations) {
   TriMesh plate = test::cube(1);
   for (Point& p : plate.points) p.z *= 1e-4;  // its sides are slivers
   const Domain domain = domain_around(plate, 10.0);
@@ -131,7 +131,7 @@ TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
 /// A helper's reply that its CPU time limit was reached.
 constexpr const char* k_out_of_time = "printf 'STETREP3\\005\\0\\0\\0' >&4; head -c 44 /dev/zero >&4; exit 1";
 
-TEST_F(Ladder, AnEngineWithoutEndIsStoppedAndTheLadderEnds) {
+TEST_F(Ladder, EndlessEngineIsStoppedAndLadderEnds) {
   // Another engine may succeed; the choice of the engine then depended on a clock.
   const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("no_end", k_out_of_time)});
   expect_tiling(domain_, result);
@@ -176,7 +176,7 @@ TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {
   EXPECT_THAT(result.failures, ElementsAre(HasSubstr("signal 9")));
 }
 
-TEST_F(Ladder, AnEngineThatIsNotBuiltInIsNamed) {
+TEST_F(Ladder, MissingEngineIsNamed) {
   const std::string only_hxt = folder("only_hxt", "");
   std::filesystem::remove(std::filesystem::path(only_hxt) / "sterna-tet-tetgen");
   const ErrorInfo error = error_info_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = only_hxt}); });

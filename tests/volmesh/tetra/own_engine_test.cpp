@@ -98,7 +98,7 @@ TEST_F(OwnEngine, NeedsNoHelper) {
   EXPECT_THAT(warnings_, IsEmpty());
 }
 
-TEST_F(OwnEngine, NoRecoveryIsAnErrorOfAllWhoTried) {
+TEST_F(OwnEngine, FailedRecoveryIsErrorOfAllEngines) {
   // Declared free of crossings, but two balls cross: no engine can recover such a boundary.
   Domain crossing;
   crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));
@@ -130,7 +130,7 @@ TEST_F(OwnEngine, EndsAtItsLimits) {
   EXPECT_THAT(large.hint, HasSubstr("memory_limit"));
 }
 
-TEST_F(OwnEngine, OtherEnginesFollowWhereItMakesTooManyPoints) {
+TEST_F(OwnEngine, OtherEnginesFollowAfterTooManyPoints) {
   const Domain domain = domain_around(test::cube(2), 10.0);
   const TetraResult free = fill(domain);
   ASSERT_GT(free.new_points.size(), 10u);

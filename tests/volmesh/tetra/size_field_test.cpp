@@ -51,7 +51,7 @@ std::vector<Vec3> random_points(std::size_t n, double radius) {
   return points;
 }
 
-TEST(SizeField, is_the_boundary_size_grown_with_the_distance) {
+TEST(SizeField, IsBoundarySizeGrownWithDistance) {
   const Shells shells = sphere_in_sphere();
   const SizeField field = build_size_field(shells.boundary(), {}, {}, RunContext());
   const std::vector<double> sizes = vertex_sizes(shells);
@@ -71,7 +71,7 @@ TEST(SizeField, is_the_boundary_size_grown_with_the_distance) {
   EXPECT_LT(sum / n, 0.03);
 }
 
-TEST(SizeField, growth_limits_the_gradient) {
+TEST(SizeField, GrowthLimitsTheGradient) {
   const Shells shells = sphere_in_sphere();
   const SizeField field = build_size_field(shells.boundary(), {}, {.size_growth = 1.2}, RunContext());
   const std::vector<Vec3> points = random_points(4000, 29.0);
@@ -82,7 +82,7 @@ TEST(SizeField, growth_limits_the_gradient) {
   }
 }
 
-TEST(SizeField, sources_are_met_inside_and_grow_outside) {
+TEST(SizeField, SourcesAreMetInsideAndGrowOutside) {
   const Shells shells = sphere_in_sphere(4);
   SizeSource box{.kind = SourceKind::box, .from = {5.0, -1.0, -1.0}, .to = {8.0, 1.0, 1.0}, .size = 0.1};
   SizeSource line{.kind = SourceKind::line, .from = {-8.0, 0.0, 0.0}, .to = {-5.0, 0.0, 0.0}, .radius = 0.5, .size = 0.05};
@@ -108,7 +108,7 @@ TEST(SizeField, sources_are_met_inside_and_grow_outside) {
   expect_size({0.0, 12.1, 0.0}, 0.0301);
 }
 
-TEST(SizeField, a_wake_follows_its_edge_and_grows_downstream) {
+TEST(SizeField, WakeFollowsItsEdgeAndGrowsDownstream) {
   const Shells shells = sphere_in_sphere(4);
   const SizeSource wake{
       .kind = SourceKind::wake, .from = {4.0, 0.0, 0.0}, .to = {6.0, 4.0, 0.0}, .length = 10.0, .height = 0.4, .spread = 0.1, .size = 0.1, .size_end = 0.3};
@@ -120,14 +120,14 @@ TEST(SizeField, a_wake_follows_its_edge_and_grows_downstream) {
   EXPECT_GT(field({4.5, 3.9, 0.0}), 0.3);  // upstream of the swept edge
 }
 
-TEST(SizeField, size_max_holds_everywhere) {
+TEST(SizeField, SizeMaxHoldsEverywhere) {
   const Shells shells = sphere_in_sphere(4);
   const SizeField field = build_size_field(shells.boundary(), {}, {.size_max = 2.0}, RunContext());
   EXPECT_LE(field.view().header().largest, 2.0);
   EXPECT_DOUBLE_EQ(field({20.0, 0.0, 0.0}), 2.0);
 }
 
-TEST(SizeField, is_the_same_for_any_number_of_threads) {
+TEST(SizeField, IsTheSameForAnyNumberOfThreads) {
   const Shells shells = sphere_in_sphere(12);
   const SizeSource line{.kind = SourceKind::line, .from = {2.0, 0.0, 0.0}, .to = {9.0, 3.0, 1.0}, .radius = 0.1, .size = 0.03};
   std::vector<std::byte> first;
@@ -139,7 +139,7 @@ TEST(SizeField, is_the_same_for_any_number_of_threads) {
   }
 }
 
-TEST(SizeField, its_buffer_can_be_read_elsewhere) {
+TEST(SizeField, ItsBufferCanBeReadElsewhere) {
   const Shells shells = sphere_in_sphere(4);
   SizeField field = build_size_field(shells.boundary(), {}, {}, RunContext());
   std::vector<double> copy(field.bytes().size() / 8);
@@ -156,7 +156,7 @@ TEST(SizeField, its_buffer_can_be_read_elsewhere) {
   EXPECT_FALSE(SizeFieldView(bytes.data(), bytes.size()).is_valid());
 }
 
-TEST(SizeField, does_not_depend_on_unit_or_place) {
+TEST(SizeField, DoesNotDependOnUnitOrPlace) {
   Shells shells = sphere_in_sphere(6);
   const double before = build_size_field(shells.boundary(), {}, {}, RunContext())({3.0, 1.0, 2.0});
   for (Vec3& p : shells.points) p = 1024.0 * p + Vec3{1e5, 0.0, 0.0};
@@ -164,7 +164,7 @@ TEST(SizeField, does_not_depend_on_unit_or_place) {
   EXPECT_NEAR(after / 1024.0, before, 1e-6);  // values are floats
 }
 
-TEST(SizeField, rejects_sources_that_make_no_sense) {
+TEST(SizeField, RejectsInvalidSources) {
   const Shells shells = sphere_in_sphere(2);
   const auto message = [&](const SizeSource& source) -> std::string {
     try {

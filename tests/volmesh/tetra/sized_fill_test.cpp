@@ -88,7 +88,7 @@ TEST(SizedFillBoth, EnginesMakeAboutAsManyTetrahedra) {
   }
 }
 
-TEST_P(SizedFill, ASupplyInTheMakingGivesTheSameMesh) {
+TEST_P(SizedFill, ConcurrentSizeSupplyGivesTheSameMesh) {
   const TetraResult expected = fill(field({}));
   for (const int threads : {1, 2}) {
     const RunContext context({.threads = threads});

@@ -54,7 +54,7 @@ double share_of_jumps(const Domain& domain, const TetraResult& result) {
   return n_jumps / n;
 }
 
-TEST(TwoPass, FillsWithASmootherTransitionThanOnePassWithoutSizes) {
+TEST(TwoPass, TransitionIsSmootherThanInOnePass) {
   const Domain domain = test::domain_around(test::sphere(8), 10.0);
   const TetraResult twice = fill_twice(domain, nullptr);
   expect_tiling(domain, twice);
