@@ -26,7 +26,7 @@ void require_closed(const TriMesh& mesh, const Topology& topology, const std::st
                  .attempted = std::string(k_parting_attempt),
                  .problem = name + " is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges with one triangle only",
                  .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
-                 .hint = "close it; only solids can be united"};
+                 .hint = "close the surface; only solids can be united"};
   for (std::uint64_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
@@ -108,7 +108,7 @@ void find_links(SolidParts& all, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = std::string(k_parting_attempt),
                  .problem = all.names[all.facets[own.front()[0]].solid] + " crosses itself: " + std::to_string(own.size()) + " pairs of triangles",
-                 .hint = "only whole closed components may cross each other; repair this one first"};
+                 .hint = "only different closed components may cross each other; repair this component first"};
   add_crossing_places(info, all, own);
   throw Error(std::move(info));
 }

@@ -30,14 +30,14 @@ struct Schema<HalfModelOptions> {
                .unit = Unit::metre,
                .min = 0.0,
                .max = 1.0,
-               .help = "what is this near to the plane is in it",
+               .help = "geometry closer to the plane than this counts as in the plane",
                .automatic = "1e-6 of the longest side"},
       Field<O>{.name = "time_limit",
                .member = &O::time_limit,
                .unit = Unit::second,
                .min = 1.0,
                .max = 1e6,
-               .help = "a try that takes longer ends the union or the cut"},
+               .help = "time limit of each attempt; a longer attempt ends the union or the cut with an error"},
   };
 };
 

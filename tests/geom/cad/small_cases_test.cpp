@@ -47,7 +47,7 @@ TEST(SmallCadCases, ADoubledFaceGoes) {
 
 TEST(SmallCadCases, InsideOutIsTurned) {
   const CadFile file = read_small("box_inside_out.brep");
-  EXPECT_EQ(count(file.report, "solid turned right side out"), 1u);
+  EXPECT_EQ(count(file.report, "orientation of an inside-out solid reversed"), 1u);
   EXPECT_NEAR(volume(file), 1.0, 1e-12);
 }
 
