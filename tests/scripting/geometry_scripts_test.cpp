@@ -229,7 +229,7 @@ TEST_F(GeometryScripts, AHalfOfWhatIsNoImageOfItselfIsTold) {
   run(wing + "half(w:model())");
   EXPECT_THAT(log_, testing::Not(HasSubstr("warning")));
   run(wing + "w:deflect{ 'aileron', from={0.6, 0.7}, to={0.9, 0.7}, angle=5*deg, other_side='opposite' } half(w:model())");
-  EXPECT_THAT(log_, HasSubstr("is not the image of the one that is kept"));
+  EXPECT_THAT(log_, HasSubstr("is not the mirror image of the kept side"));
 }
 
 TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {

@@ -101,7 +101,7 @@ TEST_F(Report, RefusesWhatItCannotShow) {
   EXPECT_THAT(error("report{ 5, 'x.html' }"), HasSubstr("expected a mesh, a surface or the name of a file"));
   EXPECT_THAT(error("report{ 'nothing.su2', 'x.html' }"), HasSubstr("nothing.su2"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { { x = 1000 } } }"),
-              HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh reaches from"));
+              HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh extends from"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { 'leadin edge' } }"), HasSubstr("leadin edge"));
   EXPECT_THAT(error(mesh_script() + "report{ wall, 'x.html', cuts = 'tip' }"), HasSubstr("no cells to cut"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', titel = 'box' }"), HasSubstr("title"));
