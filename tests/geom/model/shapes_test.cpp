@@ -34,7 +34,7 @@ TEST(Shapes, box_and_cylinder_have_their_volumes) {
   expect_no_opening(cylinder);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).volume, pi * 0.25 * 3.0, 1e-9);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).area, 2 * pi * 0.5 * 3.0 + 2 * pi * 0.25, 1e-9);
-  test::expect_error(ErrorCode::bad_argument, "box 'flat': its corners (0, 0, 0) and (1, 1, 0) must ascend", [&] {
+  test::expect_error(ErrorCode::bad_argument, "box 'flat': the corners (0, 0, 0) and (1, 1, 0) must ascend", [&] {
     (void)make_box("flat", {0, 0, 0}, {1, 1, 0});
   });
   test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': it is 0.000000 m long", [&] { (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0); });
@@ -184,10 +184,10 @@ TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
   const auto expect_refused = [](const std::string& problem, const std::vector<Uv>& profile_of_it) {
     test::expect_error(ErrorCode::bad_argument, problem, [&] { (void)body_of_revolution("bad", {}, profile_of_it); });
   };
-  expect_refused("its profile has 1 points; at least 2 are needed", {{0.0, 1.0}});
-  expect_refused("point 2 of its profile (x = 1, radius 0) needs a positive radius", {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}});
-  expect_refused("point 2 of its profile (x = 0, radius 2) does not lie behind the one before it", {{0.0, 1.0}, {0.0, 2.0}});
-  expect_refused("point 1 of its profile (x = 0, radius -1) needs a positive radius", {{0.0, -1.0}, {1.0, 1.0}});
+  expect_refused("the profile has 1 points; at least 2 are needed", {{0.0, 1.0}});
+  expect_refused("point 2 of the profile (x = 1, radius 0) needs a positive radius", {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}});
+  expect_refused("point 2 of the profile (x = 0, radius 2) does not lie behind the point before it", {{0.0, 1.0}, {0.0, 2.0}});
+  expect_refused("point 1 of the profile (x = 0, radius -1) needs a positive radius", {{0.0, -1.0}, {1.0, 1.0}});
 }
 
 TEST(Shapes, a_fairing_fills_its_box) {
@@ -216,7 +216,7 @@ TEST(Shapes, a_sting_is_cylinder_and_cone_with_flat_ends) {
   for (const ModelFace& face : model.faces) n_tails += face.role == FaceRole::tail;
   EXPECT_EQ(n_tails, 1);
   o.cone_start = 5.0;
-  test::expect_error(ErrorCode::bad_argument, "its cone starts at 5.000000 m, but it is only 3.000000 m long", [&] {
+  test::expect_error(ErrorCode::bad_argument, "the cone starts at 5.000000 m, but the sting is only 3.000000 m long", [&] {
     (void)sting_body("sting", {1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, o);
   });
 }
