@@ -195,7 +195,7 @@ SolidParts find_solids(const std::vector<UnionPart>& parts, UnionReport& report,
   if (all.solids.empty())
     throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_parting_attempt), .problem = "there is no surface to unite"});
   report.n_solids = static_cast<std::int64_t>(all.solids.size());
-  if (n_turned > 0) report.messages.push_back(std::to_string(n_turned) + (n_turned == 1 ? " solid was" : " solids were") + " inside out: turned");
+  if (n_turned > 0) report.messages.push_back(std::to_string(n_turned) + (n_turned == 1 ? " solid was" : " solids were") + " inside out: orientation reversed");
   find_links(all, context);
   find_groups(all);
   return all;

@@ -154,7 +154,7 @@ TEST_F(TunnelScripts, AWingThroughPeriodicSides) {
   EXPECT_THAT(run("local s = read_stages(" + out("blade.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check{ details = true }"),
               HasSubstr("periodic: tunnel_left and tunnel_right"));
   EXPECT_THAT(error(surface + "{ 'tunnel_left', 'tunnel_rigth' } }"),
-              AllOf(HasSubstr("there is no face \"tunnel_rigth\""), HasSubstr("did you mean \"tunnel_right\"?")));
+              AllOf(HasSubstr("the model has no face \"tunnel_rigth\""), HasSubstr("did you mean \"tunnel_right\"?")));
   EXPECT_THAT(error(surface + "'tunnel_left,tunnel_right' }"), HasSubstr("periodic: expected the names of two patches"));
 }
 

@@ -89,7 +89,7 @@ TEST(Stitch, InsideOutMirroredMovedAndScaled) {
     const auto [mesh, report] = stitch({inside_out(soup_of(ball))});
     expect_stitched(mesh);
     EXPECT_EQ(report.n_flipped, static_cast<std::int64_t>(ball.n_triangles()));
-    EXPECT_THAT(report.messages, Contains(HasSubstr("1 component (500 facets) was inside out: turned")));
+    EXPECT_THAT(report.messages, Contains(HasSubstr("1 component (500 facets) was inside out: orientation reversed")));
   }
   {
     SurfaceSoup mirrored = soup_of(ball);
@@ -158,7 +158,7 @@ TEST(Stitch, DisjointAndNestedBodies) {
         const auto [mesh, report] = inner_first ? stitch({i, o}) : stitch({o, i});
         expect_stitched(mesh);
         EXPECT_NEAR(volume(mesh), 7.0 * v, 1e-12);  // a cavity, for either orientation in the file
-        EXPECT_THAT(report.messages, Contains(HasSubstr("a cavity in it")));
+        EXPECT_THAT(report.messages, Contains(HasSubstr("treated as a cavity")));
       }
   EXPECT_NEAR(volume(stitch({outer, core, inner}).mesh), 7.125 * v, 1e-12);  // a body in the cavity
 }
@@ -190,7 +190,7 @@ TEST(Stitch, DoubledMembraneAndFinWithoutThicknessAreRemoved) {
   expect_stitched(mesh);
   EXPECT_NEAR(volume(mesh), 2.0, 1e-14);
   EXPECT_EQ(report.n_duplicate_removed, 16);
-  EXPECT_THAT(report.messages, Contains(HasSubstr("8 facets of doubled sheets without thickness")));
+  EXPECT_THAT(report.messages, Contains(HasSubstr("8 facets of double-sided sheets without thickness")));
   // A fin of two facets on an edge of the cube.
   SurfaceSoup fin = soup_of(cube());
   add_facet(fin, {0, 0, 0}, {1, 0, 0}, {0.5, -1, -1});

@@ -92,7 +92,7 @@ TEST_F(Report, TellsWhatWasChangedOnTheSurface) {
   const nlohmann::json page = test::page_json(folder_ / "open.html");
   ASSERT_EQ(page["manifest"]["changes"].size(), 1u);
   EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("holes filled: 1 place"));
-  EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("what is left moved by at most 0 m"));
+  EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("retained facets moved by at most 0 m"));
 }
 
 TEST_F(Report, RefusesWhatItCannotShow) {

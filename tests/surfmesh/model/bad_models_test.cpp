@@ -64,7 +64,7 @@ TEST(BadModels, AFaceThatCannotBeMeshedStaysAHole) {
   options.failed_faces = "hole";
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   EXPECT_GE(mesh.report.n_free_edges, 4);
-  EXPECT_THAT(mesh.report.bands.notes, testing::Contains(AllOf(HasSubstr("face 2, \"box\""), HasSubstr("stays a hole"))));
+  EXPECT_THAT(mesh.report.bands.notes, testing::Contains(AllOf(HasSubstr("face 2, \"box\""), HasSubstr("is left as a hole"))));
   double area = 0.0;
   for (const FaceMeshSummary& face : mesh.report.faces) area += face.area;
   EXPECT_NEAR(area, 5.0, 1e-12);
@@ -283,7 +283,7 @@ TEST(BadModels, EdgesOffTheirFacesAreNamed) {
     EXPECT_NEAR(loose.distance, 1e-4, 1e-6);
     EXPECT_LT(loose.tolerance, 1e-5);
   }
-  EXPECT_THAT(to_text(mesh.report), HasSubstr("8 edges beyond their tolerance"));
+  EXPECT_THAT(to_text(mesh.report), HasSubstr("8 edges exceed their tolerance"));
 }
 
 TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
