@@ -74,7 +74,7 @@ class SceneBuilder {
       if (!is_used)
         throw Error({.code = ErrorCode::bad_argument,
                      .attempted = "draw: option patches",
-                     .problem = "no patch matches \"" + pattern + "\"",
+                     .problem = "no patch has a name like \"" + pattern + "\"",
                      .hint = names_hint(names, pattern)});
     }
   }

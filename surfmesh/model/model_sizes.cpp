@@ -176,7 +176,7 @@ void check_rules(const Model& model, std::span<const PatchSurfaceOptions> patche
   for (const PatchSurfaceOptions& rule : patches) {
     const bool is_used = std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return matches_glob(f.name, rule.names); });
     if (is_used) continue;
-    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing the model's surface", .problem = "no face name matches \"" + rule.names + "\""};
+    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing the model's surface", .problem = "no face has a name like \"" + rule.names + "\""};
     std::vector<std::string> names;
     for (const ModelFace& f : model.faces) names.push_back(f.name);
     info.hint = names_hint(names, rule.names);

@@ -47,7 +47,7 @@ void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rul
   for (const Patch& patch : wall.patches) names.push_back(patch.name);
   for (const PatchSurfaceOptions& rule : rules) {
     if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches_glob(name, rule.names); }))
-      throw_bad_argument(k_attempted, "no patch name matches \"" + rule.names + "\"", {}, names_hint(names, rule.names));
+      throw_bad_argument(k_attempted, "no patch has a name like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
     for (const double value : {rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
       if (!is_automatic(value))
         throw_bad_argument(

@@ -35,7 +35,7 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
   EXPECT_EQ(run("local b = box{ {0,0,0}, {4,2,2}, name = 'shell' } local t = test_section{ b, walls = 'slip' } print(surface_mesh{ t }.patches[1])"),
             "shell\n");
   EXPECT_NEAR(number("test_section{ box{ {0,0,0}, {4,2,2} } }:measures().volume"), -16.0, 1e-9);  // reversed, since the fluid is inside
-  EXPECT_THAT(error("test_section{ length = 4, width = 2 }"), HasSubstr("needs width and height, or the diameter"));
+  EXPECT_THAT(error("test_section{ length = 4, width = 2 }"), HasSubstr("give width and height, or the diameter"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, diameter = 1 }"), HasSubstr("has neither width nor height"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"),
               AllOf(HasSubstr("not \"slippery\""), HasSubstr("layer")));

@@ -390,8 +390,8 @@ TEST(StitchSurface, NamesKeepDigitsAndLettersOfAnyLanguage) {
   std::vector<std::string> names;
   for (const Patch& patch : result.mesh.patches) names.push_back(patch.name);
   EXPECT_THAT(names, testing::ElementsAre("1", "Fl\xc3\xbcgel", "\xe7\xbf\xbc_left", "Fl\xc3\xbcgel_\xc3\xa9", "left_wing", "left_wing_2", "a_b"));
-  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left wing\" of wall.stl is called \"left_wing\""));
-  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left_wing\" of wall.stl is called \"left_wing_2\""));
+  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left wing\" of wall.stl was renamed to \"left_wing\""));
+  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left_wing\" of wall.stl was renamed to \"left_wing_2\""));
   EXPECT_THAT(result.report.messages, testing::Not(testing::Contains(testing::HasSubstr("\"1\""))));
 }
 

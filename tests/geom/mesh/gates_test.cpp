@@ -88,7 +88,7 @@ TEST(Gates, AShareMustBeBeyondBeforeFirstHeightsFail) {
   EXPECT_TRUE(of(10, asked.limits).is_hard_missed);
   EXPECT_NEAR(of(10, asked.limits).share_beyond_hard, 0.01, 1e-15);
   EXPECT_EQ(of(11, asked.limits).state, GateState::fail);
-  EXPECT_NE(to_text(of(11, asked.limits)).find("hard <= 0.2 but on 1 %"), std::string::npos) << to_text(of(11, asked.limits));
+  EXPECT_NE(to_text(of(11, asked.limits)).find("hard <= 0.2 except on 1 %"), std::string::npos) << to_text(of(11, asked.limits));
   GateLimits own = asked.limits;
   own.hard = 0.3;  // the user's: one line is enough
   EXPECT_EQ(of(1, own).state, GateState::fail);

@@ -409,7 +409,7 @@ TEST(Deflection, what_cannot_be_is_refused_by_name) {
     return {};
   };
   EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 1.5}}), HasSubstr("the limit is 60 degrees"));
-  EXPECT_THAT(error_of(wing, {{flap(0.3, 0.1, 0.7), 0.1}}), HasSubstr("do not ascend"));
+  EXPECT_THAT(error_of(wing, {{flap(0.3, 0.1, 0.7), 0.1}}), HasSubstr("not in ascending order"));
   EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 0.1}, {flap(0.3, 0.4, 0.7), 0.2}}), HasSubstr("overlaps 'Flap'"));
   EXPECT_THAT(error_of(wing, {open_flap(flap(-0.1, 0.3, 0.7))}), HasSubstr("before the wing tips"));
   EXPECT_THAT(error_of(wing, {open_flap(flap(0.1, 0.3, 0.99))}), HasSubstr("0.03 and 0.97"));

@@ -37,7 +37,9 @@ TEST(Shapes, box_and_cylinder_have_their_volumes) {
   test::expect_error(ErrorCode::bad_argument, "box 'flat': the corners (0, 0, 0) and (1, 1, 0) must ascend", [&] {
     (void)make_box("flat", {0, 0, 0}, {1, 1, 0});
   });
-  test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': it is 0.000000 m long", [&] { (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0); });
+  test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': the cylinder is 0.000000 m long", [&] {
+    (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0);
+  });
 }
 
 TEST(Shapes, a_test_section_holds_the_fluid_inside) {
@@ -75,7 +77,7 @@ TEST(Shapes, required_options_are_asked_for_by_name) {
     return "no error";
   };
   EXPECT_THAT(error_of({}), HasSubstr("needs length"));
-  EXPECT_THAT(error_of({.length = 4.0}), HasSubstr("needs width and height, or the diameter"));
+  EXPECT_THAT(error_of({.length = 4.0}), HasSubstr("give width and height, or the diameter"));
 }
 
 TEST(Shapes, nacelle_and_pylon_join_a_wing) {

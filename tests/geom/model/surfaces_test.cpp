@@ -70,7 +70,7 @@ TEST(AnalyticSurfaces, SatisfyTheirEquations) {
   const PlaneSurface plane(k_frame, {{-1, 2}, {0, 5}});
   test::expect_derivatives(plane, 5);
   test::expect_exact_nurbs(plane);
-  test::expect_error(ErrorCode::bad_argument, "its radius is -1.000000 m, must be positive", [&] { (void)CylinderSurface(k_frame, -1.0, {{0, 1}, {0, 1}}); });
+  test::expect_error(ErrorCode::bad_argument, "the radius is -1.000000 m, must be positive", [&] { (void)CylinderSurface(k_frame, -1.0, {{0, 1}, {0, 1}}); });
   test::expect_error(ErrorCode::bad_argument, "covers more than one turn: 7.000000 rad", [&] { (void)SphereSurface(k_frame, 1.0, {{0, 7}, {0, 1}}); });
   test::expect_error(ErrorCode::bad_argument, "the half angle is 0.000000 rad, must be between 0 and pi/2", [&] {
     (void)ConeSurface(k_frame, 1.0, 0.0, {{0, 1}, {0, 1}});

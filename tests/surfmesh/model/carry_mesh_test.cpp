@@ -125,7 +125,7 @@ TEST(ModelStructure, TellsWhatDiffers) {
   EXPECT_THAT(difference_of(one, structure_of(body())), HasSubstr("the reference"));
   Model renamed = twisted_wing(0.0);
   renamed.faces.raw().front().name = "other";
-  EXPECT_THAT(difference_of(one, structure_of(renamed)), HasSubstr("is called \"W\" in the reference"));
+  EXPECT_THAT(difference_of(one, structure_of(renamed)), HasSubstr("has the name \"W\" in the reference"));
 }
 
 }  // namespace

@@ -343,7 +343,7 @@ TEST(RemeshSurface, ADemandThatCannotBeMetEndsItEarly) {
   const RemeshResult free = remeshed(wall), met = demanding({.most_needles = 0, .least_angle = 10.0 * k_degree});
   EXPECT_EQ(free.mesh.points, met.mesh.points);
   EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
-  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles, 0 % of the triangles",
+  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 sliver triangles, 0 % of the triangles",
                      [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
   // A sphere of 8 squares a side lies inside the remeshed one by a hundredth of its diameter.
   test::expect_error(ErrorCode::geometry_failed, "from the input triangles, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
