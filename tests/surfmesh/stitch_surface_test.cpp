@@ -79,7 +79,7 @@ TEST(Stitch, FlippedSubsetOfASphereIsTurnedAndSaid) {
   const auto [mesh, report] = stitch({soup});
   expect_stitched(mesh);
   EXPECT_EQ(report.n_flipped, n_turned);
-  EXPECT_THAT(report.messages, Contains(HasSubstr("turned " + std::to_string(n_turned) + " facets against")));
+  EXPECT_THAT(report.messages, Contains(HasSubstr("turned " + std::to_string(n_turned) + " facets with an orientation opposite")));
 }
 
 TEST(Stitch, InsideOutMirroredMovedAndScaled) {
