@@ -81,7 +81,7 @@ void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patc
     for (const Vec3& p : solid.surface.points) solid.box.add(p);
     all.names.push_back(components.count == 1 ? name
                                               : "component " + std::to_string(c + 1) + " of " + name + " (" + std::to_string(solid.surface.triangles.size()) +
-                                                    " triangles about " + format_point(solid.box.center()) + ")");
+                                                    " triangles near " + format_point(solid.box.center()) + ")");
     if (volume_of(solid.surface.points, solid.surface.triangles) >= 0.0) continue;
     ++n_turned;
     for (auto& triangle : solid.surface.triangles) std::swap(triangle[1], triangle[2]);

@@ -64,7 +64,7 @@ void append(TaggedSolid& all, const TaggedSolid& more) {
   ErrorInfo info{.code = ErrorCode::non_manifold_surface,
                  .attempted = std::string(k_attempted),
                  .problem = parts.names[failed] + " and " + partner + " cannot be united: " + refused.reason,
-                 .hint = "move one of the two so that they overlap clearly or are clearly apart"};
+                 .hint = "move one of the two solids so that they overlap clearly or are clearly apart"};
   add_crossing_places(info, parts, pairs);
   throw Error(std::move(info));
 }

@@ -56,7 +56,7 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
     const std::string name = "\"" + part_name(parts[i]) + "\"";
     if (contact && contact->kind == ContactKind::inside && contact->first == 0)
       fail_fluid(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"",
-                 {{contact->place, "the container lies inside " + name}}, "no volume is left for the fluid: scale or move one of them");
+                 {{contact->place, "the container lies inside " + name}}, "no volume is left for the fluid: scale or move the bodies or the container");
     const double share_inside = 1.0 - meeting.contacts.exposures[i].outside;
     const bool is_outside = !contact || contact->kind == ContactKind::apart || share_inside < k_least_inside;
     if (is_outside) outside.push_back({contact ? contact->place : parts[i].corners.raw().front().point, name + " lies outside"});
@@ -143,7 +143,7 @@ void require_one_piece(const BooleanTry& result, const std::vector<BooleanPart>&
   std::vector<BooleanPart> bodies(parts.begin() + 1, parts.end());
   if (result.model.faces.empty())
     fail_fluid(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {},
-               "no volume is left for the fluid: scale or move one of them");
+               "no volume is left for the fluid: scale or move the bodies or the container");
   if (result.model.solids.size() == 1) return;
   std::vector<SolidMeasures> measures;
   for (const SolidId s : result.model.solids.ids()) measures.push_back(solid_measures(result.model, s));

@@ -156,7 +156,7 @@ void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
         return std::abs(a.area - b.area) <= k_same_face * b.area && a.centre.Distance(b.centre) <= k_same_face * std::sqrt(b.area);
       };
       if (std::any_of(known.begin(), known.end(), is_double)) {
-        report.mended.push_back({.what = "doubled face removed", .place = place_of(f.Current())});
+        report.mended.push_back({.what = "duplicate face removed", .place = place_of(f.Current())});
         context->Remove(f.Current());
         is_changed = true;
       } else {

@@ -61,7 +61,7 @@ struct Schema<ReadCadOptions> {
                        "construction planes), with a warning; keep: all; drop: none; or name patterns of those to leave out: \"sketch*, plane 1\""},
       Field<T>{.name = "fluid",
                .member = &T::fluid,
-               .help = "on which side of the outermost closed solids the fluid is: around bodies, or inside of a duct or a complete domain; solids within "
+               .help = "side of the outermost closed solids on which the fluid lies: around bodies, or inside a duct or a complete domain; solids within "
                        "others are bodies. automatic: outside",
                .choices = "automatic outside inside"},
       Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "time limit for reading and repairing"},

@@ -173,7 +173,7 @@ void drop_sheets(LabelledShape& labelled, const ReadCadOptions& options, CadRepo
   labelled.parts = std::move(kept);
   if (n_open > 0)
     report.warnings.push_back(
-        std::to_string(n_open) + (n_open == 1 ? " open shell stands" : " open shells stand") +
+        std::to_string(n_open) + (n_open == 1 ? " open shell is" : " open shells are") +
         " beside closed solids; if they are not part of the wall, sheets = \"drop\" leaves out all open shells, sheets = \"name*\" those with matching names");
 }
 

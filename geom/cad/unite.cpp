@@ -106,7 +106,7 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
   info.places = blamed->places.empty() ? contacts : blamed->places;
   info.n_places = static_cast<std::int64_t>(info.places.size());
   info.places.resize(std::min(k_max_places, info.places.size()));
-  info.hint = "move or turn one of them a little, so that surfaces neither coincide nor touch tangentially";
+  info.hint = "move or turn one of the parts a little, so that surfaces neither coincide nor touch tangentially";
   throw Error(std::move(info));
 }
 

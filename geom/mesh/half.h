@@ -44,7 +44,7 @@ struct Schema<HalfOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "axis", .member = &O::axis, .help = "the coordinate that is constant in the plane", .choices = "x y z"},
       Field<O>{.name = "at", .member = &O::at, .unit = Unit::metre, .help = "the value of this coordinate in the plane"},
-      Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: of larger (+) or smaller (-) coordinates", .choices = "+ -"},
+      Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: larger (+) or smaller (-) coordinates", .choices = "+ -"},
       Field<O>{.name = "tolerance",
                .member = &O::tolerance,
                .unit = Unit::metre,

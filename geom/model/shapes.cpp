@@ -297,7 +297,7 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
     local = Line{lines[i].leading + t * (lines[i + 1].leading - lines[i].leading), lines[i].trailing + t * (lines[i + 1].trailing - lines[i].trailing)};
   }
   if (!local)
-    throw_bad_argument(attempted, "nacelle '" + nacelle.name + "' stands at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
+    throw_bad_argument(attempted, "nacelle '" + nacelle.name + "' is at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
   const Vec3 chord = local->trailing - local->leading;
   const auto section = [&](const std::string& label, const Point& leading, const Point& trailing) {
     WingSection s{.name = label, .leading_edge = leading, .chord = distance(leading, trailing)};

@@ -88,8 +88,8 @@ struct Schema<surfmesh::StitchOptions> {
                .automatic = "patches as named in the file, else one patch"},
       Field<O>{.name = "fluid",
                .member = &O::fluid,
-               .help = "on which side of the outermost surface the fluid is: around bodies, or inside of a tunnel or of a complete domain. automatic: outside, "
-                       "unless the manifest beside the file says otherwise",
+               .help = "side of the outermost surface on which the fluid lies: around bodies, or inside a tunnel or a complete domain. automatic: outside, "
+                       "unless the manifest beside the file has another value",
                .choices = "automatic outside inside"},
       Field<O>{.name = "allow_open", .member = &O::allow_open, .help = "accept a surface with an open boundary"},
       Field<O>{.name = "check_intersections", .member = &O::check_intersections, .help = "test every pair of triangles exactly for intersection"},

@@ -167,7 +167,7 @@ struct Schema<surfmesh::WrapOptions> {
                .automatic = "patches as named in the file, else one patch"},
       Field<O>{.name = "fluid",
                .member = &O::fluid,
-               .help = "on which side of the outermost surface the fluid is: wrapped from outside, or from within a tunnel. automatic: outside",
+               .help = "side of the outermost surface on which the fluid lies: wrapped from outside, or from within a tunnel. automatic: outside",
                .choices = "automatic outside inside"},
   };
 };

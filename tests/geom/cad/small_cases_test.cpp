@@ -41,7 +41,7 @@ TEST(SmallCadCases, ADoubledFaceGoes) {
   const CadFile file = read_small("box_doubled_face.brep");
   EXPECT_TRUE(file.report.is_closed());
   EXPECT_EQ(file.report.n_faces, 6u);
-  EXPECT_EQ(count(file.report, "doubled face removed"), 1u);
+  EXPECT_EQ(count(file.report, "duplicate face removed"), 1u);
   EXPECT_NEAR(volume(file), 1.0, 1e-12);
 }
 

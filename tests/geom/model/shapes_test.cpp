@@ -104,7 +104,7 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   const Model solid = make_wing(pylon);
   expect_no_opening(solid);
   EXPECT_EQ(solid.components[ComponentId(0)].kind, ComponentKind::pylon);
-  test::expect_error(ErrorCode::bad_argument, "nacelle 'far' stands at y = 50.000000 m, where wing 'wing' has no section", [&] {
+  test::expect_error(ErrorCode::bad_argument, "nacelle 'far' is at y = 50.000000 m, where wing 'wing' has no section", [&] {
     (void)pylon_wing("pylon", wing, nacelle_body("far", {0.0, 50.0, 0.0}, n), {});
   });
 }
