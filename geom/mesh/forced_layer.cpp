@@ -249,7 +249,7 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
   const double across = (layer > 0 ? 2.0 : 1.0) * (size - error), best = std::asin(sine);
   const double bound = (across * best + beside * 0.5 * std::numbers::pi) / (across + beside);
   if (!(bound < limit)) return std::nullopt;
-  return Forcing{"growth lines in front of all wall facets deviate by at least " + print_text("%.3g deg", (0.5 * std::numbers::pi - best) * k_degrees) +
+  return Forcing{"growth lines visible from all wall facets deviate by at least " + print_text("%.3g deg", (0.5 * std::numbers::pi - best) * k_degrees) +
                      " from the mean normal of the facets here: no orthogonality can be above " + print_text("%.3g deg", bound * k_degrees),
                  k_more_normals};
 }

@@ -136,7 +136,7 @@ void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) 
   forecast.place = least.place;
   forecast.least_edge = std::min(forecast.least_edge, least.size);
   if (all.edges[least.edge].length < wanted.max_edge && least.size * k_same_size >= all.edges[least.edge].length)
-    return blame("an edge of the face is only " + metres(all.edges[least.edge].length) + " long", "a larger min_edge");
+    return blame("an edge of the face that is " + metres(all.edges[least.edge].length) + " long", "a larger min_edge");
   double by_curvature = wanted.limits.size_of(least.curvature);
   for (const Border& border : all.model.faces[forecast.face].borders)
     for (const EdgeUse& use : border)
