@@ -2,16 +2,16 @@
 import re
 
 NUMBER = r"([-+.\deE]+)"
-SHORT = [("dropped", "dropped"), ("welded", "welded"), ("seams zipped", "seams"), ("rim of the half model", "half"), ("holes filled", "holes"),
+SHORT = [("dropped", "dropped"), ("welded", "welded"), ("seams zipped", "seams"), ("open boundary of the half model", "half"), ("holes filled", "holes"),
          ("cut where facets cross", "cut"), ("sheets without", "sheets"), ("facets inside", "inside"), ("small parts", "parts"),
-         ("touching vertices", "parted"), ("touching parts", "joined"), ("short edges", "collapsed"), ("crossing facets replaced", "replaced"), ("turned", "turned")]
+         ("touching vertices", "parted"), ("touching parts", "joined"), ("short edges", "collapsed"), ("crossing facets replaced", "replaced"), ("orientation changed", "turned")]
 
 
 def short(change):
     """What one change did, and its largest distances (kept, all) in metres."""
     kind, _, rest = change.partition(": ")
     if kind == "wrapped":
-        found = re.search(rf"wrap to input at most {NUMBER} m outside of closures, {NUMBER} m in them; input to wrap at most {NUMBER} m", rest)
+        found = re.search(rf"wrap to input at most {NUMBER} m outside closed openings, {NUMBER} m in closed openings; input to wrap at most {NUMBER} m", rest)
         kept, closed, back = (float(x) for x in found.groups())
         closures = re.search(r"closed (\d+) place", rest)
         words = [f"{closures.group(1)} closed"] if closures else []
@@ -23,7 +23,7 @@ def short(change):
         if found:
             name = next((b for a, b in SHORT if found.group(1).startswith(a)), found.group(1))
             words.append(f"{name} {found.group(2)} ({found.group(3)})")
-        found = re.match(rf"what is left moved by at most {NUMBER} m, the new surface is at most {NUMBER} m from the given one, the given one at most {NUMBER} m", part)
+        found = re.match(rf"retained facets moved by at most {NUMBER} m, the new surface is at most {NUMBER} m from the input surface, and the input surface at most {NUMBER} m", part)
         if found:
             kept, far = float(found.group(1)), max(float(x) for x in found.groups())
     return ", ".join(words) or rest[:60], kept, far

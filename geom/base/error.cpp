@@ -17,7 +17,7 @@ std::string compose(const ErrorInfo& info) {
     if (!info.places[i].what.empty()) text += ": " + info.places[i].what;
   }
   const std::int64_t n_places = std::max<std::int64_t>(info.n_places, static_cast<std::int64_t>(info.places.size()));
-  if (n_places > static_cast<std::int64_t>(n_shown)) text += "\n  and " + std::to_string(n_places - static_cast<std::int64_t>(n_shown)) + " more places";
+  if (n_places > static_cast<std::int64_t>(n_shown)) text += "\n  and " + std::to_string(n_places - static_cast<std::int64_t>(n_shown)) + " more locations";
   if (!info.hint.empty()) text += "\n  try: " + info.hint;
   return text;
 }

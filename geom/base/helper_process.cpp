@@ -185,7 +185,7 @@ std::string find_helper(const std::string& name, const std::string& given_folder
   }
   throw Error({.code = task.missing,
                .attempted = "looking for " + task.helper + " " + name,
-               .problem = "it is not built in: no executable file at " + looked_at,
+               .problem = "the program was not built: no executable file at " + looked_at,
                .hint = "build the target " + name + " (its library must be installed)" + task.else_try});
 }
 
@@ -194,7 +194,7 @@ std::string last_words(const HelperExit& exit) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   constexpr std::size_t k_quoted = 500;
   if (text.size() > k_quoted) text.erase(0, text.size() - k_quoted);
-  return text.empty() ? "" : "; its last words: \"" + text + "\"";
+  return text.empty() ? "" : "; end of its output: \"" + text + "\"";
 }
 
 }  // namespace sterna

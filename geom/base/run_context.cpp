@@ -54,7 +54,7 @@ void RunContext::tell_if_long() const {
   if (!state_->silent_until_ns.compare_exchange_strong(silent_until, now + taken)) return;  // another thread reports it
   const std::int64_t minutes = taken / 60'000'000'000;
   warn(stage_.substr(0, stage_.find('/')) + " has taken " + (minutes > 0 ? std::to_string(minutes) + " min" : std::to_string(taken / 1'000'000'000) + " s") +
-       " so far, now at " + stage_ + ", and goes on; Ctrl-C stops it, nothing half-written stays");
+       " so far, now at " + stage_ + ", and continues; Ctrl-C stops the run without leaving partial files");
 }
 
 void RunContext::check_stop() const {

@@ -89,7 +89,7 @@ std::string_view kind_text(OptionKind kind) {
     case OptionKind::boolean: return "true or false";
     case OptionKind::integer: return "a whole number";
     case OptionKind::number: return "a number";
-    case OptionKind::text: return "a text";
+    case OptionKind::text: return "a string";
   }
   return "";
 }

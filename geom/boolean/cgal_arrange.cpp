@@ -200,7 +200,7 @@ Arrangement arrange_triangles(std::span<const Vec3> points, std::span<const std:
     ErrorInfo info;
     info.code = ErrorCode::geometry_failed;
     info.attempted = "cutting crossing triangles along their intersections";
-    info.problem = "CGAL gave up (" + failure.expression() + ")";
+    info.problem = "CGAL failed (" + failure.expression() + ")";
     throw Error(std::move(info));
   }
 }

@@ -72,9 +72,9 @@ std::string add_second_to_first(std::array<Mesh, 2>& meshes) {
     const bool is_solid = pmp::corefine_and_compute_union(meshes[0], meshes[1], meshes[0], CGAL::parameters::visitor(visitor).throw_on_self_intersection(true));
     return is_solid ? "" : "their common surface is not manifold: they touch in a point or along an edge";
   } catch (const pmp::Corefinement::Self_intersection_exception&) {
-    return "three triangles or more meet where these two cross";
+    return "three or more triangles meet where these two solids cross";
   } catch (const CGAL::Failure_exception& failure) {
-    return "CGAL gave up (" + failure.expression() + ")";
+    return "CGAL failed (" + failure.expression() + ")";
   }
 }
 

@@ -63,7 +63,7 @@ WrapSurface alpha_wrap(const AlphaWrapInput& input, const RunContext& context) {
     if (seeds.empty()) CGAL::alpha_wrap_3(points, triangles, input.alpha, input.offset, mesh, in, CGAL::parameters::visitor(std::ref(counter)));
     else CGAL::alpha_wrap_3(points, triangles, input.alpha, input.offset, mesh, in, CGAL::parameters::visitor(std::ref(counter)).seed_points(std::ref(seeds)));
   } catch (const CGAL::Failure_exception& failure) {
-    throw Error({.code = ErrorCode::geometry_failed, .attempted = "wrapping", .problem = "CGAL gave up (" + failure.expression() + ")"});
+    throw Error({.code = ErrorCode::geometry_failed, .attempted = "wrapping", .problem = "CGAL failed (" + failure.expression() + ")"});
   }
   std::vector<std::uint32_t> number(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), 0);
   for (const auto v : mesh.vertices()) {

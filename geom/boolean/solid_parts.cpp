@@ -26,7 +26,7 @@ void require_closed(const TriMesh& mesh, const Topology& topology, const std::st
                  .attempted = std::string(k_parting_attempt),
                  .problem = name + " is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges with one triangle only",
                  .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
-                 .hint = "close it; only solids can be united"};
+                 .hint = "close the surface; only solids can be united"};
   for (std::uint64_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
@@ -81,7 +81,7 @@ void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patc
     for (const Vec3& p : solid.surface.points) solid.box.add(p);
     all.names.push_back(components.count == 1 ? name
                                               : "component " + std::to_string(c + 1) + " of " + name + " (" + std::to_string(solid.surface.triangles.size()) +
-                                                    " triangles about " + format_point(solid.box.center()) + ")");
+                                                    " triangles near " + format_point(solid.box.center()) + ")");
     if (volume_of(solid.surface.points, solid.surface.triangles) >= 0.0) continue;
     ++n_turned;
     for (auto& triangle : solid.surface.triangles) std::swap(triangle[1], triangle[2]);
@@ -108,7 +108,7 @@ void find_links(SolidParts& all, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = std::string(k_parting_attempt),
                  .problem = all.names[all.facets[own.front()[0]].solid] + " crosses itself: " + std::to_string(own.size()) + " pairs of triangles",
-                 .hint = "only whole closed components may cross each other; repair this one first"};
+                 .hint = "only different closed components may cross each other; repair this component first"};
   add_crossing_places(info, all, own);
   throw Error(std::move(info));
 }
@@ -195,7 +195,7 @@ SolidParts find_solids(const std::vector<UnionPart>& parts, UnionReport& report,
   if (all.solids.empty())
     throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_parting_attempt), .problem = "there is no surface to unite"});
   report.n_solids = static_cast<std::int64_t>(all.solids.size());
-  if (n_turned > 0) report.messages.push_back(std::to_string(n_turned) + (n_turned == 1 ? " solid was" : " solids were") + " inside out: turned");
+  if (n_turned > 0) report.messages.push_back(std::to_string(n_turned) + (n_turned == 1 ? " solid was" : " solids were") + " inside out: orientation reversed");
   find_links(all, context);
   find_groups(all);
   return all;

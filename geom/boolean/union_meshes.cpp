@@ -56,7 +56,7 @@ void append(TaggedSolid& all, const TaggedSolid& more) {
     const std::uint32_t s = parts.facets[a].solid, t = parts.facets[b].solid;
     if ((s == failed && earlier.contains(t)) || (t == failed && earlier.contains(s))) pairs.push_back({a, b});
   }
-  std::string partner = "those before it";
+  std::string partner = "the solids before it";
   if (!pairs.empty()) {
     const std::uint32_t s = parts.facets[pairs.front()[0]].solid;
     partner = parts.names[s == failed ? parts.facets[pairs.front()[1]].solid : s];
@@ -64,7 +64,7 @@ void append(TaggedSolid& all, const TaggedSolid& more) {
   ErrorInfo info{.code = ErrorCode::non_manifold_surface,
                  .attempted = std::string(k_attempted),
                  .problem = parts.names[failed] + " and " + partner + " cannot be united: " + refused.reason,
-                 .hint = "move one of the two so that they overlap clearly, or not at all"};
+                 .hint = "move one of the two solids so that they overlap clearly or are clearly apart"};
   add_crossing_places(info, parts, pairs);
   throw Error(std::move(info));
 }
@@ -111,7 +111,7 @@ TaggedSolid unite_all(const SolidParts& parts, UnionReport& report, const RunCon
     std::uint32_t container = 0;
     if (insides.is_inside_another(group, container)) {
       report.n_vanished += static_cast<std::int64_t>(group.size());
-      for (const std::uint32_t s : group) report.messages.push_back(parts.names[s] + " lies inside " + parts.names[container] + ": it vanishes");
+      for (const std::uint32_t s : group) report.messages.push_back(parts.names[s] + " lies inside " + parts.names[container] + ": it is removed");
       continue;
     }
     const TaggedSolid united = unite_group(parts, group, context.part("unite", static_cast<double>(g) / n_groups, static_cast<double>(g + 1) / n_groups));
@@ -120,7 +120,7 @@ TaggedSolid unite_all(const SolidParts& parts, UnionReport& report, const RunCon
     for (const std::uint32_t s : group)
       if (!left.contains(s)) {
         ++report.n_vanished;
-        report.messages.push_back(parts.names[s] + " lies inside the others: it vanishes");
+        report.messages.push_back(parts.names[s] + " lies inside the others: it is removed");
       }
     append(all, united);
   }
@@ -145,8 +145,8 @@ void drop_cavities(TaggedSolid& surface, const UnionOptions& options, UnionRepor
     if (volume >= 0.0) continue;
     ++report.n_cavities;
     is_dropped[c] = !options.keep_cavities;
-    report.messages.push_back("a hollow of " + short_number(-volume) + " m^3 about " + format_point(surface.points[triangles[c].front()[0]]) +
-                              (options.keep_cavities ? " stays" : " is dropped: the outer flow does not reach it"));
+    report.messages.push_back("a cavity of " + short_number(-volume) + " m^3 near " + format_point(surface.points[triangles[c].front()[0]]) +
+                              (options.keep_cavities ? " is kept" : " is removed: the outer flow does not reach it"));
   }
   report.n_components = components.count - std::count(is_dropped.begin(), is_dropped.end(), 1);
   TaggedSolid kept;
@@ -246,11 +246,12 @@ void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
   for (const auto& t : mesh.triangles) triangles.push_back({t[0].value(), t[1].value(), t[2].value()});
   const CrossingPairs crossings = find_crossings(mesh.points.raw(), triangles, context, k_max_geometry);
   if (crossings.total == 0) return;
-  ErrorInfo info{.code = ErrorCode::self_intersection,
-                 .attempted = std::string(k_attempted),
-                 .problem = "after rounding to doubles " + std::to_string(crossings.total) + " pairs of triangles of the result cross or touch",
-                 .n_places = crossings.total,
-                 .hint = "parts that nearly touch, or nearly share a face, cannot be told apart there: let them overlap clearly, or not at all"};
+  ErrorInfo info{
+      .code = ErrorCode::self_intersection,
+      .attempted = std::string(k_attempted),
+      .problem = "after rounding to doubles " + std::to_string(crossings.total) + " pairs of triangles of the result cross or touch",
+      .n_places = crossings.total,
+      .hint = "parts that nearly touch, or nearly share a face, cannot be separated there: move them so that they overlap clearly or are clearly apart"};
   for (const auto& pair : crossings.pairs) {
     std::vector<std::array<Vec3, 3>> both;
     for (const std::uint32_t t : pair) both.push_back(corners(mesh, TriangleId(t)));
@@ -313,10 +314,10 @@ std::string change_text(const Extent& before, const Extent& after) {
 void warn_of_changed_geometry(const TriMesh& exact, const TriMesh& remeshed, const UnionOptions& options, const RunContext& context) {
   const Extent before = extent_of(exact), after = extent_of(remeshed);
   if (largest_change(before, after) <= k_reported_change) return;
-  context.warn("union: better triangles along the curves change the geometry: " + change_text(before, after) + ". They may lie up to " +
+  context.warn("union: remeshing along the intersection curves changed the geometry: " + change_text(before, after) + ". Remeshed triangles may lie up to " +
                short_number(options.deviation) +
-               " local edge lengths from the input (deviation), which is much where the input is coarse. A smaller deviation, such as " +
-               short_number(k_closer * options.deviation) + ", changes less and leaves more slivers; remesh = false keeps the exact union");
+               " local edge lengths from the input (deviation); that is a large distance where the input is coarse. A smaller deviation, such as " +
+               short_number(k_closer * options.deviation) + ", changes the geometry less and leaves more slivers; remesh = false keeps the exact union");
 }
 
 }  // namespace

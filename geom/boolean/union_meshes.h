@@ -74,14 +74,14 @@ struct Schema<UnionOptions> {
                .member = &O::strip_width,
                .min = 0.0,
                .max = 100.0,
-               .help = "how far from the curve triangles may change, in local edge lengths"},
+               .help = "distance from the curve within which triangles may change, in local edge lengths"},
       Field<O>{.name = "strip_growth", .member = &O::strip_growth, .min = 1.0, .max = 3.0, .help = "growth of edge lengths away from the curve"},
       Field<O>{.name = "deviation",
                .member = &O::deviation,
                .min = 0.0,
                .max = 0.2,
-               .help = "how far from the input remeshed triangles may lie, in local edge lengths"},
-      Field<O>{.name = "keep_cavities", .member = &O::keep_cavities, .help = "keep hollows that the parts enclose and the outer flow does not reach"},
+               .help = "largest distance of remeshed triangles from the input, in local edge lengths"},
+      Field<O>{.name = "keep_cavities", .member = &O::keep_cavities, .help = "keep cavities that the parts enclose and the outer flow does not reach"},
   };
 };
 

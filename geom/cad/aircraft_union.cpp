@@ -58,7 +58,7 @@ std::vector<Model> split_solids(const Model& components) {
     for (const FaceId f : solid.faces) is_loose[f.index()] = false;
     parts.push_back(part_of(components, solid));
   }
-  ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_aircraft_attempt, .hint = "only closed solids have an inside"};
+  ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_aircraft_attempt, .hint = "close the solids first: only closed solids can be united"};
   for (const FaceId f : components.faces.ids()) {
     if (!is_loose[f.index()]) continue;
     ++info.n_places;

@@ -106,7 +106,7 @@ std::vector<std::string> differences_of_file(const Model& model, const std::stri
   std::vector<std::string> differences;
   for (const WrittenBody& body : before) {
     const auto same = std::find_if(after.begin(), after.end(), [&](const WrittenBody& other) { return is_same(body, other); });
-    if (same == after.end()) differences.push_back("\"" + body.name + "\" (" + figures(body) + ") is not in the file as it is");
+    if (same == after.end()) differences.push_back("\"" + body.name + "\" (" + figures(body) + ") is not in the file unchanged");
     else after.erase(same);
   }
   for (const WrittenBody& body : after) differences.push_back("the file holds \"" + body.name + "\" (" + figures(body) + ") instead");

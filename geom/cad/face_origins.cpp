@@ -32,7 +32,7 @@ BooleanPart boolean_part(const Model& model, const std::string& attempted, const
     ErrorInfo info{.code = ErrorCode::open_surface,
                    .attempted = attempted,
                    .problem = "\"" + part.name() + "\" is not closed",
-                   .hint = "only closed parts have an inside"};
+                   .hint = "close the part first: booleans need closed parts"};
     info.places = open_places(model);
     info.n_places = static_cast<std::int64_t>(info.places.size());
     info.places.resize(std::min(k_max_places, info.places.size()));
@@ -77,7 +77,7 @@ std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<
   const CadShape::Content& content = model.shape->content();
   for (const FaceId f : model.faces.ids()) {
     const FaceOrigin* origin = origins.Seek(content.faces[f.index()]);
-    if (!origin) return "a face of the result comes from no part";
+    if (!origin) return "a face of the result belongs to none of the parts";
     const Model& part = *parts[origin->part].model;
     const ModelFace& from = part.faces[origin->face];
     ModelFace& face = model.faces[f];

@@ -75,10 +75,10 @@ void add_face(Skin& skin, FaceId id, const TopoDS_Face& face) {
   if (triangles.IsNull() || !triangles->HasUVNodes()) {
     const Point at = place_of(face);
     throw Error({.code = ErrorCode::geometry_failed,
-                 .attempted = "looking at the contacts of \"" + part_name(*skin.model) + "\"",
+                 .attempted = "finding the contacts of \"" + part_name(*skin.model) + "\"",
                  .problem = "OpenCASCADE cannot triangulate a face",
                  .places = {{at, "\"" + from.name + "\""}},
-                 .hint = "draw the face anew there, or leave its part out of the union; more memory where little is allowed (ulimit -v)"});
+                 .hint = "draw the face again in CAD, or leave its part out of the union; if memory is limited (ulimit -v), allow more"});
   }
   const auto first = static_cast<std::uint64_t>(skin.mesh.points.size());
   for (int i = 1; i <= triangles->NbNodes(); ++i) {
@@ -104,7 +104,7 @@ Skin skin_of(const Model& part, const RunContext& context) {
   skin.model = &part;
   const std::shared_ptr<const CadShape> shape = shape_of(part, context);
   const CadShape::Content& content = shape->content();
-  run_occt({.attempted = "looking at the contacts of \"" + part_name(part) + "\""}, context, [&](const Message_ProgressRange&) {
+  run_occt({.attempted = "finding the contacts of \"" + part_name(part) + "\""}, context, [&](const Message_ProgressRange&) {
     skin.deflection = k_deflection * longest_side(content.shape);
     BRepBuilderAPI_Copy copy(content.shape, false, false);  // triangulations are stored in the shape: the copy leaves ours unchanged
     const BRepMesh_IncrementalMesh mesher(copy.Shape(), skin.deflection, false, k_turn, context.threads() > 1);
@@ -513,7 +513,7 @@ std::string doubt_of(const PartContact& contact, std::span<const Model> parts) {
   std::string doubt;
   if (contact.angle < k_tangent_angle) {
     const std::string angle = number_text(contact.angle * 180.0 / std::numbers::pi, k_digits) + " degrees";
-    doubt = contact.is_crevice ? both + " leave a crevice of " + angle : both + " are nearly tangent where they cross, at " + angle;
+    doubt = contact.is_crevice ? both + " form a crevice of " + angle : both + " are nearly tangent where they cross, at " + angle;
   }
   if (contact.share_inside > k_mostly_inside) {
     const std::string share = number_text(100.0 * contact.share_inside, k_digits) + " % of the surface of " + (contact.is_first_inside ? first : second) +

@@ -18,7 +18,7 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_fluid_attempt = "taking the bodies out of their container";
+constexpr const char* k_fluid_attempt = "subtracting the bodies from their container";
 /// A body with a smaller fraction of its area inside only touches the container from outside, to the accuracy of the samples.
 constexpr double k_least_inside = 1e-3;
 
@@ -33,7 +33,7 @@ constexpr double k_least_inside = 1e-3;
 Model solid_container(const Model& container, const RunContext& context) {
   if (container.solids.size() != 1)
     fail_fluid(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {},
-               "a container is one closed solid");
+               "give a container of one closed solid");
   Model solid = container;
   if (boolean_part(solid, k_fluid_attempt, context).volume < 0.0) turn_inside_out(solid);
   return solid;
@@ -56,7 +56,7 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
     const std::string name = "\"" + part_name(parts[i]) + "\"";
     if (contact && contact->kind == ContactKind::inside && contact->first == 0)
       fail_fluid(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"",
-                 {{contact->place, "the container lies inside " + name}}, "nothing is left for the fluid: scale or move one of them");
+                 {{contact->place, "the container lies inside " + name}}, "no volume is left for the fluid: scale or move the bodies or the container");
     const double share_inside = 1.0 - meeting.contacts.exposures[i].outside;
     const bool is_outside = !contact || contact->kind == ContactKind::apart || share_inside < k_least_inside;
     if (is_outside) outside.push_back({contact ? contact->place : parts[i].corners.raw().front().point, name + " lies outside"});
@@ -70,7 +70,7 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
     fail_fluid(
         ErrorCode::bad_argument,
         std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"",
-        std::move(outside), "move the body into it, or the container around it");
+        std::move(outside), "move the body into the container, or enlarge the container");
   return meeting;
 }
 
@@ -96,11 +96,10 @@ void require_leave(const std::vector<Model>& parts, const Meeting& meeting, cons
                                    " m out of the wall \"" + o.wall + "\""});
   const std::string problem =
       places.front().what + " and would be cut off there" + (worst.size() > 1 ? "; so would " + std::to_string(worst.size() - 1) + " more of its parts" : "");
-  fail_fluid(
-      ErrorCode::bad_argument, problem, std::move(places),
-      "move the model, or make the tunnel larger. What is to pass through a wall (a sting, a strut, a wing on a side wall) is declared: test_section{ ..., "
-      "through = { \"" +
-          worst.front().component + "\" } }; stings made by sting{} need not be");
+  fail_fluid(ErrorCode::bad_argument, problem, std::move(places),
+             "move the model, or make the tunnel larger. Declare parts that pass through a wall (a sting, a strut, a wing on a side wall): test_section{ ..., "
+             "through = { \"" +
+                 worst.front().component + "\" } }; stings made by sting{} need no declaration");
 }
 
 /// Sets the description of a defective cut, and its volume.
@@ -114,15 +113,15 @@ void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const 
   for (std::size_t p = 1; p < parts.size(); ++p) bodies += parts[p].volume;
   const double all = parts.front().volume, slack = k_volume_share * all;
   if (result.volume < all - bodies - slack || result.volume > all + slack) {
-    outcome.problem = "the fluid's volume, " + number_text(result.volume) + " m^3, is not between " + number_text(all - bodies) +
-                      " (container less bodies) and " + number_text(all);
+    outcome.problem = "the fluid's volume, " + number_text(result.volume) + " m^3, is outside the limits " + number_text(all - bodies) +
+                      " (container minus bodies) and " + number_text(all);
     return;
   }
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartExposure& e = parts[p].exposure;
     const double least = p == 0 ? e.outside : 1.0 - e.outside - e.unsure, most = p == 0 ? e.outside + e.unsure : 1.0 - e.outside;
     if (areas[p] >= (least - k_area_share) * parts[p].area && areas[p] <= (most + k_area_share) * parts[p].area) continue;
-    outcome.problem = number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" meet the fluid, but should " + number_text(least * parts[p].area) + " to " +
+    outcome.problem = number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" border the fluid, expected " + number_text(least * parts[p].area) + " to " +
                       number_text(most * parts[p].area);
     return;
   }
@@ -134,7 +133,7 @@ std::vector<ErrorPlace> pieces_of(const Model& model, const std::vector<SolidMea
   for (const SolidId s : model.solids.ids()) {
     const ModelFace& face = model.faces[model.solids[s].faces.front()];
     const ModelEdge& edge = model.edges[face.borders.front().front().edge];
-    places.push_back({model.corners[edge.start].point, "a part of " + number_text(measures[s.index()].volume) + " m^3, at face \"" + face.name + "\""});
+    places.push_back({model.corners[edge.start].point, "fluid region of " + number_text(measures[s.index()].volume) + " m^3, at face \"" + face.name + "\""});
   }
   return places;
 }
@@ -144,14 +143,14 @@ void require_one_piece(const BooleanTry& result, const std::vector<BooleanPart>&
   std::vector<BooleanPart> bodies(parts.begin() + 1, parts.end());
   if (result.model.faces.empty())
     fail_fluid(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {},
-               "nothing is left for the fluid: scale or move one of them");
+               "no volume is left for the fluid: scale or move the bodies or the container");
   if (result.model.solids.size() == 1) return;
   std::vector<SolidMeasures> measures;
   for (const SolidId s : result.model.solids.ids()) measures.push_back(solid_measures(result.model, s));
   fail_fluid(ErrorCode::bad_argument,
              names_of(bodies) + (bodies.size() == 1 ? " cuts" : " cut") + " the fluid in \"" + parts.front().name() + "\" into " +
                  std::to_string(result.model.solids.size()) + " parts",
-             pieces_of(result.model, measures), "the fluid is to be one connected region: move the body off the walls, or let it end in one of them");
+             pieces_of(result.model, measures), "the fluid must be one connected region: move the body off the walls, or let it end in one wall");
 }
 
 Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const FluidOptions& options, FluidReport& report, const RunContext& context) {
@@ -188,7 +187,7 @@ FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, 
   for (const Model& body : bodies)
     for (Model& solid : split_solids(body)) solids.push_back(std::move(solid));
   for (Model& body : unite_touching(solids, {.tolerance = options.tolerance, .time_limit = options.time_limit}, context)) parts.push_back(std::move(body));
-  if (parts.size() == 1) fail_fluid(ErrorCode::bad_argument, "there are no bodies", {}, "a container alone is meshed as it is");
+  if (parts.size() == 1) fail_fluid(ErrorCode::bad_argument, "no body was given", {}, "mesh a container without bodies directly");
   FluidDomain fluid;
   const Meeting meeting = look_at(parts, fluid.report, context);
   require_leave(parts, meeting, may_pass, context);

@@ -28,9 +28,14 @@ struct Schema<FluidOptions> {
                .unit = Unit::metre,
                .min = 0.0,
                .max = 1.0,
-               .help = "points, edges and faces of container and bodies that are nearer than this coincide",
+               .help = "points, edges and faces of container and bodies that are closer than this are treated as coincident",
                .automatic = "0, then 1e-7, 1e-6, 1e-5, 1e-4 of the longest side until the fluid is valid"},
-      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "a try that takes longer ends the cut"},
+      Field<T>{.name = "time_limit",
+               .member = &T::time_limit,
+               .unit = Unit::second,
+               .min = 1.0,
+               .max = 1e6,
+               .help = "time limit of each attempt; a longer attempt ends the cut with an error"},
   };
 };
 

@@ -23,7 +23,7 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_half_attempt = "taking half of the model";
+constexpr const char* k_half_attempt = "cutting the model in half";
 /// Geometry nearer to the plane than this fraction of the longest side is in it: where surface meshers and CAD systems split aircraft, it is a hundred times
 /// nearer.
 constexpr double k_tolerance_share = 1e-6;
@@ -144,8 +144,8 @@ Model without_other_half(const Model& model, const Plane& plane, const HalfModel
     else parts.push_back(std::move(part));
   }
   if (parts.empty())
-    fail_half(ErrorCode::bad_argument, "nothing of the model is on the side of " + plane.name() + " that is kept", {},
-              "keep = \"" + std::string(plane.side > 0.0 ? "-" : "+") + "\" keeps the other one");
+    fail_half(ErrorCode::bad_argument, "no part of the model is on the side of " + plane.name() + " that is kept", {},
+              "keep = \"" + std::string(plane.side > 0.0 ? "-" : "+") + "\" keeps the other side");
   if (parts.size() == 1 && report.n_solids_left_out == 0) return model;
   if (parts.size() == 1) return std::move(parts.front());
   report.was_united = true;
@@ -170,9 +170,9 @@ void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const
   const double least = (1.0 - whole.exposure.outside - whole.exposure.unsure - k_area_share) * whole.area,
                most = (1.0 - whole.exposure.outside + k_area_share) * whole.area;
   if (!(result.volume > 0.0) || result.volume > whole.volume * (1.0 + k_volume_share))
-    outcome.problem = "the half has a volume of " + number_text(result.volume) + " m^3, the whole one of " + number_text(whole.volume);
+    outcome.problem = "the half has a volume of " + number_text(result.volume) + " m^3, the whole model of " + number_text(whole.volume);
   else if (area < least || area > most)
-    outcome.problem = number_text(area) + " m^2 of faces are left, but should be " + number_text(least) + " to " + number_text(most);
+    outcome.problem = number_text(area) + " m^2 of faces are left, expected " + number_text(least) + " to " + number_text(most);
 }
 
 /// Returns the corner nearest to the plane but not in it, for cuts that fail without a location: faces there touch the plane, or run along it.
@@ -209,7 +209,7 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
         "the cut of \"" + part_name(model) + "\" at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " +
             std::to_string(tries.back().tolerance) + " m",
         std::move(places),
-        "faces that touch the plane without crossing it, or run along it nearly, are hard to cut: move the plane a little, or cut the triangulated surface");
+        "faces that touch the plane without crossing it, or run nearly along it, are hard to cut: move the plane a little, or cut the triangulated surface");
   }
   const std::vector<FaceOrigin>& origins = result->origin_of_face;
   return select_faces(result->model, [&](FaceId f) { return origins[f.index()].part == 0; });
@@ -260,7 +260,7 @@ void flatten_rim(Model& model, const Plane& plane, HalfModelReport& report) {
 }  // namespace
 
 HalfModel half_model(const Model& given, const HalfModelOptions& options, const RunContext& context) {
-  if (given.faces.empty()) fail_half(ErrorCode::bad_argument, "it has no faces", {}, "");
+  if (given.faces.empty()) fail_half(ErrorCode::bad_argument, "the model has no faces", {}, "");
   const StageTimer timer(context, "half");
   HalfModel half;
   std::vector<MeasureBox> boxes = boxes_of(given, context);
@@ -271,7 +271,7 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   const bool is_open = !free_edges(given).empty();
   if (half.report.was_half && count(sides, Side::kept) == 0) fail_half(ErrorCode::bad_argument, "all of the model is in the plane " + plane.name(), {}, "");
   if (is_open && count(sides, Side::across) > 0)
-    fail_half(ErrorCode::open_surface, "the model is open, and cannot be cut", open_places(given),
+    fail_half(ErrorCode::open_surface, "the model is open and cannot be cut", open_places(given),
               "close it first: read_cad{ ..., cap = true } closes flat openings");
   half.model = is_open || half.report.was_half ? given : without_other_half(given, plane, options, half.report, context);
   boxes = boxes_of(half.model, context);
@@ -283,12 +283,12 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   // After a cut, borders may deviate from the plane by the tolerance of the cut, but no face is beyond.
   half.model = select_faces(half.model, [&](FaceId f) { return sides[f.index()] == Side::kept || sides[f.index()] == Side::across; });
   require_rim_in_plane(half.model, plane,
-                       half.report.was_half ? "a half model is open at its plane of symmetry alone"
-                                            : "the cut may be taken along another plane (axis, at), or the tolerance be larger");
+                       half.report.was_half ? "close these edges: a half model may be open only at its plane of symmetry"
+                                            : "cut along another plane (axis, at), or use a larger tolerance");
   flatten_rim(half.model, plane, half.report);
   if (half.report.n_rim_edges == 0)
     fail_half(ErrorCode::bad_argument, "the model does not reach the plane " + plane.name(), {},
-              "axis and at say which plane; a model without a plane of symmetry is meshed whole");
+              "set the plane with axis and at; mesh a model without a plane of symmetry as a whole");
   return half;
 }
 

@@ -24,20 +24,20 @@ struct Schema<HalfModelOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "axis", .member = &O::axis, .help = "the coordinate that is constant in the plane", .choices = "x y z"},
       Field<O>{.name = "at", .member = &O::at, .unit = Unit::metre, .help = "the value of this coordinate in the plane"},
-      Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: of larger (+) or smaller (-) coordinates", .choices = "+ -"},
+      Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: larger (+) or smaller (-) coordinates", .choices = "+ -"},
       Field<O>{.name = "tolerance",
                .member = &O::tolerance,
                .unit = Unit::metre,
                .min = 0.0,
                .max = 1.0,
-               .help = "what is this near to the plane is in it",
+               .help = "geometry closer to the plane than this counts as in the plane",
                .automatic = "1e-6 of the longest side"},
       Field<O>{.name = "time_limit",
                .member = &O::time_limit,
                .unit = Unit::second,
                .min = 1.0,
                .max = 1e6,
-               .help = "a try that takes longer ends the union or the cut"},
+               .help = "time limit of each attempt; a longer attempt ends the union or the cut with an error"},
   };
 };
 

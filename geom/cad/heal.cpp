@@ -66,7 +66,7 @@ constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
     {"FixAdvWire.FixLacking.MSG5", "missing edge of a border inserted"},
     {"FixAdvFace.FixMissingSeam.MSG0", "missing seam added"},
     {"FixAdvFace.FixSmallAreaWire.MSG0", "border without area removed"},
-    {"FixAdvFace.FixOrientation.MSG0", "face without border given its natural one"},
+    {"FixAdvFace.FixOrientation.MSG0", "natural border added to a face without border"},
     {"FixAdvFace.FixOrientation.MSG5", "border that ran the wrong way reversed"},
     {"FixAdvFace.FixOrientation.MSG11", "border that cannot be oriented"},
     {"FixAdvFace.FixLoopWire.MSG0", "border split into several"},
@@ -76,11 +76,11 @@ constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
     {"FixWireframe.FixSmallEdges.MSG1", "small border removed"},
     {"FixWireframe.FixSmallEdges.MSG2", "small face removed"},
     {"FixWireframe.FixFixWireGaps.MSG0", "gap in a border closed"},
-    {"Fix.SplitCommonVertex.MSG0", "borders with a common corner taken apart"},
-    {"FixEdge.SameParameter.MSG0", "curves of an edge given the same parameter"},
+    {"Fix.SplitCommonVertex.MSG0", "borders with a common corner separated"},
+    {"FixEdge.SameParameter.MSG0", "curves of an edge reparametrised to agree"},
     {"FixAdvShell.FixOrientation.MSG0", "faces of a shell oriented alike"},
     {"FixAdvShell.FixOrientation.MSG30", "shell of parts that do not touch split"},
-    {"FixAdvSolid.FixOrientation.MSG20", "solid turned right side out"},
+    {"FixAdvSolid.FixOrientation.MSG20", "orientation of an inside-out solid reversed"},
 }};
 
 /// Collects the messages of OpenCASCADE's fixers in their order.
@@ -156,7 +156,7 @@ void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
         return std::abs(a.area - b.area) <= k_same_face * b.area && a.centre.Distance(b.centre) <= k_same_face * std::sqrt(b.area);
       };
       if (std::any_of(known.begin(), known.end(), is_double)) {
-        report.mended.push_back({.what = "doubled face removed", .place = place_of(f.Current())});
+        report.mended.push_back({.what = "duplicate face removed", .place = place_of(f.Current())});
         context->Remove(f.Current());
         is_changed = true;
       } else {
@@ -182,13 +182,13 @@ std::string changed_text(const char* what, double before, double after, const ch
 
 /// Warns if a repair changed the area or the volume of a part by more than rounding; the effect of a wrong border would otherwise be lost silently.
 void tell_change(const std::string& name, const Extent& before, const Extent& after, const Point& place, CadReport& report) {
-  const std::string area = changed_text("its area", before.area, after.area, "m^2");
-  const std::string volume = before.volume != 0.0 && after.volume == 0.0 ? "it is no longer closed"
-                             : before.volume != 0.0                      ? changed_text("its volume", before.volume, after.volume, "m^3")
+  const std::string area = changed_text("area", before.area, after.area, "m^2");
+  const std::string volume = before.volume != 0.0 && after.volume == 0.0 ? "the part is no longer closed"
+                             : before.volume != 0.0                      ? changed_text("volume", before.volume, after.volume, "m^3")
                                                                          : "";
   if (area.empty() && volume.empty()) return;
-  report.warnings.push_back("mending changed \"" + name + "\" near " + format_point(place) + ": " + area + (area.empty() || volume.empty() ? "" : ", ") +
-                            volume + "; compare with the program that wrote the file, heal = false reads it as it is");
+  report.warnings.push_back("repairs changed \"" + name + "\" near " + format_point(place) + ": " + area + (area.empty() || volume.empty() ? "" : ", ") +
+                            volume + "; compare with the program that wrote the file; heal = false reads the file without repairs");
 }
 
 /// Repairs faces, borders and shells that OpenCASCADE's check rejects.
@@ -267,8 +267,8 @@ void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result
   if (!is_same_area || !is_same_extent(volume_of(part.shape, middle), volume_of(result, middle))) {
     const Point place = report.mended.size() > n_notes_before ? report.mended[n_notes_before].place : place_of(part.shape);
     report.mended.resize(n_notes_before);
-    report.warnings.push_back(std::string(what) + " near " + format_point(place) + " were kept: dropping them would change the " +
-                              (is_same_area ? "volume" : "area") + " by more than 1e-6 of it");
+    report.warnings.push_back(std::string(what) + " near " + format_point(place) + " were kept: removing them would change the " +
+                              (is_same_area ? "volume" : "area") + " by more than a fraction of 1e-6");
     return;
   }
   move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
@@ -401,7 +401,7 @@ void make_solids(LabelledShape& labelled, CadReport& report) {
   for (ShapePart& part : labelled.parts) {
     if (part.shape.ShapeType() == TopAbs_SHELL && is_closed(part.shape)) {
       part.shape = ShapeFix_Solid().SolidFromShell(TopoDS::Shell(part.shape));
-      report.mended.push_back({.what = "closed shell made a solid", .place = place_of(part.shape)});
+      report.mended.push_back({.what = "closed shell turned into a solid", .place = place_of(part.shape)});
     } else if (part.shape.ShapeType() == TopAbs_SOLID) {
       TopoDS_Solid solid = TopoDS::Solid(part.shape);
       GProp_GProps volume;
@@ -409,7 +409,7 @@ void make_solids(LabelledShape& labelled, CadReport& report) {
       if (volume.Mass() >= 0.0 || count_free_edges({solid}) > 0) continue;
       if (!BRepLib::OrientClosedSolid(solid)) continue;
       part.shape = solid;
-      report.mended.push_back({.what = "solid turned right side out", .place = place_of(part.shape)});
+      report.mended.push_back({.what = "orientation of an inside-out solid reversed", .place = place_of(part.shape)});
     }
   }
 }

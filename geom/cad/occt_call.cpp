@@ -83,7 +83,7 @@ std::mutex& occt_mutex() {
 [[noreturn]] void fail(const OcctTask& task, const std::string& problem, const std::string& complaints, const char* otherwise) {
   throw Error({.code = ErrorCode::geometry_failed,
                .attempted = task.attempted,
-               .problem = problem + (complaints.empty() ? "" : "; OpenCASCADE says: " + complaints),
+               .problem = problem + (complaints.empty() ? "" : "; OpenCASCADE reports: " + complaints),
                .hint = task.hint.empty() ? otherwise : task.hint});
 }
 
@@ -110,8 +110,8 @@ void run_occt(const OcctTask& task, const RunContext& context, const std::functi
     const std::string name = failure.DynamicType()->Name();
     const std::string text = failure.GetMessageString() ? failure.GetMessageString() : "";
     context.check_stop();
-    fail(task, "OpenCASCADE gave up with " + name + (text.empty() ? "" : " (" + text + ")"), messenger.words(),
-         "another tolerance, or fewer parts at once, which shows the one that it is about");
+    fail(task, "OpenCASCADE failed with " + name + (text.empty() ? "" : " (" + text + ")"), messenger.words(),
+         "another tolerance, or fewer parts at once to find the part that causes the failure");
   }
   refuse_when_late();
 }

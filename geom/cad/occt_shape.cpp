@@ -110,7 +110,7 @@ std::vector<ErrorPlace> collect_faults(const CadShape::Content& content) {
     add(content.solids[s], solid);
     for (TopExp_Explorer shell(content.solids[s], TopAbs_SHELL); shell.More(); shell.Next()) add(shell.Current(), solid);
   }
-  if (faults.empty()) faults.push_back({place_of(content.shape), "the whole: rejected by OpenCASCADE's check"});
+  if (faults.empty()) faults.push_back({place_of(content.shape), "whole shape: rejected by OpenCASCADE's check"});
   return faults;
 }
 
@@ -157,7 +157,7 @@ std::vector<ErrorPlace> faults_of(const CadShape& shape) {
   try {
     return collect_faults(shape.content());
   } catch (const Standard_Failure& failure) {
-    return {{place_of(shape.content().shape), std::string("the whole: OpenCASCADE's check gave up with ") + failure.DynamicType()->Name()}};
+    return {{place_of(shape.content().shape), std::string("whole shape: OpenCASCADE's check failed with ") + failure.DynamicType()->Name()}};
   }
 }
 

@@ -142,11 +142,11 @@ void cap_openings(LabelledShape& labelled, CadReport& report) {
     }
     part.shape = shell_with(part.shape, caps);
   }
-  if (n_rims == 0) report.warnings.emplace_back("cap = true changes nothing: there is no opening");
+  if (n_rims == 0) report.warnings.emplace_back("cap = true has no effect: the model has no opening");
   else if (n_caps < n_rims)
     report.warnings.push_back(std::to_string(n_rims - n_caps) + " of " + std::to_string(n_rims) +
-                              " openings are not flat, so cap = true leaves them, the first about " + format_point(*bent) +
-                              "; `sterna repair` and --auto close them on the triangles");
+                              " openings are not flat and stay open with cap = true; the first is near " + format_point(*bent) +
+                              "; `sterna repair` and --auto close them in the triangulation");
 }
 
 }  // namespace sterna::cad

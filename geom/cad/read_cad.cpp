@@ -45,9 +45,9 @@ std::string number(double value) {
 void doubt_unit(double size, bool is_given, CadReport& report) {
   const bool looks_like_metres = size < k_small_size && k_aircraft.contains(size / report.unit);
   if (is_given || size <= 0.0 || (size >= k_smallest_size && size <= k_largest_size && !looks_like_metres)) return;
-  const std::string as = report.format == CadFormat::brep ? "a BREP file has no unit; taken as metres" : "the file's unit (" + report.file_unit + ")";
+  const std::string as = report.format == CadFormat::brep ? "a BREP file has no unit; reading it in metres" : "the file's unit (" + report.file_unit + ")";
   report.warnings.push_back(as + " makes the model " + number(size) + " m long; its numbers span " + number(size / report.unit) +
-                            ": if that is in another unit, give `unit` (1 for m, 0.001 for mm)");
+                            ": if the unit is wrong, give `unit` (1 for m, 0.001 for mm)");
 }
 
 /// Names loose faces and shells after the file if they have no other name.
@@ -199,13 +199,13 @@ CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::stri
     if (translated.labelled.parts.empty())
       throw Error({.code = ErrorCode::file_malformed,
                    .attempted = attempted,
-                   .problem = "no face in it",
-                   .hint = "only solids, shells and faces are read, no wires or meshes"});
+                   .problem = "the file holds no face",
+                   .hint = "export solids, shells or faces; wires and meshes are not read"});
     report.file_unit = translated.file_unit;
     for (const std::string& loss : translated.losses) report.warnings.push_back(loss + "; compare area and volume with the program that wrote the file");
     for (const std::string& face : translated.seams.failed)
       report.warnings.push_back("the face " + face +
-                                " covers a closed surface, and its holes leave no place for a seam: OpenCASCADE may read it wrongly. "
+                                " covers a closed surface, and its holes leave no room for a seam: OpenCASCADE may read it wrongly. "
                                 "Compare area and volume with the program that wrote the file, or give the model as BREP");
     report.unit = is_automatic(options.unit) ? translated.unit : options.unit;
     if (report.unit != translated.unit) scale(translated.labelled, report.unit / translated.unit);
@@ -236,15 +236,15 @@ std::string to_text(const CadReport& report) {
   std::map<std::string, std::vector<const CadMend*>> by_kind;
   for (const CadMend& mend : report.mended) by_kind[mend.what].push_back(&mend);
   for (const auto& [what, mends] : by_kind) {
-    text += "\n  mended: " + what + ", " + std::to_string(mends.size()) + " x";
+    text += "\n  repaired: " + what + ", " + std::to_string(mends.size()) + " x";
     for (std::size_t i = 0; i < std::min<std::size_t>(mends.size(), 3); ++i)
       text += (i == 0 ? ": " : ", ") + format_point(mends[i]->place) + (mends[i]->value > 0.0 ? " " + cad::number(mends[i]->value) + " m" : "");
     if (mends.size() > 3) text += " ...";
   }
   for (std::size_t i = 0; i < std::min(report.openings.size(), k_shown); ++i) {
     const CadOpening& opening = report.openings[i];
-    text += "\n  opening: " + std::to_string(opening.edges.size()) + " edges, " + cad::number(opening.length) + " m, about " + format_point(opening.place);
-    if (!opening.is_loop) text += ", no single loop";
+    text += "\n  opening: " + std::to_string(opening.edges.size()) + " edges, " + cad::number(opening.length) + " m, near " + format_point(opening.place);
+    if (!opening.is_loop) text += ", not a single loop";
     if (opening.is_flat) text += ", flat with normal " + format_point(opening.normal) + (opening.is_loop ? ": `cap = true` closes it" : "");
   }
   for (std::size_t i = 0; i < std::min(report.free_edges.size(), k_shown); ++i) {

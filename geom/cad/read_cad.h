@@ -34,37 +34,37 @@ struct Schema<ReadCadOptions> {
                .unit = Unit::metre,
                .min = 1e-9,
                .max = 1e6,
-               .help = "metres for 1 unit of the file's numbers, instead of what its header says",
-               .automatic = "the header's unit; BREP, which has none: 1"},
-      Field<T>{.name = "heal", .member = &T::heal, .help = "mend borders, orientation, gaps, small and doubled faces"},
+               .help = "length of one unit of the file's numbers, in metres; replaces the unit of the header",
+               .automatic = "unit of the header; 1 for BREP, which has no unit"},
+      Field<T>{.name = "heal", .member = &T::heal, .help = "repair borders, orientation, gaps, small and duplicate faces"},
       Field<T>{.name = "sew_tolerance",
                .member = &T::sew_tolerance,
                .unit = Unit::metre,
                .min = 1e-9,
                .max = 1.0,
                .help = "largest gap between faces that is closed by joining their edges",
-               .automatic = "tried up to 1e-5 of the longest side, the least that closes most; edges with common ends also across 1 % of their length"},
+               .automatic =
+                   "the smallest tolerance up to 1e-5 of the longest side that closes the most edges; edges with common ends also across 1 % of their length"},
       Field<T>{.name = "small",
                .member = &T::small,
                .unit = Unit::metre,
                .min = 0.0,
                .max = 1.0,
-               .help = "edges, and strips of faces, shorter than this are dropped",
+               .help = "edges shorter and face strips narrower than this are removed",
                .automatic = "1e-6 of the longest side"},
       Field<T>{.name = "cap",
                .member = &T::cap,
                .help = "close flat openings of shells with plane faces, named after the component: ends of blades and ducts, planes of symmetry"},
       Field<T>{.name = "sheets",
                .member = &T::sheets,
-               .help =
-                   "open shells and loose faces beside closed solids: automatic leaves out those that are flat, lie within a solid or on its edges (sketches, "
-                   "construction planes), with a warning; keep, drop, or patterns of the names of those to leave out: \"sketch*, plane 1\""},
+               .help = "open shells and loose faces beside closed solids: automatic leaves out flat ones and those within a solid or on its edges (sketches, "
+                       "construction planes), with a warning; keep: all; drop: none; or name patterns of those to leave out: \"sketch*, plane 1\""},
       Field<T>{.name = "fluid",
                .member = &T::fluid,
-               .help = "on which side of the outermost closed solids the fluid is: around bodies, or inside of a duct or a complete domain; solids within "
+               .help = "side of the outermost closed solids on which the fluid lies: around bodies, or inside a duct or a complete domain; solids within "
                        "others are bodies. automatic: outside",
                .choices = "automatic outside inside"},
-      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "reading and mending give up after this"},
+      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "time limit for reading and repairing"},
   };
 };
 

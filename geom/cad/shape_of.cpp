@@ -20,7 +20,7 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_shape_attempt = "handing the model to OpenCASCADE";
+constexpr const char* k_shape_attempt = "converting the model to OpenCASCADE";
 
 [[noreturn]] void fail(const std::string& problem, const Point& at) {
   throw Error({.code = ErrorCode::geometry_failed, .attempted = k_shape_attempt, .problem = problem, .places = {{at, problem}}});

@@ -167,14 +167,14 @@ void drop_sheets(LabelledShape& labelled, const ReadCadOptions& options, CadRepo
       ++n_open;
       continue;
     }
-    report.warnings.push_back("the sheet \"" + name + "\" (" + number_text(area) + " m^2 about " + format_point(place_of(part.shape)) + ", " + why +
-                              ") is left out: no fluid is on both sides of it; sheets = \"keep\" keeps all sheets");
+    report.warnings.push_back("the sheet \"" + name + "\" (" + number_text(area) + " m^2 near " + format_point(place_of(part.shape)) + ", " + why +
+                              ") is left out because it does not border the fluid; sheets = \"keep\" keeps all sheets");
   }
   labelled.parts = std::move(kept);
   if (n_open > 0)
     report.warnings.push_back(
-        std::to_string(n_open) + (n_open == 1 ? " open shell stands" : " open shells stand") +
-        " beside closed solids; if no part of the wall, sheets = \"drop\" leaves out all open ones, sheets = \"name*\" those of such names");
+        std::to_string(n_open) + (n_open == 1 ? " open shell is" : " open shells are") +
+        " beside closed solids; if they are not part of the wall, sheets = \"drop\" leaves out all open shells, sheets = \"name*\" those with matching names");
 }
 
 }  // namespace sterna::cad

@@ -218,7 +218,7 @@ class MemoryFile {
   [[noreturn]] void fail(const std::string& source) {
     const std::string reason = std::strerror(errno);
     if (descriptor_ >= 0) close(descriptor_);
-    throw Error({.code = ErrorCode::geometry_failed, .attempted = "reading " + source, .problem = "no memory file: " + reason});
+    throw Error({.code = ErrorCode::geometry_failed, .attempted = "reading " + source, .problem = "cannot create a file in memory: " + reason});
   }
   int descriptor_;
 };
@@ -257,9 +257,10 @@ std::vector<std::string> losses_of(const STEPControl_Reader& reader) {
     const auto n_file = static_cast<std::size_t>(shell->NbCfsFaces());
     const std::size_t n_faces = count_shapes(came, TopAbs_FACE), n_shells = count_shapes(came, TopAbs_SHELL);
     const std::string name = "the shell #" + std::to_string(model->IdentLabel(shell)) + " of " + std::to_string(n_file) + " faces";
-    if (n_faces < n_file) losses.push_back(name + " lost " + std::to_string(n_file - n_faces) + " of them as OpenCASCADE read it");
+    if (n_faces < n_file) losses.push_back(name + " lost " + std::to_string(n_file - n_faces) + " of them when OpenCASCADE read the file");
     if (shell->IsKind(STANDARD_TYPE(StepShape_ClosedShell)) && n_shells > 1)
-      losses.push_back(name + " is closed in the file and fell apart into " + std::to_string(n_shells) + " as OpenCASCADE read it: borders of faces are wrong");
+      losses.push_back(name + " is closed in the file and fell apart into " + std::to_string(n_shells) +
+                       " when OpenCASCADE read the file: borders of faces are wrong");
   }
   return losses;
 }
@@ -280,7 +281,7 @@ Translated translate_step(std::string_view bytes, const std::string& source, con
   result.file_unit = lengths.IsEmpty() ? "none" : lengths.First().ToCString();
   result.seams = give_seams(reader.ChangeReader().StepModel());
   Handle(TDocStd_Document) document = new_document();
-  if (!reader.Transfer(document, progress)) malformed(source, "holds no shape that OpenCASCADE can translate");
+  if (!reader.Transfer(document, progress)) malformed(source, "the file holds no shape that OpenCASCADE can translate");
   result.losses = losses_of(reader.ChangeReader());
   result.labelled = DocumentWalk(document).walk();
   return result;
@@ -310,7 +311,7 @@ Translated translate_iges(std::string_view bytes, const std::string& source, con
   result.file_unit = header.UnitName().IsNull() ? "none" : header.UnitName()->ToCString();
   result.unit = header.UnitValue();  // in units of xstep.cascade.unit, our metre
   Handle(TDocStd_Document) document = new_document();
-  if (!reader.Transfer(document, progress)) malformed(source, "holds no shape that OpenCASCADE can translate");
+  if (!reader.Transfer(document, progress)) malformed(source, "the file holds no shape that OpenCASCADE can translate");
   result.labelled = DocumentWalk(document).walk();
   return result;
 }

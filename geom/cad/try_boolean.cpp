@@ -161,7 +161,7 @@ std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<Boole
       throw Error({.code = ErrorCode::geometry_failed,
                    .attempted = task.attempted + " (" + names_of(parts) + ")",
                    .problem = result.outcome.problem,
-                   .hint = "give it a larger time_limit"});
+                   .hint = "set a larger time_limit"});
   }
   return std::nullopt;
 }

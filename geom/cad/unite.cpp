@@ -31,8 +31,8 @@ std::string volume_objection(const std::vector<Part>& parts, double volume) {
     largest = std::max(largest, part.volume);
   }
   if (volume >= largest - k_volume_share * sum && volume <= sum * (1.0 + k_volume_share)) return {};
-  return "the volume of the result, " + number_text(volume) + " m^3, is not between that of the largest part, " + number_text(largest) + ", and the sum, " +
-         number_text(sum);
+  return "the volume of the result, " + number_text(volume) + " m^3, is not between the volume of the largest part, " + number_text(largest) +
+         ", and the sum of all parts, " + number_text(sum);
 }
 
 /// Returns a description of the first part with too much or too little remaining area.
@@ -41,8 +41,8 @@ std::string area_objection(const std::vector<Part>& parts, const std::vector<dou
     const PartExposure& exposure = parts[p].exposure;
     const double least = (exposure.outside - k_area_share) * parts[p].area, most = (exposure.outside + exposure.unsure + k_area_share) * parts[p].area;
     if (areas[p] < least || areas[p] > most)
-      return number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" are left, but " + number_text(exposure.outside * parts[p].area) +
-             " m^2 of it lie outside of the other parts";
+      return number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" are left, expected " + number_text(exposure.outside * parts[p].area) +
+             " m^2, its area outside of the other parts";
   }
   return {};
 }
@@ -96,17 +96,17 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
       if (climb(alone(parts[a], parts[b], context), options, size, pair_tries, context)) continue;
       blamed = &pair_tries.back();
       add_contacts([&](const PartContact& contact) { return std::minmax(contact.first, contact.second) == std::minmax(a, b); });
-      info.problem = "\"" + parts[a].name() + "\" and \"" + parts[b].name() + "\" do not unite: " + blamed->problem;
+      info.problem = "\"" + parts[a].name() + "\" and \"" + parts[b].name() + "\" cannot be united: " + blamed->problem;
     }
   if (info.problem.empty()) {
-    info.problem = names_of(parts) + " do not unite: " + blamed->problem;
+    info.problem = names_of(parts) + " cannot be united: " + blamed->problem;
     add_contacts([](const PartContact& contact) { return contact.kind != ContactKind::apart; });
   }
   info.problem += "; tried up to a tolerance of " + std::to_string(blamed->tolerance) + " m";
   info.places = blamed->places.empty() ? contacts : blamed->places;
   info.n_places = static_cast<std::int64_t>(info.places.size());
   info.places.resize(std::min(k_max_places, info.places.size()));
-  info.hint = "move or turn one of them a little, so that surfaces neither coincide nor touch tangentially";
+  info.hint = "move or turn one of the parts a little, so that surfaces neither coincide nor touch tangentially";
   throw Error(std::move(info));
 }
 
@@ -128,7 +128,7 @@ void look_at_contacts(std::span<const Model> models, std::vector<Part>& parts, U
 UniteResult unite(std::span<const Model> models, const UniteOptions& options, const RunContext& context) {
   std::vector<Part> parts;
   for (const Model& model : models) parts.push_back(boolean_part(model, k_unite_attempt, context));
-  if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = k_unite_attempt, .problem = "there are none"});
+  if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = k_unite_attempt, .problem = "no part was given"});
   UniteReport report;
   for (const Part& part : parts) {
     report.sum_of_volumes += part.volume;

@@ -27,9 +27,14 @@ struct Schema<UniteOptions> {
                .unit = Unit::metre,
                .min = 0.0,
                .max = 1.0,
-               .help = "points, edges and faces of different parts that are nearer than this coincide",
+               .help = "points, edges and faces of different parts that are closer than this are treated as coincident",
                .automatic = "0, then 1e-7, 1e-6, 1e-5, 1e-4 of the longest side until the union is valid"},
-      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "a try that takes longer ends the union"},
+      Field<T>{.name = "time_limit",
+               .member = &T::time_limit,
+               .unit = Unit::second,
+               .min = 1.0,
+               .max = 1e6,
+               .help = "time limit of each attempt; a longer attempt ends the union with an error"},
   };
 };
 

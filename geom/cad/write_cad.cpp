@@ -180,7 +180,7 @@ Model exact_for_export(const Model& model, const std::string& name, const WriteC
   char error[32];
   std::snprintf(error, sizeof error, "%.2g", report.error);
   context.info("writing " + name + ": " + std::to_string(report.n_surfaces) + " surfaces and " + std::to_string(report.n_curves) +
-               " curves have no exact form; splines within " + error + " m took their places");
+               " curves have no exact form; they were replaced by splines within " + error + " m");
   return exact;
 }
 
@@ -222,17 +222,17 @@ std::string cad_bytes(const Model& original, CadFormat format, const std::string
   if (const std::optional<Model> split = split_closed_faces(model, context)) {
     bytes = bytes_of(*split, format, name, options, context);
     if (differences_of_file(*split, bytes, format, name, context).empty()) {
-      context.info("writing " + name + ": faces on closed surfaces were split into halves, because the format's reader loses whole ones (" +
+      context.info("writing " + name + ": faces on closed surfaces were split into halves, because readers of this format lose undivided ones (" +
                    differences.front() + ")");
       return bytes;
     }
   }
-  std::string problem = "the file, read again, does not hold the model";
+  std::string problem = "the written file does not hold the same model when it is read again";
   for (const std::string& difference : differences) problem += "; " + difference;
   throw Error({.code = ErrorCode::geometry_failed,
                .attempted = "writing " + name,
                .problem = problem,
-               .hint = "BREP files hold a model as it is; fewer parts at once show the one that it is about"});
+               .hint = "write a BREP file, which holds the model unchanged; or write fewer parts at once to find the part that causes the failure"});
 }
 
 }  // namespace sterna::cad

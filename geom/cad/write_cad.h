@@ -24,7 +24,7 @@ struct Schema<WriteCadOptions> {
                .unit = Unit::metre,
                .min = 1e-9,
                .max = 1.0,
-               .help = "surfaces and curves without an exact form (deformed, of functions) become splines within it",
+               .help = "surfaces and curves without an exact form (deformed, of functions) become splines within this distance",
                .automatic = "1e-6 of the longest side"},
       Field<T>{.name = "step_schema", .member = &T::step_schema, .help = "application protocol of STEP files", .choices = "ap203 ap214 ap242"},
   };

@@ -229,12 +229,12 @@ void count(FaceState& state, const RefineReport& done, FaceMeshReport& report) {
   report.n_refused += static_cast<std::int64_t>(done.n_too_near + done.n_beyond_border + done.n_folded);
   if (!done.is_limit_met) return;
   const VertexId last(static_cast<std::uint64_t>(state.mesh.points.size() - 1));
-  ErrorInfo info{
-      .code = ErrorCode::overflow,
-      .attempted = "meshing a face",
-      .problem = "the limit of " + std::to_string(state.options.max_triangles) + " triangles (max_triangles) is met before the edges are as short as wanted"};
-  info.places.push_back({state.mesh.points[last], "edge length wanted here: " + std::to_string(state.size[last]) + " m"});
-  info.hint = "larger edges, a larger curvature_angle or min_edge, or a higher limit";
+  ErrorInfo info{.code = ErrorCode::overflow,
+                 .attempted = "meshing a face",
+                 .problem = "the limit of " + std::to_string(state.options.max_triangles) +
+                            " triangles (max_triangles) is reached before the edges have their target length"};
+  info.places.push_back({state.mesh.points[last], "target edge length here: " + std::to_string(state.size[last]) + " m"});
+  info.hint = "a larger max_edge, min_edge or curvature_angle, or a higher limit";
   throw Error(std::move(info));
 }
 

@@ -145,7 +145,7 @@ void check_border(const FaceBorder& border) {
     if (loop.size() < 3)
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "meshing a face",
-                   .problem = "a loop of the border has " + std::to_string(loop.size()) + " points; three are needed"});
+                   .problem = "a loop of the border has " + std::to_string(loop.size()) + " points; at least three are needed"});
   if (border.loops.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "meshing a face", .problem = "the face has no border"});
 }
 

@@ -96,16 +96,23 @@ struct Schema<delaunay::FaceMeshOptions> {
                .unit = Unit::radian,
                .min = 0.001,
                .max = 1.6,
-               .help = "an edge spans at most this angle of the surface"},
-      Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature asks for no shorter edges"},
+               .help = "largest angle by which the surface turns along an edge"},
+      Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "shortest edge that curvature may require"},
       Field<O>{.name = "size_growth",
                .member = &O::size_growth,
                .min = 0.01,
                .max = 2.0,
-               .help = "change of the edge length by distance, from curvature and from the border"},
-      Field<O>{.name = "min_angle", .member = &O::min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.55, .help = "goal of the pass that refines by quality"},
-      Field<O>{.name = "smoothing_sweeps", .member = &O::smoothing_sweeps, .min = 0, .max = 100, .help = "sweeps over the vertices, at most"},
-      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 1e9, .help = "of one face; beyond it is an error"},
+               .help = "largest change of the edge length per distance, away from curved parts and from the border"},
+      Field<O>{.name = "min_angle",
+               .member = &O::min_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 0.55,
+               .help = "target angle of the pass that refines by quality"},
+      Field<O>{
+          .name = "smoothing_sweeps", .member = &O::smoothing_sweeps, .min = 0, .max = 100, .help = "largest number of smoothing sweeps over the vertices"},
+      Field<O>{
+          .name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 1e9, .help = "largest number of triangles of one face; more are an error"},
   };
 };
 

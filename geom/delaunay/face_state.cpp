@@ -30,7 +30,7 @@ double wanted_size(const FaceState& state, Uv at, const Point& point) {
   if (!(size > 0.0)) {
     ErrorInfo info{.code = ErrorCode::bad_argument,
                    .attempted = "meshing a face",
-                   .problem = "the wanted edge length is " + std::to_string(size) + " m; it has to be positive"};
+                   .problem = "the target edge length is " + std::to_string(size) + " m, must be positive"};
     info.places.push_back({point, "here"});
     throw Error(std::move(info));
   }

@@ -34,7 +34,7 @@ constexpr std::size_t k_flip_limit_factor = 64;
                             std::to_string(c.value()) + " and " + std::to_string(d.value())};
   info.places.push_back({place, "crossing of the segments " + format_point(at(pa)) + " - " + format_point(at(pb)) + " and " + format_point(at(pc)) + " - " +
                                     format_point(at(pd))});
-  info.hint = "borders may touch at common points only";
+  info.hint = "borders may touch only at common points";
   info.geometry.points = {at(pa), at(pb), at(pc), at(pd), place};
   info.geometry.edges = {{0, 1}, {2, 3}};
   info.geometry.vertices = {4};
@@ -91,8 +91,9 @@ void flip_crossing_edges(Triangulation& mesh, VertexId a, VertexId b, std::deque
   std::size_t allowed = k_flip_limit_factor * (crossing.size() + 1) * (crossing.size() + 1);
   while (!crossing.empty()) {
     if (allowed-- == 0)
-      throw Error(
-          {.code = ErrorCode::internal, .attempted = "inserting a segment into a triangulation", .problem = "flipping the edges in its way did not end"});
+      throw Error({.code = ErrorCode::internal,
+                   .attempted = "inserting a segment into a triangulation",
+                   .problem = "flipping the edges that cross the segment did not end"});
     const Edge edge = crossing.front();
     crossing.pop_front();
     const HalfedgeId h = find_edge(mesh, edge.a, edge.b);

@@ -23,7 +23,7 @@ void check_input(std::span<const Vec2> points, std::span<const Segment> segments
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) fail("point " + std::to_string(i) + " has a coordinate that is not finite");
   for (std::size_t i = 0; i < segments.size(); ++i)
     if (std::max(segments[i].from, segments[i].to) >= points.size())
-      fail("segment " + std::to_string(i) + " ends at point " + std::to_string(std::max(segments[i].from, segments[i].to)) + ", but there are " +
+      fail("segment " + std::to_string(i) + " ends at point " + std::to_string(std::max(segments[i].from, segments[i].to)) + ", the number of points is " +
            std::to_string(points.size()));
 }
 

@@ -53,7 +53,7 @@ void check_segments(const Triangulation& mesh, const std::vector<Segment>& segme
     if (info.places.size() < 10) info.places.push_back({border.samples[s.from].point, "segment of the border to " + format_point(border.samples[s.to].point)});
   }
   if (info.n_places == 0) return;
-  info.hint = "borders may meet in single points; a face this narrow has to be absorbed by its neighbours";
+  info.hint = "borders may meet only in single points; merge a face this narrow with its neighbours";
   throw Error(std::move(info));
 }
 
@@ -83,7 +83,7 @@ SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale,
     throw_in_space(error, border, scale);
   }
   if (surface.mesh.cells.empty()) {
-    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_border_attempt, .problem = "nothing lies inside the border in (u, v)"};
+    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_border_attempt, .problem = "the border encloses no area in (u, v)"};
     if (!border.samples.empty()) info.places.push_back({border.samples[0].point, "first point of the border"});
     throw Error(std::move(info));
   }

@@ -38,7 +38,7 @@ const cairo_user_data_key_t k_font_key{};
 cairo_font_face_t* open_font() {
   auto font = std::make_unique<Font>();
   const auto bytes = embedded_font();
-  if (FT_Init_FreeType(&font->library) != 0) fail("FreeType does not start");
+  if (FT_Init_FreeType(&font->library) != 0) fail("the FreeType library cannot be initialised");
   if (FT_New_Memory_Face(font->library, bytes.data(), static_cast<FT_Long>(bytes.size()), 0, &font->face) != 0) fail("the embedded font cannot be read");
   cairo_font_face_t* const face = cairo_ft_font_face_create_for_ft_face(font->face, FT_LOAD_NO_HINTING);
   const cairo_status_t status = cairo_font_face_set_user_data(face, &k_font_key, font.get(), [](void* data) { delete static_cast<Font*>(data); });

@@ -38,7 +38,7 @@ const std::array<NamedView, 7>& named_views() {
 [[noreturn]] void reject(std::string_view option, const std::string& text, std::string hint) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "draw: option " + std::string(option),
-               .problem = "\"" + text + "\" cannot be read",
+               .problem = "\"" + text + "\" is not valid",
                .hint = std::move(hint)});
 }
 
@@ -84,7 +84,7 @@ std::string lower(std::string_view text) {
 }
 
 constexpr std::string_view k_view_hint =
-    "iso, front, back, left, right, top, bottom, \"225 30\" (azimuth, elevation) or \"-1,-1,0.5\" (from the mesh to the eye)";
+    "iso, front, back, left, right, top, bottom, \"225 30\" (azimuth, elevation) or \"-1,-1,0.5\" (from the mesh to the viewer)";
 constexpr std::string_view k_plane_hint = "write x=1.2, y=0, z=-0.5 or \"point=0,0,0 normal=0,1,0\"";
 
 }  // namespace
@@ -95,8 +95,8 @@ void throw_unknown(std::string_view attempted, std::string_view what, const std:
   const std::string nearest = nearest_name(given, known);
   throw Error({.code = ErrorCode::unknown_option,
                .attempted = std::string(attempted),
-               .problem = "there is no " + std::string(what) + " \"" + given + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
-               .hint = (list.empty() ? std::string() : "there are " + list) + std::string(more)});
+               .problem = "unknown " + std::string(what) + " \"" + given + "\"" + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"),
+               .hint = (list.empty() ? std::string() : "choose one of " + list) + std::string(more)});
 }
 
 std::optional<Vec3> view_of(const std::string& text) {
@@ -138,12 +138,12 @@ std::optional<Sphere> sphere_of(const std::string& text) {
   const auto radius = value_of(text, "radius");
   const std::size_t blank = text.rfind(' ', text.find("radius="));
   if (!radius) {
-    if (!numbers_of(text, Unit::metre).empty()) reject("focus", text, "say how far to look: \"1,2,0 radius=0.5\"");
+    if (!numbers_of(text, Unit::metre).empty()) reject("focus", text, "give the radius of the region shown, metres: \"1,2,0 radius=0.5\"");
     return std::nullopt;
   }
   const std::optional<Vec3> center = vector_of(std::string_view(text).substr(0, blank == std::string::npos ? 0 : blank), Unit::metre);
   const std::vector<double> length = numbers_of(*radius, Unit::metre);
-  if (!center || length.size() != 1 || !(length[0] > 0.0)) reject("focus", text, "write \"1,2,0 radius=0.5\", metres");
+  if (!center || length.size() != 1 || !(length[0] > 0.0)) reject("focus", text, "write a point and a radius in metres: \"1,2,0 radius=0.5\"");
   return Sphere{*center, length[0]};
 }
 
@@ -152,7 +152,7 @@ const CutPlace& place_of(std::span<const CutPlace> places, const std::string& na
     if (place.name == lower(name)) return place;
   std::vector<std::string> known;
   for (const CutPlace& place : places) known.push_back(place.name);
-  throw_unknown(attempted, what, name, known, known.empty() ? "the mesh has no places of its own" : "");
+  throw_unknown(attempted, what, name, known, known.empty() ? "the mesh has no named locations" : "");
 }
 
 }  // namespace sterna::draw

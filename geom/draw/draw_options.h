@@ -34,44 +34,47 @@ struct Schema<DrawOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "view",
                .member = &O::view,
-               .help = "iso, front, back, left, right, top, bottom; \"225 30\": azimuth and elevation in degrees of where one stands (180: ahead of the nose, "
-                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the eye; automatic: iso, of half models from the side of the fluid, of a cut "
+               .help = "iso, front, back, left, right, top, bottom; \"225 30\": azimuth and elevation of the viewer in degrees (180: ahead of the nose, "
+                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the viewer; automatic: iso; half models from the fluid side; a cut "
                        "along its normal"},
       Field<O>{.name = "color",
                .member = &O::color,
-               .help = "patch, kind, quality, or a figure of the faces (edge_length, skew, layer_height ...) or of cut cells (volume, layer); automatic: "
-                       "patch, of a cut kind"},
+               .help = "patch, kind, quality, or a quantity of the faces (edge_length, skew, layer_height ...) or of cut cells (volume, layer); automatic: "
+                       "patch; with a cut: kind"},
       Field<O>{.name = "cut",
                .member = &O::cut,
-               .help = "a place by name (\"leading edge\", \"tip\", \"section 50%\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\": cells that the plane "
-                       "crosses; none"},
-      Field<O>{.name = "focus",
-               .member = &O::focus,
-               .help = "\"1,2,0 radius=0.5\" (m), or a place by name: what fills the picture; automatic: all that is shown, of a cut by name its place"},
+               .help = "show the cells that a plane crosses: a named location (\"leading edge\", \"tip\", \"section 50%\" ...), \"x=1.2\", or \"point=0,0,0 "
+                       "normal=0,1,0\"; none: no cut"},
+      Field<O>{
+          .name = "focus",
+          .member = &O::focus,
+          .help = "region that fills the picture: \"1,2,0 radius=0.5\" (m), or a named location; automatic: everything shown; with a named cut: its location"},
       Field<O>{.name = "patches",
                .member = &O::patches,
                .help = "names or patterns of the patches that are shown, separated by blanks; automatic: walls; none: no patch"},
-      Field<O>{.name = "projection", .member = &O::projection, .help = "of the view", .choices = "orthographic perspective"},
+      Field<O>{.name = "projection", .member = &O::projection, .help = "projection of the view", .choices = "orthographic perspective"},
       Field<O>{.name = "width", .member = &O::width, .min = 100, .max = k_max_size, .help = "pixels"},
       Field<O>{.name = "height", .member = &O::height, .min = 100, .max = k_max_size, .help = "pixels"},
       Field<O>{.name = "edges", .member = &O::edges, .help = "draw the edges of faces and cells"},
       Field<O>{.name = "legend", .member = &O::legend, .help = "draw legend, axes and scale"},
       Field<O>{.name = "range_min",
                .member = &O::range_min,
-               .help = "value of the first colour, in the figure's unit (degrees for angles)",
-               .automatic = "all but the lowest 1 % of what is shown"},
+               .help = "value of the first colour, in the unit of the quantity (degrees for angles)",
+               .automatic = "excludes the lowest 1 % of the values shown"},
       Field<O>{.name = "range_max",
                .member = &O::range_max,
-               .help = "value of the last colour, in the figure's unit (degrees for angles)",
-               .automatic = "all but the highest 1 % of what is shown"},
-      Field<O>{.name = "title", .member = &O::title, .help = "text at the top; automatic: the file's name and what is shown; none: no text"},
-      Field<O>{.name = "places", .member = &O::places, .help = "mark the worst place of every gate that check does not pass, and what makes the mesh INVALID"},
+               .help = "value of the last colour, in the unit of the quantity (degrees for angles)",
+               .automatic = "excludes the highest 1 % of the values shown"},
+      Field<O>{.name = "title", .member = &O::title, .help = "text at the top; automatic: file name and content; none: no text"},
+      Field<O>{.name = "places",
+               .member = &O::places,
+               .help = "mark the worst location of every gate that does not pass, and the defects that make the mesh INVALID"},
       Field<O>{.name = "unit",
                .member = &O::unit,
                .unit = Unit::metre,
                .min = 1e-9,
                .max = 1e9,
-               .help = "of files: length of one unit (mm, cm, inch, ft are numbers)"},
+               .help = "length of one unit of the input file (mm, cm, inch, ft are numbers)"},
   };
 };
 

@@ -58,7 +58,7 @@ Coloring coloring_of(const std::string& color, bool has_cut) {
     if (has_cut) return Coloring::cell_figure;
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "draw",
-                 .problem = "color = \"" + color + "\" is a figure of cells, and none are shown",
+                 .problem = "color = \"" + color + "\" is a quantity of cells, and no cells are shown",
                  .hint = "give a cut, such as cut = \"section 50%\""});
   }
   throw_unknown("draw", "color", color, known);
@@ -76,7 +76,7 @@ Figure face_figure(const HybridMesh& mesh, const std::string& name, const RunCon
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "draw",
                  .problem = "no face of the mesh has a " + field_name,
-                 .hint = is_known && !list.empty() ? "it has " + list : ""});
+                 .hint = is_known && !list.empty() ? "the mesh has " + list : ""});
   }
   const SurfaceField& field = *find_field(fields, field_name);
   Figure figure;
@@ -125,8 +125,8 @@ void set_range(ColorBar& bar, std::vector<double> shown, const std::string& name
   if (is_given && (!(bar.low < bar.high) || (bar.is_log && bar.low <= 0.0)))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "draw: options range_min, range_max",
-                 .problem = "the colours of " + name + " cannot go from " + number_text(bar.low) + " to " + number_text(bar.high),
-                 .hint = "what is shown goes from " + number_text(bar.smallest) + " to " + number_text(bar.largest)});
+                 .problem = "the colours of " + name + " cannot range from " + number_text(bar.low) + " to " + number_text(bar.high),
+                 .hint = "the values shown range from " + number_text(bar.smallest) + " to " + number_text(bar.largest)});
 }
 
 double ColorBar::share_of(double value) const {

@@ -74,7 +74,7 @@ class SceneBuilder {
       if (!is_used)
         throw Error({.code = ErrorCode::bad_argument,
                      .attempted = "draw: option patches",
-                     .problem = "no patch is like \"" + pattern + "\"",
+                     .problem = "no patch has a name like \"" + pattern + "\"",
                      .hint = names_hint(names, pattern)});
     }
   }
@@ -149,8 +149,8 @@ class SceneBuilder {
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "draw: option cut",
                    .problem = "the plane crosses no cell within " + in_metres(scene_.focus->radius) + " of " + format_point(scene_.focus->center) +
-                              ", where the picture looks; " + clear_plane_text(mesh_, *plane_),
-                   .hint = "places of the mesh are " + names_of_places()});
+                              ", the region shown; " + clear_plane_text(mesh_, *plane_),
+                   .hint = "locations of the mesh are " + names_of_places()});
   }
 
   std::string names_of_places() {

@@ -137,7 +137,7 @@ void report_cells(const HybridMesh& mesh, const CellNumbers& cells, const CellSc
       std::array<Vec3, 8> p;
       for (std::size_t k = 0; k < cell.span().size(); ++k) p[k] = mesh.points[cell.nodes[k]];
       return " has a volume or Jacobian of " + number_text(least_computed_jacobian(cell.kind, std::span(p).first(cell.span().size())), 2) +
-             " of the product of its edges in double precision; the limit is " + number_text(k_solver_margin, 2);
+             " times the product of its edges in double precision; the limit is " + number_text(k_solver_margin, 2);
     });
 }
 

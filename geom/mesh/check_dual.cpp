@@ -46,7 +46,7 @@ DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const Dual
                        cells.name(scan.suspects[i]) + near_patch(mesh, center) +
                            (verdict.is_negative ? std::string(" has a dual sub-volume that is not positive")
                                                 : " has a dual sub-volume of " + number_text(verdict.least, 2) +
-                                                      " of the product of its edges in double precision; the limit is " + number_text(k_solver_margin, 2)));
+                                                      " times the product of its edges in double precision; the limit is " + number_text(k_solver_margin, 2)));
     });
   }
   const GateResult closure = scan.closure.result([&](std::uint64_t node) { return describe_node(mesh, node); });

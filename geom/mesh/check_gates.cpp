@@ -31,7 +31,7 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   const CellItems cell{cells};
   const SlotItems face{slots, "face of "};
   for (const MeasureInfo& info : measures())
-    report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has none"));
+    report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has no items of this type"));
   for (const Measure measure : {Measure::cad_distance, Measure::cad_normal}) report.gates[static_cast<std::size_t>(measure)].reason = k_no_model;
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
 

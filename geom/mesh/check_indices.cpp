@@ -73,7 +73,7 @@ class IndexWalker {
            const int shortest = ends[0] > 0 ? ends[0] : ends[1] > 0 ? ends[1] : ends[2];
            return ends[2] > shortest + 1;
          }))
-      add_unsafe("column " + std::to_string(c) + ": its lines differ by more than one layer");
+      add_unsafe("column " + std::to_string(c) + ": the layer counts of its lines differ by more than one");
     if (!is_safe_) return;
     for (const std::uint64_t c : find_bad(context_, layers.n_columns(), [&](std::size_t column) { return has_repeated_node(layers.base[column]); }))
       findings_.add(Violation::bad_index,

@@ -100,7 +100,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
     return given.get().interface_height(number / static_cast<std::uint64_t>(mesh.layers.n_layers), gaps, limits[Measure::interface_height].hard);
   };
   const auto put = [&](GateResult result) {
-    if (scan.height.empty()) result.reason = "no tet stands on the layer";
+    if (scan.height.empty()) result.reason = "no tetrahedron is adjacent to the top of the layer";
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
   };
   put(scan.height.result(face, prove_height));

@@ -18,8 +18,8 @@ constexpr double k_growth_slack = 0.01;
 /// Relative slack of n h0, the height below which a layer is compressed: covers rounding at the end of the line.
 constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_gate_line_chunk = 1024;
-constexpr const char* k_no_boundary_layer = "no boundary layer was asked for: total_height, boundary_layer, or a first_height of flow conditions";
-constexpr const char* k_no_request = "the mesh does not say what was asked for";
+constexpr const char* k_no_boundary_layer = "no boundary layer was requested (total_height, boundary_layer, or first_height from flow conditions)";
+constexpr const char* k_no_request = "the mesh does not store the requested layer";
 
 /// Data of a line for the coverage.
 struct LineHeight {

@@ -13,7 +13,8 @@ void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findi
   for (const PeriodicSides& sides : mesh.periodic) {
     if (sides.first.index() >= mesh.patches.size() || sides.second.index() >= mesh.patches.size()) {
       findings.add(Violation::bad_index, [&] {
-        return std::pair(Point{}, "periodic sides " + std::to_string(sides.first.value()) + " and " + std::to_string(sides.second.value()) + " are no patches");
+        return std::pair(
+            Point{}, "periodic sides " + std::to_string(sides.first.value()) + " and " + std::to_string(sides.second.value()) + " are not patches of the mesh");
       });
       continue;
     }

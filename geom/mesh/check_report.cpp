@@ -50,7 +50,7 @@ std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   const auto limit = [&](double value) { return std::string(info.is_low_bad ? ">= " : "<= ") + shown_text(info, value); };
   const bool has_share = info.fail_share > 0.0 && limits.hard == info.limits.hard;
-  if (!std::isnan(limits.hard)) add("hard " + limit(limits.hard) + (has_share ? print_text(" but on %g %%", 100.0 * info.fail_share) : ""));
+  if (!std::isnan(limits.hard)) add("hard " + limit(limits.hard) + (has_share ? print_text(" except on %g %%", 100.0 * info.fail_share) : ""));
   if (!std::isnan(limits.target)) add("target " + limit(limits.target));
   if (!std::isnan(limits.usual)) add(limit(limits.usual) + print_text(" on %g %%", 100.0 * limits.usual_share));
   return text;
@@ -99,7 +99,7 @@ std::string gate_text(const GateResult& gate) {
   if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
   text += counts_text(gate);
   if (gate.n_forced > 0)
-    text += "; " + std::to_string(gate.n_forced) + " of " + std::to_string(gate.n_beyond_hard) + " beyond the hard limit are forced by the given surface";
+    text += "; " + std::to_string(gate.n_forced) + " of " + std::to_string(gate.n_beyond_hard) + " beyond the hard limit are forced by the input surface";
   text += "\n";
   for (const GatePlace& place : gate.forced)
     text += "         forced: " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + ": " + place.forcing.why + "; " +
@@ -294,7 +294,7 @@ void CheckReport::restrict_to(Consumers asked) {
     if (gate.state == GateState::not_checked) continue;
     if (!is_shown(gate)) {
       gate.state = GateState::not_checked;
-      gate.reason = "no solver that is asked about uses it";
+      gate.reason = "no selected solver uses this measure";
       continue;
     }
     gate.state = GateState::pass;
@@ -342,7 +342,7 @@ std::string to_text(const CheckReport& report) {
   text += "  cells: " + n(report.cells.prisms) + " prisms, " + n(report.cells.pyramids) + " pyramids, " + n(report.cells.hexahedra) + " hexahedra, " +
           n(report.cells.tetrahedra) + " tetrahedra; " + n(report.n_nodes) + " nodes; boundary: " + n(report.n_boundary_triangles) + " triangles, " +
           n(report.n_boundary_quads) + " quads\n";
-  if (!report.is_complete) text += "  Indices or points are unusable, so nothing else could be checked.\n";
+  if (!report.is_complete) text += "  Indices or points are invalid, so nothing else could be checked.\n";
   for (const std::string_view gate : k_valid_gates) text += gate_line(gate, state_of_gate(report, gate));
   if (report.is_complete) {
     text += print_text("  volume: layer %.9g m^3 (error %.1e), tetrahedra %.9g m^3 (error %.1e), total %.9g m^3\n", report.layer_volume,

@@ -88,9 +88,9 @@ std::vector<std::string> warnings_of(const GeometryChange& change, GeometryChang
   if (use == GeometryChangeUse::keeps_shape) {
     for (const std::vector<PartChange>& joined : change.joined_parts)
       warnings.push_back(change.by + ": parts " + worst_of(joined, words_of) + " are one part of the result");
-    if (const std::string text = differences(change); !text.empty()) warnings.push_back(change.by + ": the geometry differs from the input's: " + text);
+    if (const std::string text = differences(change); !text.empty()) warnings.push_back(change.by + ": the geometry differs from the input: " + text);
   } else if (is_beyond_union(change)) {
-    warnings.push_back(change.by + ": the result is larger than its parts together: " + differences(change));
+    warnings.push_back(change.by + ": the result is larger than the sum of its parts: " + differences(change));
   }
   if (!change.divided_parts.empty())
     warnings.push_back(change.by + ": " + (change.divided_parts.size() == 1 ? "part " : "parts ") + worst_of(change.divided_parts, words_of) +

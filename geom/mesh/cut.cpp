@@ -273,7 +273,7 @@ std::string clear_plane_text(const HybridMesh& mesh, const CutPlane& plane) {
     low = std::min(low, dot(p, along));
     high = std::max(high, dot(p, along));
   }
-  return "the plane is at " + in_metres(dot(plane.origin, along)) + " along " + format_point(along) + ", the mesh reaches from " + in_metres(low) + " to " +
+  return "the plane is at " + in_metres(dot(plane.origin, along)) + " along " + format_point(along) + ", the mesh extends from " + in_metres(low) + " to " +
          in_metres(high);
 }
 

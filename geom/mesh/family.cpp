@@ -115,7 +115,7 @@ void find_factor(const FamilyMember& coarse, const FamilyMember& fine, const Fam
   };
   if (!is_automatic(tolerances.factor)) choose(tolerances.factor, "the option factor");
   else if (coarse.refinement && fine.refinement && *fine.refinement > *coarse.refinement)
-    choose(*fine.refinement / *coarse.refinement, "the refinements asked for");
+    choose(*fine.refinement / *coarse.refinement, "the requested refinements");
   else if (step.factor_by_edges > 0.0) choose(step.factor_by_edges, "the mean wall edges");
   else choose(step.factor_by_nodes, "the nodes");
   if (step.factor > 1.0 && fine.nodes > coarse.nodes) return;
@@ -148,9 +148,9 @@ double box_difference(const Box& a, const Box& b) {
 }
 
 FamilyStep check_step(const FamilyMember& coarse, const FamilyMember& fine, const FamilyTolerances& tolerances) {
-  constexpr const char* k_no_columns = "has no layers as columns: it was read from a file of another format than .sterna";
-  constexpr const char* k_no_request = "does not say what was asked of its layer: it was read from a file of another format than .sterna";
-  constexpr const char* k_no_manifest = "comes without the manifest <file>.json that says it";
+  constexpr const char* k_no_columns = "has no layer columns: the mesh was read from a file other than .sterna";
+  constexpr const char* k_no_request = "does not store the requested layer: the mesh was read from a file other than .sterna";
+  constexpr const char* k_no_manifest = "has no manifest <file>.json, which holds this value";
   FamilyStep step{.coarse = coarse.name, .fine = fine.name, .factor_from = {}, .rules = {}};
   find_factor(coarse, fine, tolerances, step);
   const double f = step.factor;
@@ -159,18 +159,18 @@ FamilyStep check_step(const FamilyMember& coarse, const FamilyMember& fine, cons
             std::abs(step.factor_by_nodes / f - 1.0), tolerances.nodes);
   if (step.factor_by_edges > 0.0) rules.ratio("wall_edge", "factor by mean wall edges, m", coarse.wall_edge, fine.wall_edge, tolerances.wall_edge);
   else rules.skip("wall_edge", "factor by mean wall edges", (coarse.wall_edge > 0.0 ? fine.name : coarse.name) + " has no patch of kind wall");
-  rules.compare(&FamilyMember::first_height, "first_height", "first height asked for, m", k_no_request,
-                [&](double a, double b) { rules.ratio("first_height", "first height asked for, m", a, b, tolerances.first_height); });
+  rules.compare(&FamilyMember::first_height, "first_height", "requested first height, m", k_no_request,
+                [&](double a, double b) { rules.ratio("first_height", "requested first height, m", a, b, tolerances.first_height); });
   rules.compare(&FamilyMember::measured_first, "measured_first", "median first height, m", k_no_columns,
                 [&](double a, double b) { rules.ratio("measured_first", "median first height, m", a, b, tolerances.measured_first); });
   rules.compare(&FamilyMember::layers, "layers", "number of layers", k_no_columns,
                 [&](int a, int b) { rules.add("layers", "number of layers", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f)); });
   rules.compare(&FamilyMember::constant_layers, "constant_layers", "layers of constant height", k_no_columns, [&](int a, int b) {
-    if (a == 1 && b == 1) rules.skip("constant_layers", "layers of constant height", "both grow from the wall on");
+    if (a == 1 && b == 1) rules.skip("constant_layers", "layers of constant height", "in both meshes the heights grow from the first layer on");
     else rules.add("constant_layers", "layers of constant height", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f));
   });
-  rules.compare(&FamilyMember::growth, "growth", "growth asked for", k_no_request,
-                [&](double a, double b) { rules.growth("growth", "growth asked for", a, b, tolerances.growth); });
+  rules.compare(&FamilyMember::growth, "growth", "requested growth", k_no_request,
+                [&](double a, double b) { rules.growth("growth", "requested growth", a, b, tolerances.growth); });
   rules.compare(&FamilyMember::measured_growth, "measured_growth", "median growth", k_no_columns,
                 [&](double a, double b) { rules.growth("measured_growth", "median growth", a, b, tolerances.measured_growth); });
   rules.compare(&FamilyMember::tet_growth, "tet_growth", "growth of tetrahedra", k_no_manifest, [&](double a, double b) {
@@ -217,8 +217,8 @@ FamilyReport check_family(std::vector<FamilyMember> members, const FamilyToleran
   if (members.size() < 2)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "checking a family of meshes",
-                 .problem = "it has " + std::to_string(members.size()) + " member" + (members.size() == 1 ? "" : "s") + ", at least two are compared",
-                 .hint = "give them from coarse to fine"});
+                 .problem = "the family has " + std::to_string(members.size()) + " member" + (members.size() == 1 ? "" : "s") + ", at least two are needed",
+                 .hint = "give the meshes from coarse to fine"});
   FamilyReport report{.members = std::move(members), .steps = {}};
   for (std::size_t i = 0; i + 1 < report.members.size(); ++i) report.steps.push_back(check_step(report.members[i], report.members[i + 1], tolerances));
   return report;

@@ -37,7 +37,7 @@ constexpr int k_curve_bits = 21;
 
 void check_input(std::span<const Vec3> points, std::span<const CornerIndices> triangles) {
   const auto fail = [](const std::string& problem) {
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "looking for crossing triangles", .problem = problem});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "finding crossing triangles", .problem = problem});
   };
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::uint32_t v : triangles[t]) {

@@ -13,8 +13,8 @@ namespace sterna::check_parts {
 namespace {
 
 constexpr int k_proof_digits = 3;  ///< digits of lengths in messages
-constexpr const char* k_remesh = "remesh the wall there (surface_mesh), or split its needles";
-constexpr const char* k_open_edge = "open or fill the edge in the given surface";
+constexpr const char* k_remesh = "remesh the wall there (surface_mesh), or split its sliver triangles";
+constexpr const char* k_open_edge = "open or fill the edge in the input surface";
 
 }  // namespace
 
@@ -73,9 +73,9 @@ std::optional<GivenBoundary::Ring> GivenBoundary::ring_of(NodeId node) const {
 std::optional<Forcing> GivenBoundary::edge_ratio(NodeId node, double limit) const {
   const std::optional<Ring> ring = ring_of(node);
   if (!ring || !(ring->longest > limit * ring->shortest)) return std::nullopt;
-  return Forcing{
-      "the wall has edges of at least " + in_metres(ring->longest, k_proof_digits) + " and at most " + in_metres(ring->shortest, k_proof_digits) + " here",
-      k_remesh};
+  return Forcing{"the wall has an edge of at least " + in_metres(ring->longest, k_proof_digits) + " beside an edge of at most " +
+                     in_metres(ring->shortest, k_proof_digits) + " here",
+                 k_remesh};
 }
 
 /// Returns the angle of the fluid between two boundary triangles at their common side; `a` and `b` run along the side in opposite directions.
@@ -99,7 +99,7 @@ std::optional<Forcing> GivenBoundary::min_dihedral(const std::array<NodeId, 4>& 
       if (boundary_sides_.end() - first > 2 && std::next(first, 2)->first == side) continue;  // baffles, disc cuts: the facing sides are unknown
       const double angle = fluid_angle(first->second, std::next(first)->second);
       if (angle > 0.0 && angle < limit)
-        return Forcing{"the boundary's triangles at its edge leave " + print_text("%.3g deg", angle * k_degrees) + " of fluid", k_open_edge};
+        return Forcing{"the boundary triangles at this edge enclose only " + print_text("%.3g deg", angle * k_degrees) + " of fluid", k_open_edge};
     }
   return std::nullopt;
 }

@@ -29,9 +29,9 @@ constexpr int k_multiplier_sweeps = 100;
 /// Rounding tolerance for the measures of this mesh against bounds that must hold for it, too.
 constexpr double k_bound_slack = 1e-9;
 
-constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or split its needles";
+constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or split its sliver triangles";
 constexpr const char* k_ask_more = "more layers, a larger growth or first height, or a finer wall there";
-constexpr const char* k_fewer_layers = "truncate the layer there, or ask for fewer layers";
+constexpr const char* k_fewer_layers = "truncate the layer there, or request fewer layers";
 
 /// Returns the least share (largest_share() below: the largest) of corner `own` in the centre of a prism with these lengths at its corners, where heights are
 /// at least `stand` times the lengths.
@@ -171,8 +171,8 @@ std::optional<Forcing> GivenLayer::face_weight(const ColumnSide& side, double li
     const double to_near = largest_share(near.step, pair->steps, pair->stand) * near.reach + near_error;
     const double bound = to_near / (to_near + to_far);
     if (to_far > 0.0 && bound < limit)
-      return Forcing{"the wall's triangles reach " + in_metres(near.reach, k_forced_digits) + " and " + in_metres(far.reach, k_forced_digits) +
-                         " from their edge here: no weight above " + print_text("%.3g", bound),
+      return Forcing{"two wall triangles extend " + in_metres(near.reach, k_forced_digits) + " and " + in_metres(far.reach, k_forced_digits) +
+                         " from their common edge here: no face weight can be above " + print_text("%.3g", bound),
                      k_remesh_there};
   }
   return std::nullopt;
@@ -191,8 +191,8 @@ std::optional<Forcing> GivenLayer::volume_ratio(const ColumnSide& side, double l
       heights = std::max(heights, (stand * pair->steps + small.step) / (pair->carry * stand * pair->steps + pair->stand * large.step));
     const double bound = largest / smallest * heights;
     if (bound < limit)
-      return Forcing{"the wall's triangles have " + print_text("%.3g", small.area) + " and " + print_text("%.3g", large.area) + " m^2 here: no ratio above " +
-                         print_text("%.3g", bound),
+      return Forcing{"adjacent wall triangles have " + print_text("%.3g", small.area) + " and " + print_text("%.3g", large.area) +
+                         " m^2 here: no volume ratio can be above " + print_text("%.3g", bound),
                      k_remesh_there};
   }
   return std::nullopt;
@@ -249,8 +249,8 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
   const double across = (layer > 0 ? 2.0 : 1.0) * (size - error), best = std::asin(sine);
   const double bound = (across * best + beside * 0.5 * std::numbers::pi) / (across + beside);
   if (!(bound < limit)) return std::nullopt;
-  return Forcing{"lines that see all facets of the wall are at least " + print_text("%.3g deg", (0.5 * std::numbers::pi - best) * k_degrees) +
-                     " off the normal of their sum here: no orthogonality above " + print_text("%.3g deg", bound * k_degrees),
+  return Forcing{"growth lines visible from all wall facets deviate by at least " + print_text("%.3g deg", (0.5 * std::numbers::pi - best) * k_degrees) +
+                     " from the mean normal of the facets here: no orthogonality can be above " + print_text("%.3g deg", bound * k_degrees),
                  k_more_normals};
 }
 
@@ -306,9 +306,9 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
   if (height > most.last * (1.0 + k_bound_slack) || edge < (wall - most.total) * (1.0 - k_bound_slack)) return std::nullopt;
   const double as_asked = k_regular_height * (wall - most.total_as_asked) / most.last_as_asked;
   const double in_gap = k_regular_height * (wall - most.total) / most.last;
-  const std::string edges = "the wall's edges are " + in_metres(wall, k_forced_digits) + " long here, ";
-  if (as_asked > limit) return Forcing{edges + "and the layer asked for has no last cell above " + in_metres(most.last_as_asked, k_forced_digits), k_ask_more};
-  if (in_gap > limit) return Forcing{edges + "and the gap leaves no last cell above " + in_metres(most.last, k_forced_digits), k_fewer_layers};
+  const std::string edges = "the wall edges are " + in_metres(wall, k_forced_digits) + " long here, ";
+  if (as_asked > limit) return Forcing{edges + "and the requested layer has no last cell above " + in_metres(most.last_as_asked, k_forced_digits), k_ask_more};
+  if (in_gap > limit) return Forcing{edges + "and the gap allows no last cell above " + in_metres(most.last, k_forced_digits), k_fewer_layers};
   return std::nullopt;
 }
 

@@ -23,7 +23,7 @@ namespace sterna::check_parts {
 /// Assumed maximum angle between a line and the direction that sees the facets at its base best, rad; G10 takes that direction as the best.
 inline constexpr double k_lean_room = std::numbers::pi / 18.0;
 inline constexpr const char* k_more_normals =
-    "several normals along that edge (open_ridges = \"always\"), a blunt edge in the given surface, or triangles of like size on both of its sides";
+    "several normals along that edge (open_ridges = \"always\"), a blunt edge in the input surface, or triangles of similar size on both sides of the edge";
 
 /// Returns the maximum error of a triangle's area vector if each of its corners moves by at most `moved`, m^2.
 inline double area_error(double longest_side, double moved) { return 2.0 * moved * (longest_side + moved); }

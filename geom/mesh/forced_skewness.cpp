@@ -166,8 +166,8 @@ std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit
       bound = std::min(bound, wedge.least_skewness(i, j));
       if (!(bound > limit)) return std::nullopt;
     }
-  return Forcing{"the wall turns back within " + print_text("%.3g deg", 2.0 * wedge.half * k_degrees) + " at its edge here: no skewness below " +
-                     print_text("%.3g", bound) + " with one line on each node",
+  return Forcing{"the wall has a sharp edge of " + print_text("%.3g deg", 2.0 * wedge.half * k_degrees) + " here: no skewness can be below " +
+                     print_text("%.3g", bound) + " with one growth line per node",
                  k_more_normals};
 }
 
@@ -196,8 +196,8 @@ std::optional<Forcing> GivenLayer::skewness_of_edge(const ColumnSide& side, doub
   const double reach = std::max({k_centre_reach * norm(between), std::abs(dot(direction, a - middle)), std::abs(dot(direction, b - middle))});
   const double of_wall = norm(miss) / reach;
   if (!(k_like * of_wall > limit && value <= k_like * of_wall)) return std::nullopt;
-  return Forcing{"the wall turns back within " + print_text("%.3g deg", angle * k_degrees) +
-                     " at its edge here: with one line on each node, as it sees both facets " + "best, thin cells have a skewness of " +
+  return Forcing{"the wall has a sharp edge of " + print_text("%.3g deg", angle * k_degrees) +
+                     " here: with one growth line per node, in the direction of best " + "visibility, thin cells have a skewness of " +
                      print_text("%.3g", of_wall),
                  k_more_normals};
 }

@@ -17,11 +17,12 @@ using M = Measure;
 // The coverage limit is 99 % of the whole wall. A limit of 99.5 % for the wing needs a script that identifies the wing patch.
 constexpr Consumers k_of_both{};
 constexpr LimitEvidence k_no_limit{Evidence::none, Evidence::none, ""};
-constexpr LimitEvidence k_proposal{Evidence::cited, Evidence::cited, "a proposal of this project; runs converge beyond it (docs/measurements/gates.md)"};
+constexpr LimitEvidence k_proposal{Evidence::cited, Evidence::cited,
+                                   "a proposal of this project; runs converge beyond this limit (docs/measurements/gates.md)"};
 constexpr LimitEvidence k_flat_by_runs{Evidence::measured, Evidence::cited,
-                                       "docs/measurements/gates.md: runs with more than 0.1 % beyond it diverged or moved drag"};
+                                       "docs/measurements/gates.md: runs with more than 0.1 % beyond the limit diverged or changed drag"};
 constexpr double k_flat_share = 0.001;  // four flat tetrahedra in 50 000 moved drag by 0.5 %, 0.1 % and more spoilt every run
-constexpr LimitEvidence k_by_model{Evidence::definition, Evidence::definition, "the model that the mesh is of"};
+constexpr LimitEvidence k_by_model{Evidence::definition, Evidence::definition, "the model from which the mesh was made"};
 
 constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::scaled_jacobian,
@@ -82,7 +83,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::relative_face_area_ratio,
      "G7",
      "relative_face_area_ratio",
-     "the same over edge / height",
+     "CV area ratio over edge / height",
      "nodes",
      false,
      false,
@@ -93,7 +94,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::stack_growth,
      "G8",
      "stack_growth",
-     "growth along a line",
+     "growth ratio along growth lines",
      "area",
      false,
      false,
@@ -126,7 +127,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::stack_angle,
      "G10",
      "stack_angle",
-     "stack angle beyond the best",
+     "stack angle above best possible",
      "area",
      true,
      false,
@@ -137,14 +138,14 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::first_height,
      "G11",
      "first_height",
-     "first height against request",
+     "deviation of the first height",
      "lines",
      false,
      false,
      {0.2, k_nan, 0.02, 0.99},
      {0, 0.5, 50},
      k_of_both,
-     {Evidence::definition, Evidence::definition, "the first height that was asked for, on 99 % of the lines"},
+     {Evidence::definition, Evidence::definition, "the requested first height, on 99 % of the growth lines"},
      0.01},
     {M::boundary_layer,
      "G12",
@@ -156,10 +157,10 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0.95, 0.99, k_nan, 1.0},
      {},
      k_of_both,
-     {Evidence::definition, Evidence::definition, "total_height, boundary_layer, or the flow that first_height is of"}},
+     {Evidence::definition, Evidence::definition, "total_height, boundary_layer, or the flow conditions of first_height"}},
     {M::coverage, "G12", "coverage", "area at its edge-matching height", "area", false, true, {k_nan, 0.99, k_nan, 1.0}, {}, k_of_both, k_no_limit},
     {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_nan, 0.0, k_nan, 1.0}, {}, k_of_both, k_no_limit},
-    {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_nan, 1.0}, {}, k_of_both, k_proposal},
+    {M::layer_step, "G13", "layer_step", "layer difference across an edge", "edges", false, false, {1, 0, k_nan, 1.0}, {}, k_of_both, k_proposal},
     {M::min_dihedral,
      "G14",
      "min_dihedral",
@@ -378,27 +379,27 @@ std::string_view trouble_of(Measure measure) {
   switch (measure) {
     case M::scaled_jacobian: return "prisms are nearly folded";
     case M::dual_closure: return "control volumes do not close";
-    case M::orthogonality: return "faces of control volumes lie nearly along their edges";
+    case M::orthogonality: return "faces of control volumes are nearly parallel to their edges";
     case M::sub_volume_ratio: return "parts of one control volume differ too much in size";
     case M::face_area_ratio: return "faces of one control volume differ too much in area";
-    case M::relative_face_area_ratio: return "faces of one control volume differ more in area than cells of a layer must";
+    case M::relative_face_area_ratio: return "faces of one control volume differ more in area than a layer requires";
     case M::stack_growth: return "heights of layers jump";
-    case M::interface_height: return "the last cells of the layer do not fit the tetrahedra on them in height";
-    case M::interface_volume: return "the last cells of the layer do not fit the tetrahedra on them in volume";
-    case M::stack_angle: return "lines of the layer lean away from the wall's normal";
-    case M::first_height: return "first cells are not as high as asked for";
+    case M::interface_height: return "the heights of the last layer cells do not match the tetrahedra on them";
+    case M::interface_volume: return "the volumes of the last layer cells do not match the tetrahedra on them";
+    case M::stack_angle: return "growth lines lean away from the wall normal";
+    case M::first_height: return "first cells do not have the requested height";
     case M::boundary_layer: return "the layer is lower than the boundary layer";
     case M::coverage: return "the layer is lower than the geometry permits, so that its last cells do not match the edges of the tetrahedra";
     case M::collapsed: return "parts of the wall have no layer";
     case M::layer_step: return "numbers of layers differ too much across an edge";
     case M::min_dihedral: return "tetrahedra are flat: sharp angles";
     case M::max_dihedral: return "tetrahedra are flat: obtuse angles";
-    case M::tet_growth: return "tetrahedra beside each other differ too much in size";
+    case M::tet_growth: return "adjacent tetrahedra differ too much in size";
     case M::edge_ratio: return "edges at one node differ too much in length";
     case M::non_orthogonality: return "faces are oblique to the line between the centres of their cells";
     case M::skewness: return "lines between centres of cells miss the face between them";
-    case M::face_weight: return "faces are far nearer to one of their cells than to the other";
-    case M::volume_ratio: return "cells beside each other differ too much in volume";
+    case M::face_weight: return "faces are much closer to one of their cells than to the other";
+    case M::volume_ratio: return "adjacent cells differ too much in volume";
     case M::face_flatness: return "quadrilaterals are warped";
     case M::cell_aspect_ratio: return "cells are long and thin";
     case M::cell_openness: return "faces of cells do not close";
@@ -406,8 +407,8 @@ std::string_view trouble_of(Measure measure) {
     case M::stacked_orthogonality: return "the corners of flat prisms grow by different ratios";
     case M::stacked_skewness: return "the corners of flat prisms have different heights above the wall";
     case M::cell_determinant: return "cells are nearly flat";
-    case M::cad_distance: return "nodes of the wall are off the model";
-    case M::cad_normal: return "triangles of the wall are turned against the model";
+    case M::cad_distance: return "wall nodes do not lie on the model";
+    case M::cad_normal: return "normals of wall triangles differ from the model";
   }
   return "";
 }
@@ -430,7 +431,8 @@ std::string_view remedy_of(Measure measure) {
     case M::cell_openness:
     case M::face_tets:
     case M::cell_determinant:
-      return "remesh the wall there: triangles without needles that change slowly in size, in gaps with gap_cells; where a layer collapses at a sharp edge, "
+      return "remesh the wall there with triangles that change slowly in size, without slivers, in gaps with gap_cells; where a layer collapses at a sharp "
+             "edge, "
              "give the "
              "edge a width or use fewer layers";
     case M::orthogonality:

@@ -143,7 +143,7 @@ GateResult GateScan::judge(std::int64_t n_forced, double forced_weight, double o
   result.n_beyond_target = n_soft_;
   result.histogram.assign(histogram_.begin(), histogram_.begin() + classes_->n);
   if (worst_.empty()) {
-    result.reason = "the mesh has none";
+    result.reason = "the mesh has no items of this type";
     return result;
   }
   result.worst = value_of(worst_.front());

@@ -76,7 +76,7 @@ Cutting place_vertices(const TriMesh& surface, const HalvingPlane& plane) {
     if (cutting.distance[v] == 0.0) cutting.mesh.points[v][plane.axis] = plane.at;
   }
   ErrorInfo info =
-      error_at(plane, ErrorCode::mesh_invalid, "moving vertices by up to " + std::to_string(plane.tolerance) + " m into the plane turns triangles over",
+      error_at(plane, ErrorCode::mesh_invalid, "moving vertices by up to " + std::to_string(plane.tolerance) + " m into the plane inverts triangles",
                "lower the tolerance of half");
   for (const TriangleId t : surface.triangles.ids()) {
     const auto d = distances(cutting, t);
@@ -261,10 +261,10 @@ void require_reach(const TriMesh& surface, const TriMesh& half, const HalvingPla
   for (const VertexId v : surface.points.ids())
     if (from_plane(v) < from_plane(nearest)) nearest = v;
   ErrorInfo info = error_at(plane, ErrorCode::bad_argument,
-                            half.n_triangles() == 0 ? "nothing of the surface is on the side that is kept"
+                            half.n_triangles() == 0 ? "no part of the surface is on the side that is kept"
                                                     : "the surface does not reach the plane: its nearest vertex is " + std::to_string(from_plane(nearest)) +
                                                           " m away, the tolerance is " + std::to_string(plane.tolerance) + " m",
-                            "give axis, at and keep of the plane that the model ends on");
+                            "set axis, at and keep to the plane in which the model ends");
   info.add_place(surface.points[nearest], "nearest vertex");
   throw Error(std::move(info));
 }
@@ -282,7 +282,7 @@ void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContex
   const Box box = bounding_box(half);
   std::vector<std::uint8_t> n_rim_edges(half.n_vertices(), 0);
   ErrorInfo open = error_at(plane, ErrorCode::open_surface, "",
-                            "the surface has holes beside the plane: close them; a half model's rim has to be within the tolerance of the plane");
+                            "close the holes beside the plane; the open boundary of a half model must be within the tolerance of the plane");
   ErrorInfo touching = error_at(plane, ErrorCode::non_manifold_surface, "", "move the plane a little, or lower tolerance and snap");
   std::size_t n_pinched = 0;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
@@ -295,20 +295,20 @@ void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContex
                      "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
     else if (++n_rim_edges[from.index()] == 2) {
       ++n_pinched;
-      touching.add_place(half.points[from], "the rim touches itself");
+      touching.add_place(half.points[from], "the open boundary touches itself");
     }
   }
   if (open.n_places > 0) {
-    open.problem = "the rim is not closed in the plane: " + std::to_string(open.n_places) +
-                   " edges with one triangle lie neither in it nor in another plane x, y or z = constant where the surface ends";
+    open.problem = "the open boundary is not closed in the plane: " + std::to_string(open.n_places) +
+                   " edges with one triangle lie neither in this plane nor in another plane x, y or z = constant where the surface ends";
     throw Error(std::move(open));
   }
   for (const VertexId v : half.points.ids())
     if (half.points[v][plane.axis] == plane.at && n_rim_edges[v.index()] == 0)
-      touching.add_place(half.points[v], "the surface touches the plane from its side");
+      touching.add_place(half.points[v], "the surface touches the plane without crossing it");
   if (touching.n_places == 0) return;
-  touching.problem = std::to_string(n_pinched) + " vertices where the rim touches itself, " +
-                     std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane beside it";
+  touching.problem = std::to_string(n_pinched) + " vertices where the open boundary touches itself, " +
+                     std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane without crossing it";
   throw Error(std::move(touching));
 }
 

@@ -44,18 +44,19 @@ struct Schema<HalfOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "axis", .member = &O::axis, .help = "the coordinate that is constant in the plane", .choices = "x y z"},
       Field<O>{.name = "at", .member = &O::at, .unit = Unit::metre, .help = "the value of this coordinate in the plane"},
-      Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: of larger (+) or smaller (-) coordinates", .choices = "+ -"},
+      Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: larger (+) or smaller (-) coordinates", .choices = "+ -"},
       Field<O>{.name = "tolerance",
                .member = &O::tolerance,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "vertices this near to the plane are moved into it",
+               .help = "vertices closer to the plane than this are moved into the plane",
                .automatic = "1e-6 of the longest side of the surface's box"},
-      Field<O>{.name = "snap",
-               .member = &O::snap,
-               .min = 0.0,
-               .max = 0.4,
-               .help = "vertices this near to the plane, as a share of their shortest edge, are moved along an edge into it: no slivers; 0: an exact cut"},
+      Field<O>{
+          .name = "snap",
+          .member = &O::snap,
+          .min = 0.0,
+          .max = 0.4,
+          .help = "vertices closer to the plane than this share of their shortest edge are moved along an edge into the plane: no slivers; 0: an exact cut"},
   };
 };
 

@@ -81,7 +81,7 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
     has_layers[patch.index()] = 1;
   }
   if (starts.empty()) {
-    reason_ = "no prism stands on a wall";
+    reason_ = "no prism has a face on a wall";
     return;
   }
   std::sort(starts.begin(), starts.end());
@@ -104,7 +104,7 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
       },
       [](std::int64_t a, std::int64_t b) { return a + b; });
   if (n_torn > 0) {
-    reason_ = "the prisms on the walls do not stack along lines";
+    reason_ = "the prisms on the walls do not form growth lines";
     return;
   }
   std::vector<std::uint32_t> line_of(mesh.points.size(), k_no_node);

@@ -33,8 +33,8 @@ MirrorGap mirror_gap(const TriMesh& surface, std::size_t axis, double at, double
 }
 
 std::string describe_asymmetry(const MirrorGap& gap, const std::string& plane) {
-  return "half at " + plane + ": the side that is left out is not the image of the one that is kept; the image of " + format_point(gap.at) + " is " +
-         in_metres(gap.distance, 3) + " from the surface. A half stands for both sides: where they are meant to differ, mesh the whole";
+  return "half at " + plane + ": the omitted side is not the mirror image of the kept side; the image of " + format_point(gap.at) + " is " +
+         in_metres(gap.distance, 3) + " from the surface. A half model represents both sides: if they are meant to differ, mesh the whole model";
 }
 
 }  // namespace sterna

@@ -84,7 +84,9 @@ Numbering numbering_of(std::string_view name) {
   if (name == "lines") return Numbering::lines;
   if (name == "bandwidth") return Numbering::bandwidth;
   if (name == "both") return Numbering::both;
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "numbering", .problem = "there is no \"" + std::string(name) + "\": lines, bandwidth or both"});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "numbering",
+               .problem = "unknown numbering \"" + std::string(name) + "\", expected lines, bandwidth or both"});
 }
 
 std::vector<std::uint32_t> bandwidth_order(const NeighbourGraph& graph) { return LevelOrder(graph).run(); }

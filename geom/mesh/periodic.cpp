@@ -45,7 +45,7 @@ class Matcher {
     error_.code = ErrorCode::bad_argument;
     error_.attempted = "matching periodic sides \"" + first_.name + "\" and \"" + second_.name + "\"";
     error_.problem = std::move(problem);
-    error_.hint = "both sides must be flat and have the same triangles, moved by one translation: mesh one and copy it";
+    error_.hint = "both sides must be flat and have the same triangles, moved by one translation: mesh one side and copy it";
     throw Error(std::move(error_));
   }
   void note(const Point& place, std::string what) {
@@ -100,7 +100,7 @@ class Matcher {
         nearest = it->second;
       }
       if (least > tolerance_ || !taken.try_emplace(nearest, n).second) {
-        note(points_[n], "no node at its image");
+        note(points_[n], "no node at the image of this node");
         continue;
       }
       match_.worst = std::max(match_.worst, least);
@@ -108,7 +108,7 @@ class Matcher {
       partner_[n] = nearest;
     }
     for (const std::uint32_t n : second_.nodes)
-      if (!taken.contains(n)) note(points_[n], "is the image of no node");
+      if (!taken.contains(n)) note(points_[n], "this node is not the image of a node");
     if (error_.n_places > 0) fail(std::to_string(error_.n_places) + " nodes have no partner within " + metres(tolerance_));
   }
 
@@ -122,7 +122,7 @@ class Matcher {
       std::sort(image.begin(), image.end());
       const auto other = others.find(image);
       if (other != others.end()) match_.faces.push_back({face.number, other->second});
-      else note((points_[face.nodes[0]] + points_[face.nodes[1]] + points_[face.nodes[2]]) / 3.0, "no face at its image");
+      else note((points_[face.nodes[0]] + points_[face.nodes[1]] + points_[face.nodes[2]]) / 3.0, "no face at the image of this face");
     }
     if (error_.n_places > 0) fail(std::to_string(error_.n_places) + " faces have no partner");
     if (first_.faces.size() != second_.faces.size())

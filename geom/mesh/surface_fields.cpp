@@ -35,9 +35,9 @@ const std::vector<SurfaceFieldInfo>& table() {
       {"first_height", "first height", "m", true, false, k_no_limits, true},
       {"coverage", "height / target height", "", false, true, {k_nan, k_nan, k_full_height_share, info_of(Measure::coverage).limits.target}, true},
       {"layers", "number of layers", "", false, true, k_no_limits, true},
-      {"growth", "growth along a line", "", false, false, limits_of(Measure::stack_growth), true},
+      {"growth", "growth ratio along growth lines", "", false, false, limits_of(Measure::stack_growth), true},
       {"skew", "skew angle of the worst prism", "deg", false, false, k_no_limits, true},
-      {"stack_angle", "stack angle beyond the best", "deg", false, false, limits_of(Measure::stack_angle), true},
+      {"stack_angle", "stack angle above best possible", "deg", false, false, limits_of(Measure::stack_angle), true},
       {"interface_jump", "last height / (0.816 edge) or its inverse", "", true, false, limits_of(Measure::interface_height), true},
       {"scaled_jacobian", "scaled Jacobian of the worst prism", "", false, true, limits_of(Measure::scaled_jacobian), true},
   };
@@ -139,7 +139,7 @@ std::vector<SurfaceField> surface_fields(const HybridMesh& mesh, const RunContex
     throw Error({.code = ErrorCode::mesh_invalid,
                  .attempted = "measuring the faces of a mesh",
                  .problem = "indices are out of range or points are not finite",
-                 .hint = "`sterna check` says which"});
+                 .hint = "`sterna check` lists the defects"});
   const std::size_t n_triangles = mesh.boundary_triangles.size();
   const Faces faces{mesh.points.raw(), n_triangles, mesh.boundary_quads.size(),
                     [&](std::size_t f) {

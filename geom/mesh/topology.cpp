@@ -50,7 +50,7 @@ std::string describe(const TriMesh& mesh, const BadEdge& edge, PatchId patch) {
   info.attempted = "connecting " + std::to_string(mesh.n_triangles()) + " triangles";
   info.problem = std::to_string(bad.size()) + (bad.size() == 1 ? " edge does" : " edges do") + " not join one or two triangles of the same orientation";
   info.n_places = static_cast<std::int64_t>(bad.size());
-  info.hint = "remove doubled or internal facets and make the orientation consistent";
+  info.hint = "remove duplicate or internal facets and make the orientation consistent";
   for (std::size_t i = 0; i < bad.size() && i < k_max_trouble_edges; ++i) {
     const Point& a = mesh.points[bad[i].from];
     const Point& b = mesh.points[bad[i].to];

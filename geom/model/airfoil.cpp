@@ -61,7 +61,7 @@ double Airfoil::trailing_edge_thickness() const { return span_of(points.front(),
 AirfoilCurves airfoil_curves(const Airfoil& airfoil) {
   if (airfoil.points.size() < 5 || airfoil.leading_edge == 0 || airfoil.leading_edge + 1 >= airfoil.points.size())
     throw_bad_argument("making a spline of airfoil " + airfoil.name, std::to_string(airfoil.points.size()) + " points with the leading edge at number " +
-                                                                         std::to_string(airfoil.leading_edge) + " do not go around a section");
+                                                                         std::to_string(airfoil.leading_edge) + " do not run around a section");
   std::vector<Point> points;
   for (const Uv p : airfoil.points) points.push_back({p.u, 0.0, p.v});
   const std::vector<double> t = spline_parameters(points, SplineParameters::chord_length);

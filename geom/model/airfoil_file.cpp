@@ -64,8 +64,9 @@ class Parser {
     throw Error({.code = ErrorCode::file_malformed,
                  .attempted = attempted_,
                  .problem = (line > 0 ? "line " + std::to_string(line) + ": " : std::string()) + problem,
-                 .hint = "an airfoil file is a name and then x z, from the trailing edge over the upper side (Selig), or with counts and each side from the "
-                         "leading edge (Lednicer)"});
+                 .hint =
+                     "an airfoil file holds a name and then x z per line, from the trailing edge over the upper side (Selig), or counts and each side from the "
+                     "leading edge (Lednicer)"});
   }
 
   /// Returns the numbers of a line; nothing if any of its words is not a number.
@@ -104,7 +105,7 @@ class Parser {
       if (line.text.empty() || line.text.front() == '#' || line.text.front() == '!') continue;
       const auto values = numbers(line.text);
       if (!values) fail(line.number, "\"" + std::string(line.text) + "\" is not two numbers");
-      if (values->size() != 2) fail(line.number, std::to_string(values->size()) + " numbers, 2 are needed");
+      if (values->size() != 2) fail(line.number, std::to_string(values->size()) + " numbers, expected 2");
       const double x = (*values)[0], z = (*values)[1];
       if (points_.empty() && counts_.empty() && x > 1.5 && z > 1.5) {  // Lednicer's counts; the first point of a section is never in this range
         if (x != std::floor(x) || z != std::floor(z) || x > 1e5 || z > 1e5) fail(line.number, "counts of points that are not whole numbers");
@@ -118,7 +119,7 @@ class Parser {
            std::to_string(points_.size()) + " points, at least " + std::to_string(k_fewest_points) + " are needed");
     if (!counts_.empty() && counts_[0] + counts_[1] != points_.size())
       fail(points_.back().line,
-           "the counts say " + std::to_string(counts_[0]) + " + " + std::to_string(counts_[1]) + " points, there are " + std::to_string(points_.size()));
+           "the counts give " + std::to_string(counts_[0]) + " + " + std::to_string(counts_[1]) + " points, the file holds " + std::to_string(points_.size()));
   }
 
   /// Returns true if both sides run aft from the leading edge: x decreases once, by most of the chord.
@@ -137,7 +138,7 @@ class Parser {
     const auto middle = points_.begin() + static_cast<std::ptrdiff_t>(counts_[0]);
     for (const auto& [begin, end] : {std::pair{points_.begin(), middle}, std::pair{middle, points_.end()}})
       if (end - begin < 2 || !(begin->p.u < (end - 1)->p.u))
-        fail(begin == points_.end() ? points_.back().line : begin->line, "this side does not run aft from the leading edge");
+        fail(begin == points_.end() ? points_.back().line : begin->line, "the points of this side do not run aft from the leading edge");
     std::vector<NumberedPoint> around(points_.begin(), middle);
     std::reverse(around.begin(), around.end());
     const bool repeats_nose = around.back().p == middle->p;
@@ -183,7 +184,7 @@ class Parser {
     std::vector<Uv> plain;
     for (const NumberedPoint& p : distinct) plain.push_back(p.p);
     const std::size_t nose = airfoil_parts::least_x(plain);
-    if (nose == 0 || nose + 1 == plain.size()) fail(distinct[nose].line, "the points do not go around the section: the first or the last one is the foremost");
+    if (nose == 0 || nose + 1 == plain.size()) fail(distinct[nose].line, "the points do not run around the section: the first or last point is the foremost");
     constexpr double k_open_ends = 0.25;  // relative to the chord
     if (std::abs(plain.front().u - plain.back().u) > k_open_ends)
       fail(distinct.back().line, "the two ends of the section are apart: x = " + std::to_string(plain.front().u) + " and " + std::to_string(plain.back().u));

@@ -16,11 +16,11 @@ bool is_turn(Interval range) { return std::abs(range.length() - k_full_turn.to) 
 void check_box(const ParameterBox& box, const char* attempted) {
   for (const Interval& range : {box.u, box.v})
     if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-      throw_bad_argument(attempted, "its parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length");
+      throw_bad_argument(attempted, "the parameter range [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] has no length");
 }
 
 double checked_radius(double radius, const char* attempted) {
-  if (!(radius > 0.0) || !std::isfinite(radius)) throw_bad_argument(attempted, "its radius is " + std::to_string(radius) + " m, must be positive");
+  if (!(radius > 0.0) || !std::isfinite(radius)) throw_bad_argument(attempted, "the radius is " + std::to_string(radius) + " m, must be positive");
   return radius;
 }
 
@@ -41,7 +41,7 @@ std::optional<NurbsSurfaceForm> PlaneSurface::exact_nurbs() const {
 RoundSurface::RoundSurface(const Frame& frame, const ParameterBox& box, const char* attempted) : frame_(frame), box_(box) {
   check_box(box, attempted);
   if (box.u.length() > k_full_turn.to && !is_turn(box.u))
-    throw_bad_argument(attempted, "it goes round by more than a turn: " + std::to_string(box.u.length()) + " rad");
+    throw_bad_argument(attempted, "the surface covers more than one turn: " + std::to_string(box.u.length()) + " rad");
 }
 
 bool RoundSurface::is_periodic_u() const { return is_turn(box_.u); }
@@ -71,9 +71,9 @@ CylinderSurface::CylinderSurface(const Frame& frame, double radius, const Parame
 
 ConeSurface::ConeSurface(const Frame& frame, double radius, double half_angle, const ParameterBox& box)
     : RoundSurface(frame, box, "making a cone"), radius_(radius), half_angle_(half_angle) {
-  if (!(radius >= 0.0) || !std::isfinite(radius)) throw_bad_argument("making a cone", "its radius is " + std::to_string(radius) + " m, must not be negative");
+  if (!(radius >= 0.0) || !std::isfinite(radius)) throw_bad_argument("making a cone", "the radius is " + std::to_string(radius) + " m, must not be negative");
   if (!(std::abs(half_angle) > 0.0 && std::abs(half_angle) < 0.5 * std::numbers::pi))
-    throw_bad_argument("making a cone", "its half angle is " + std::to_string(half_angle) + " rad, must be between 0 and pi/2");
+    throw_bad_argument("making a cone", "the half angle is " + std::to_string(half_angle) + " rad, must be between 0 and pi/2");
 }
 
 RoundSurface::Profile ConeSurface::profile(double v) const {

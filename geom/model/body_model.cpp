@@ -89,12 +89,12 @@ void BodyBuilder::check_frames() const {
     throw Error(
         {.code = ErrorCode::bad_argument, .attempted = "making body '" + body_.name + "'", .problem = problem, .places = {{map_.point(place), "frame"}}});
   };
-  if (body_.frames.size() < 2) refuse("it has " + std::to_string(body_.frames.size()) + " frames; at least 2 are needed", {});
+  if (body_.frames.size() < 2) refuse("the body has " + std::to_string(body_.frames.size()) + " frames; at least 2 are needed", {});
   for (std::size_t i = 1; i < rows_.size(); ++i) {
     const Point a = middle_of(rows_[i - 1]), b = middle_of(rows_[i]);
     const bool is_planar = body_.frames[i].shape != FrameShape::loop && body_.frames[i - 1].shape != FrameShape::loop;
     if (is_planar ? !(body_.frames[i].center.x > body_.frames[i - 1].center.x) : distance(a, b) == 0.0)
-      refuse("frames '" + body_.frames[i - 1].name + "' and '" + body_.frames[i].name + "' do not follow each other along x", body_.frames[i].center);
+      refuse("frames '" + body_.frames[i - 1].name + "' and '" + body_.frames[i].name + "' are not in ascending order along x", body_.frames[i].center);
     if (i + 1 < rows_.size() && is_point(rows_[i])) refuse("frame '" + body_.frames[i].name + "' within the body is a point", body_.frames[i].center);
   }
 }
@@ -244,7 +244,7 @@ void BodyBuilder::lip(const Ring& ring) {
   if (!(lip.axial_offset > 0.0 && lip.radial_offset < 1.0))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "making body '" + body_.name + "'",
-                 .problem = "an inlet lip needs a positive axial offset (it is " + std::to_string(lip.axial_offset) + ") and a radial offset below 1 (" +
+                 .problem = "an inlet lip needs a positive axial offset (given: " + std::to_string(lip.axial_offset) + ") and a radial offset below 1 (" +
                             std::to_string(lip.radial_offset) + ")"});
   double slope = 0.0;
   for (const Vec3& v : ring.outwards) slope += norm(v) / static_cast<double>(ring.outwards.size());

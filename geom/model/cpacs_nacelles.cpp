@@ -18,12 +18,12 @@ CowlSection read_section(Document& document, const Node& node) {
   section.name = file.text(node, "uID");
   const Transformation t = read_transformation(document, node);
   section.angle = t.translation.x * k_degree;
-  if (norm(t.rotation) > 0.0) file.tell(node, "rotations of nacelle sections are not supported; this one was left out");
+  if (norm(t.rotation) > 0.0) file.tell(node, "rotations of nacelle sections are not supported; this rotation was ignored");
   for (const Uv p : read_curve_profile(document, node, XmlFile::child_text(node, "profileUID")))
     section.profile.push_back({t.scaling.x * p.u + t.translation.y, t.scaling.y * p.v + t.translation.z});
   orient(section.profile, -1.0);  // the inner side comes first
   for (const Uv p : section.profile)
-    if (p.v < 0.0) file.fail(node, "the section reaches over the axis: radius " + exact_text(p.v) + " m at x = " + exact_text(p.u) + " m");
+    if (p.v < 0.0) file.fail(node, "the section extends beyond the axis: radius " + exact_text(p.v) + " m at x = " + exact_text(p.u) + " m");
   return section;
 }
 
@@ -36,7 +36,7 @@ Cowl read_cowl(Document& document, const Node& node) {
   if (cowl.sections.empty()) file.fail(node, "the cowl has no section");
   std::stable_sort(cowl.sections.begin(), cowl.sections.end(), [](const CowlSection& a, const CowlSection& b) { return a.angle < b.angle; });
   if (node.child("guideCurves")) file.tell(node.child("guideCurves"), "guide curves are not supported; the cowl is a smooth ring through its sections");
-  if (node.child("rotationCurve")) file.tell(node.child("rotationCurve"), "rotation curves are not supported; the inner side is that of the sections");
+  if (node.child("rotationCurve")) file.tell(node.child("rotationCurve"), "rotation curves are not supported; the inner side follows the sections");
   return cowl;
 }
 

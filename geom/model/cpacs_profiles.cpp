@@ -119,7 +119,7 @@ std::vector<Uv> standard_profile(const Document& document, const Node& node) {
       if (corner == 1) points.push_back({0.0, 0.5 * height});
     }
   } else {
-    file.fail(node, "a standard profile is a rectangle or a superEllipse");
+    file.fail(node, "the standard profile must be a rectangle or a superEllipse");
   }
   return points;
 }
@@ -150,14 +150,14 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
                        std::abs(points.back().u) <= k_same_profile_point;
   const bool is_half = is_open && (std::all_of(points.begin(), points.end(), [](Uv p) { return p.u >= -k_same_profile_point; }) ||
                                    std::all_of(points.begin(), points.end(), [](Uv p) { return p.u <= k_same_profile_point; }));
-  if (is_half && symmetry.empty()) document.file.tell(node, "the profile is one half and open; the other half was added");
+  if (is_half && symmetry.empty()) document.file.tell(node, "the profile is an open half; the other half was added by mirroring");
   if (symmetry == "x-z-plane" || is_half) {  // one half is given: add the other one
     std::vector<Uv> other = points;
     for (Uv& p : other) p.u = -p.u;
     points.insert(points.end(), other.rbegin(), other.rend());
     points.erase(std::unique(points.begin(), points.end(), is_same), points.end());
   } else if (!symmetry.empty()) {
-    document.file.fail(node, "a profile is symmetric to the x-z-plane or not at all; symmetry is '" + symmetry + "'");
+    document.file.fail(node, "the symmetry of a profile must be x-z-plane or empty; given: '" + symmetry + "'");
   }
   while (points.size() > 1 && is_same(points.front(), points.back())) points.pop_back();
   if (points.size() < 4) document.file.fail(node, "a fuselage profile needs 4 points; it has " + std::to_string(points.size()));

@@ -121,13 +121,13 @@ void Reader::or_leave_out(const char* what, const Read& read) {
 
 void Reader::header() {
   const Node root = file_.root();
-  if (std::string_view(root.name()) != "cpacs") file_.fail(root, "the root of a CPACS file is cpacs");
+  if (std::string_view(root.name()) != "cpacs") file_.fail(root, "the root element of a CPACS file must be cpacs");
   const Node header = root.child("header");
   std::string version = XmlFile::child_text(header, "cpacsVersion");
   for (const Node info : header.child("versionInfos").children("versionInfo"))
     if (const std::string v = XmlFile::child_text(info, "cpacsVersion"); !v.empty()) version = v;
   if (!version.empty() && version.front() != '2' && version.front() != '3')
-    file_.fail(header, "CPACS version " + version + " is not supported; versions 2 and 3 are");
+    file_.fail(header, "CPACS version " + version + " is not supported; supported are versions 2 and 3");
   file_.warn_unknown(root.child("vehicles"), "xsi:type uID", {"aircraft engines profiles", k_no_shape});
 }
 
@@ -154,7 +154,7 @@ Vec3 Reader::translation_of(const Node& component, std::set<std::string>& visite
   };
   while (parent && !is_component(parent)) parent = parent.parent();
   if (!parent) return own.translation;  // the aircraft itself
-  if (!visited.insert(parent_uid).second) file_.fail(component, "the component is its own parent, by way of '" + parent_uid + "'");
+  if (!visited.insert(parent_uid).second) file_.fail(component, "the component is its own parent through '" + parent_uid + "'");
   return own.translation + translation_of(parent, visited);
 }
 
@@ -188,11 +188,11 @@ std::map<std::string, Vec3> Reader::positionings(const Node& component) {
   for (const auto& [section, step] : steps) {
     if (!sections.contains(section)) file_.tell(step.node, "the component has no section '" + section + "'; this positioning has no effect");
     if (!step.from.empty() && !sections.contains(step.from) && !steps.contains(step.from))
-      file_.fail(step.node, "section '" + section + "' is positioned from '" + step.from + "', and the component has no such section");
+      file_.fail(step.node, "section '" + section + "' is positioned from '" + step.from + "', but the component has no such section");
     Vec3 sum;
     std::string at = section;
     for (std::size_t n = 0; steps.contains(at); ++n) {
-      if (n > steps.size()) file_.fail(step.node, "the positionings of section '" + section + "' run in a circle");
+      if (n > steps.size()) file_.fail(step.node, "the positionings of section '" + section + "' form a cycle");
       sum += steps.at(at).vector;
       at = steps.at(at).from;
     }
@@ -219,7 +219,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
     order.push_back(from);
   }
   const auto first = std::find_if(order.begin(), order.end(), [&](const std::string& uid) { return !targets.contains(uid); });
-  if (first == order.end()) file_.fail(component, order.empty() ? "the component has no segments" : "the segments run in a circle");
+  if (first == order.end()) file_.fail(component, order.empty() ? "the component has no segments" : "the segments form a cycle");
   std::vector<std::string> uids{*first};
   while (next.contains(uids.back())) uids.push_back(next.at(uids.back()).to);
   if (uids.size() != next.size() + 1)
@@ -231,7 +231,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
     const Node element = document_.resolve(component, uid);
     const Node section = element.parent().parent();
     if (std::string_view(element.name()) != "element" || std::string_view(section.name()) != "section")
-      file_.fail(element, "segments join elements of sections; this is '" + std::string(element.name()) + "'");
+      file_.fail(element, "segments must join elements of sections; this element is '" + std::string(element.name()) + "'");
     const auto position = positions.find(file_.text(section, "uID"));
     elements.push_back({element, translation(position == positions.end() ? Vec3{} : position->second) * read_transformation(document_, section).matrix() *
                                      read_transformation(document_, element).matrix()});
@@ -336,7 +336,8 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
             const double eta = value(hinge_eta, "eta"), xsi = value(is_trailing ? "xsiLE" : "xsiTE", "xsi");
             const double other_eta = border.child(other) ? value(other, "eta") : eta;
             if (other_eta != eta)
-              file_.tell(border, "the border is taken along the flow at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
+              file_.tell(border,
+                         "the border is placed along the flow direction at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
             const std::string reference_uid = XmlFile::child_text(border.child(hinge_eta), "referenceUID");
             Node reference = document_.find(reference_uid);
             if (!reference && !reference_uid.empty())
@@ -390,7 +391,7 @@ void Reader::engine(const Node& node) {
   const Node engine = document_.resolve(node, XmlFile::child_text(node, "engineUID"));
   const Node nacelle = engine.child("nacelle");
   if (!nacelle.child("fanCowl") && !nacelle.child("coreCowl") && !nacelle.child("centerCowl")) {
-    file_.tell(engine, "the engine has no cowls; it is left out");
+    file_.tell(engine, "the engine has no cowls and is left out");
     return;
   }
   CowlNacelle read = read_nacelle(document_, node, place_of(node));
@@ -402,7 +403,7 @@ void Reader::read_model(const Node& model) {
   Aircraft& aircraft = reading_.aircraft;
   file_.warn_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines landingGear landingGears", k_no_shape});
   if (model.child("landingGear") || model.child("landingGears"))
-    reading_.notes.emplace_back("the landing gear is taken as retracted: it is no part of the shape");
+    reading_.notes.emplace_back("the landing gear is assumed to be retracted and is not part of the shape");
   aircraft.name = file_.text(model, "uID");
   if (const Node reference = model.child("reference")) {
     if (reference.child("area")) aircraft.reference_area = file_.child_number(reference, "area", 0.0);
@@ -421,7 +422,7 @@ AircraftReading Reader::read() {
   const Node model = aircraft.child("model");
   if (!model) file_.fail(file_.root(), "the file has no aircraft model");
   for (Node other = model.next_sibling("model"); other; other = other.next_sibling("model"))
-    file_.tell(other, "only the first model is read; this one was left out");
+    file_.tell(other, "only the first model is read; this model was left out");
   read_model(model);
   if (reading_.aircraft.wings.empty() && reading_.aircraft.bodies.empty() && reading_.aircraft.nacelles.empty())
     file_.fail(model, "the model has no wing, fuselage or nacelle");

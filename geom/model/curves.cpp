@@ -21,7 +21,7 @@ constexpr double k_overreach = 1e-9;
 
 void check_domain(Interval domain, const char* attempted) {
   if (!std::isfinite(domain.from) || !std::isfinite(domain.to) || !(domain.from < domain.to))
-    throw_bad_argument(attempted, "its domain [" + std::to_string(domain.from) + ", " + std::to_string(domain.to) + "] has no length");
+    throw_bad_argument(attempted, "the parameter range [" + std::to_string(domain.from) + ", " + std::to_string(domain.to) + "] has no length");
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void check_domain(Interval domain, const char* attempted) {
 LineCurve::LineCurve(const Point& origin, const Vec3& direction, Interval domain) : origin_(origin), direction_(direction), domain_(domain) {
   check_domain(domain, "making a line");
   if (!is_finite(origin) || !is_finite(direction) || !(norm(direction) > 0.0))
-    throw_bad_argument("making a line", "its direction " + format_point(direction) + " has no length, or it is not finite");
+    throw_bad_argument("making a line", "the direction " + format_point(direction) + " has no length or is not finite");
 }
 
 std::optional<NurbsCurveForm<Point>> LineCurve::exact_nurbs() const {
@@ -38,7 +38,7 @@ std::optional<NurbsCurveForm<Point>> LineCurve::exact_nurbs() const {
 
 CurvePtr segment(const Point& a, const Point& b) {
   const double length = distance(a, b);
-  if (!(length > 0.0)) throw_bad_argument("making a segment", "its ends coincide at " + format_point(a));
+  if (!(length > 0.0)) throw_bad_argument("making a segment", "the ends coincide at " + format_point(a));
   return std::make_shared<LineCurve>(a, (b - a) / length, Interval{0.0, length});
 }
 
@@ -47,9 +47,9 @@ EllipseCurve::EllipseCurve(const Point& centre, const Vec3& x, const Vec3& y, In
   check_domain(domain, "making a circle or an ellipse");
   if (!(norm(x) > 0.0) || !(norm(y) > 0.0) || !is_finite(centre) || !(std::abs(dot(x, y)) <= k_right_angle * norm(x) * norm(y)))
     throw_bad_argument("making a circle or an ellipse",
-                       "its half axes " + format_point(x) + " and " + format_point(y) + " have no length or are not at right angles");
+                       "the half axes " + format_point(x) + " and " + format_point(y) + " have no length or are not at right angles");
   if (domain.length() > k_turn && !is_periodic_)
-    throw_bad_argument("making a circle or an ellipse", "its domain is longer than a turn: " + std::to_string(domain.length()) + " rad");
+    throw_bad_argument("making a circle or an ellipse", "the parameter range is longer than one turn: " + std::to_string(domain.length()) + " rad");
 }
 
 Point EllipseCurve::point(double t) const { return centre_ + std::cos(t) * x_ + std::sin(t) * y_; }
@@ -61,18 +61,18 @@ CurveDerivatives EllipseCurve::derivatives(double t) const {
 }
 
 CurvePtr circle(const Frame& frame, double radius, Interval angles) {
-  if (!(radius > 0.0)) throw_bad_argument("making a circle", "its radius is " + std::to_string(radius) + " m, must be positive");
+  if (!(radius > 0.0)) throw_bad_argument("making a circle", "the radius is " + std::to_string(radius) + " m, must be positive");
   return std::make_shared<EllipseCurve>(frame.origin, radius * frame.x, radius * frame.y, angles);
 }
 
 CurveView::CurveView(CurvePtr base, Interval domain, double scale, double shift) : base_(std::move(base)), domain_(domain), scale_(scale), shift_(shift) {
   check_domain(domain, "taking a part of a curve");
-  if (!(std::abs(scale) > 0.0)) throw_bad_argument("taking a part of a curve", "its parameter is scaled by 0");
+  if (!(std::abs(scale) > 0.0)) throw_bad_argument("taking a part of a curve", "the parameter is scaled by 0");
   const Interval all = base_->domain();
   const double a = scale * domain.from + shift, b = scale * domain.to + shift;
   const double slack = k_overreach * all.length();
   if (!base_->is_periodic() && (std::min(a, b) < all.from - slack || std::max(a, b) > all.to + slack))
-    throw_bad_argument("taking a part of a curve", "[" + std::to_string(a) + ", " + std::to_string(b) + "] is not within its domain [" +
+    throw_bad_argument("taking a part of a curve", "[" + std::to_string(a) + ", " + std::to_string(b) + "] is not within the parameter range [" +
                                                        std::to_string(all.from) + ", " + std::to_string(all.to) + "]");
 }
 
@@ -134,7 +134,7 @@ CurvePtr reversed(const CurvePtr& curve) {
 
 ParameterLine::ParameterLine(Uv origin, Uv direction, Interval domain) : origin_(origin), direction_(direction), domain_(domain) {
   check_domain(domain, "making a line in a parameter plane");
-  if (!(std::hypot(direction.u, direction.v) > 0.0)) throw_bad_argument("making a line in a parameter plane", "its direction has no length");
+  if (!(std::hypot(direction.u, direction.v) > 0.0)) throw_bad_argument("making a line in a parameter plane", "the direction has no length");
 }
 
 std::optional<NurbsCurveForm<Uv>> ParameterLine::exact_nurbs() const {
@@ -149,7 +149,7 @@ ParameterCurvePtr parameter_segment(Uv a, Uv b, Interval domain) {
 
 ParameterArc::ParameterArc(Uv centre, Uv x, Uv y, Interval domain) : centre_(centre), x_(x), y_(y), domain_(domain) {
   check_domain(domain, "making an arc in a parameter plane");
-  if (!(std::abs(x.u * y.v - x.v * y.u) > 0.0)) throw_bad_argument("making an arc in a parameter plane", "its half axes are parallel or have no length");
+  if (!(std::abs(x.u * y.v - x.v * y.u) > 0.0)) throw_bad_argument("making an arc in a parameter plane", "the half axes are parallel or have no length");
 }
 
 Uv ParameterArc::point(double t) const { return centre_ + std::cos(t) * x_ + std::sin(t) * y_; }

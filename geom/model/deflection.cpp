@@ -92,31 +92,34 @@ HingePlace hinge_place(const Row& row, double fraction) {
 
 void check(const Wing& wing, const std::vector<Deflection>& deflections) {
   for (const Deflection& d : deflections) {
-    if (d.surface.wing != wing.name) refuse_deflection(ErrorCode::bad_argument, d, "it belongs to wing '" + d.surface.wing + "', not to '" + wing.name + "'");
+    if (d.surface.wing != wing.name)
+      refuse_deflection(ErrorCode::bad_argument, d, "the control surface belongs to wing '" + d.surface.wing + "', not to '" + wing.name + "'");
     if (!(std::abs(d.angle) <= k_max_angle))
-      refuse_deflection(ErrorCode::bad_argument, d, "its angle is " + std::to_string(d.angle * 180.0 / std::numbers::pi) + " degrees; at most 60 are possible");
+      refuse_deflection(ErrorCode::bad_argument, d, "the angle is " + std::to_string(d.angle * 180.0 / std::numbers::pi) + " degrees, the limit is 60 degrees");
     if (d.surface.hinge.size() < 2)
-      refuse_deflection(ErrorCode::bad_argument, d, "it has " + std::to_string(d.surface.hinge.size()) + " hinge points; at least 2 are needed");
+      refuse_deflection(ErrorCode::bad_argument, d,
+                        "the control surface has " + std::to_string(d.surface.hinge.size()) + " hinge points; at least 2 are needed");
     for (std::size_t i = 1; i < d.surface.hinge.size(); ++i)
       if (!(d.surface.hinge[i].span > d.surface.hinge[i - 1].span))
-        refuse_deflection(ErrorCode::bad_argument, d, "its hinge points do not ascend along the span");
-    if (!(d.surface.hinge.front().span < 1.0 && d.surface.hinge.back().span > 0.0)) refuse_deflection(ErrorCode::bad_argument, d, "it lies beyond the tips");
+        refuse_deflection(ErrorCode::bad_argument, d, "the hinge points are not in ascending order along the span");
+    if (!(d.surface.hinge.front().span < 1.0 && d.surface.hinge.back().span > 0.0))
+      refuse_deflection(ErrorCode::bad_argument, d, "the control surface lies beyond the wing tips");
     for (const HingePoint& h : d.surface.hinge)
       if (!(h.chord >= 0.0 && h.chord <= 1.0))
-        refuse_deflection(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
+        refuse_deflection(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; the limits are 0 and 1");
     if (d.fairing != Deflection::k_automatic_fairing && !(d.fairing > 0.0))
-      refuse_deflection(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
+      refuse_deflection(ErrorCode::bad_argument, d, "the fairing is " + std::to_string(d.fairing) + " m, must be positive");
     if (!is_open(d)) continue;
     for (const auto& [value, what] : {std::pair{d.slot, "slot"}, std::pair{d.end_gap, "end gap"}})
       if (value != Deflection::k_automatic_slot && !(value > 0.0))
-        refuse_deflection(ErrorCode::bad_argument, d, std::string("its ") + what + " is " + std::to_string(value) + " m; it must be positive");
+        refuse_deflection(ErrorCode::bad_argument, d, std::string("the ") + what + " is " + std::to_string(value) + " m, must be positive");
     if (d.surface.kind == ControlKind::all_moving) continue;
     if (!(d.surface.hinge.front().span > 0.0 && d.surface.hinge.back().span < 1.0))
-      refuse_deflection(ErrorCode::bad_argument, d, "with an open gap it must end before the tips, where the wing goes on beside it");
+      refuse_deflection(ErrorCode::bad_argument, d, "with an open gap the control surface must end before the wing tips");
     for (const HingePoint& h : d.surface.hinge)
       if (!(h.chord > k_min_open_chord && h.chord < 1.0 - k_min_open_chord))
         refuse_deflection(ErrorCode::bad_argument, d,
-                          "with an open gap its hinge must lie within 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
+                          "with an open gap the hinge must lie between 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
   }
 }
 
@@ -135,8 +138,9 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
         else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
         refuse_deflection(ErrorCode::bad_argument, a,
-                          "with its fairings or end gaps it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " +
-                              std::to_string(p.to + p.fade) + " and " + std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it",
+                          "including fairings and end gaps the control surface overlaps '" + b.surface.name +
+                              "' along the span: " + std::to_string(p.from - p.fade) + " .. " + std::to_string(p.to + p.fade) + " and " +
+                              std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of the span",
                           "give a smaller fairing or end gap");
     }
 }
@@ -191,7 +195,8 @@ RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge
   const std::optional<RowCrossing> lip =
       row_at_distance(row, hinge, 0.5 * (upper + lower), 0.5 * distance(upper, lower) + slot, d.surface.kind == ControlKind::trailing_edge);
   if (!lip)
-    refuse_deflection(ErrorCode::bad_argument, d, "its slot of " + std::to_string(slot) + " m is larger than what is left of the section beyond the hinge");
+    refuse_deflection(ErrorCode::bad_argument, d,
+                      "the slot of " + std::to_string(slot) + " m is larger than the remaining part of the section beyond the hinge");
   return *lip;
 }
 
@@ -219,8 +224,8 @@ double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row
   if (!(fraction > k_min_open_chord && fraction < 1.0 - k_min_open_chord && off <= k_max_bend * slot))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "deflecting '" + d.surface.name + "'",
-                 .problem = "the straight line between the ends of its hinge leaves the middle of the wing's section by " + std::to_string(off) + " m at " +
-                            std::to_string(fraction) + " of the chord; its slot is " + std::to_string(slot) + " m",
+                 .problem = "the straight line between the ends of the hinge deviates from the middle of the wing section by " + std::to_string(off) +
+                            " m at " + std::to_string(fraction) + " of the chord; the slot is " + std::to_string(slot) + " m",
                  .places = {{at, "hinge line"}},
                  .hint = "give one control surface for each straight piece, or a wider slot"});
   return fraction;
@@ -404,7 +409,7 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface) {
   if (surface.hinge.size() < 2)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "placing control surface '" + surface.name + "'",
-                 .problem = "it has " + std::to_string(surface.hinge.size()) + " hinge points; at least 2 are needed"});
+                 .problem = "the control surface has " + std::to_string(surface.hinge.size()) + " hinge points; at least 2 are needed"});
   const WingSpan span(wing);
   const double end = static_cast<double>(span.rows().size() - 1);
   for (HingePoint& h : surface.hinge) {

@@ -117,12 +117,11 @@ double check_fold_over(const Model& model, const SpaceMap& map, const RunContext
   }
   if (folds.empty()) return stretch;
   std::stable_sort(folds.begin(), folds.end(), [](const Fold& a, const Fold& b) { return a.determinant < b.determinant; });
-  ErrorInfo info{
-      .code = ErrorCode::self_intersection,
-      .attempted = "deforming a model",
-      .problem = "space folds over: the determinant of the deformation's Jacobian is " + number_text(folds.front().determinant) + ", must be positive",
-      .n_places = static_cast<std::int64_t>(folds.size()),
-      .hint = "make displacements smaller, or let them change over a longer distance"};
+  ErrorInfo info{.code = ErrorCode::self_intersection,
+                 .attempted = "deforming a model",
+                 .problem = "the deformation folds space: the determinant of its Jacobian is " + number_text(folds.front().determinant) + ", must be positive",
+                 .n_places = static_cast<std::int64_t>(folds.size()),
+                 .hint = "make displacements smaller, or let them change over a longer distance"};
   constexpr std::size_t k_places = 5;
   for (std::size_t i = 0; i < std::min(k_places, folds.size()); ++i)
     info.places.push_back({folds[i].place, "face " + model.faces.raw()[folds[i].face].name + ", determinant " + number_text(folds[i].determinant)});

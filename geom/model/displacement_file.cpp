@@ -40,7 +40,7 @@ ScatteredDisplacements read_displacements(const std::filesystem::path& path) {
       ++n;
     }
     if (n == 0) continue;
-    if (n < 6) fail(std::to_string(n) + " numbers, 6 are needed");
+    if (n < 6) fail(std::to_string(n) + " numbers, expected 6");
     data.at.push_back({values[0], values[1], values[2]});
     data.shift.push_back({values[3], values[4], values[5]});
   }

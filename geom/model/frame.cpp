@@ -45,7 +45,8 @@ bool Transform::is_similarity() const {
 Transform Transform::inverse() const {
   const double d = determinant();
   if (!(std::abs(d) > 0.0))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "inverting a transformation", .problem = "it flattens space: its determinant is 0"});
+    throw Error(
+        {.code = ErrorCode::bad_argument, .attempted = "inverting a transformation", .problem = "the transformation flattens space: its determinant is 0"});
   const Vec3 a = cross(y, z) / d, b = cross(z, x) / d, c = cross(x, y) / d;  // rows of the inverse
   Transform result{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, {}};
   result.shift = -result.vector(shift);

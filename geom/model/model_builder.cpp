@@ -111,7 +111,7 @@ EdgeUse ModelBuilder::use_along(const Surface& surface, EdgeId id, Uv from, Uv t
     }
   }
   if (off > k_off_surface * size)
-    refuse_model(ErrorCode::internal, what + ": an edge is " + std::to_string(off) + " m off the side that it borders",
+    refuse_model(ErrorCode::internal, what + ": an edge is " + std::to_string(off) + " m off the side whose border it is",
                  {{worst, edge.name.empty() ? "edge" : edge.name}});
   edge.tolerance = std::max(edge.tolerance, off);
   for (const CornerId c : {edge.start, edge.end}) model_.corners[c].tolerance = std::max(model_.corners[c].tolerance, off);
@@ -143,7 +143,7 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
     for (const EdgeId id : edges) {
       const ModelEdge& edge = model_.edges[id];
       if (edge.start != at && edge.end != at)
-        refuse_model(ErrorCode::internal, name + ": the edges of a planar face do not follow each other", {{model_.corners[at].point, "end of one"}});
+        refuse_model(ErrorCode::internal, name + ": the edges of a planar face are not connected end to end", {{model_.corners[at].point, "end of an edge"}});
       is_reversed.push_back(edge.start != at);
       at = is_reversed.back() ? edge.start : edge.end;
       constexpr int k_samples = 64;

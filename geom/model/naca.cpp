@@ -103,7 +103,7 @@ Profile six_series_thickness(std::string_view designation, const std::string& fa
   const auto table =
       std::find_if(airfoil_parts::k_mapping_tables.begin(), airfoil_parts::k_mapping_tables.end(), [&](const auto& e) { return e.family == family; });
   if (table == airfoil_parts::k_mapping_tables.end())
-    refuse_designation(designation, "there is no family " + family + "; there are 63, 64, 65, 66, 67, 63A, 64A, 65A");
+    refuse_designation(designation, "unknown family " + family + "; known families are 63, 64, 65, 66, 67, 63A, 64A, 65A");
   // Thickness grows with the scale: bisection.
   double low = 0.0, high = 4.0;
   for (int k = 0; k < 60; ++k) {
@@ -257,7 +257,7 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
   }
   if (is("(\\d)(\\d)(\\d\\d)(-(\\d)(\\d))?")) {
     const double m = digit(match[1], 0) / 100.0, p = digit(match[2], 0) / 10.0, t = checked_thickness(percent(match[3]));
-    if (m > 0.0 && p == 0.0) refuse_designation(designation, "its camber has no place: the second digit is 0");
+    if (m > 0.0 && p == 0.0) refuse_designation(designation, "the position of the camber is missing: the second digit is 0");
     Profile profile;
     if (match[4].matched) {
       const int nose = digit(match[5], 0), at = digit(match[6], 0);
@@ -277,7 +277,7 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
     return combined(name, four_digit_thickness(checked_thickness(percent(match[4])), n_side),
                     [&](double x) { return five_digit_mean(line, is_reflexed, lift, x); });
   }
-  refuse_designation(designation, "it is no designation of the 4-digit, modified, 5-digit, 16-, 6- or 6A-series");
+  refuse_designation(designation, "not a designation of the 4-digit, modified 4-digit, 5-digit, 16-, 6- or 6A-series");
 }
 
 }  // namespace sterna

@@ -34,8 +34,9 @@ NurbsSurfaceForm checked(NurbsSurfaceForm form) {
   if (count(form.degree_u, form.knots_u) != static_cast<std::int64_t>(form.n_u) || count(form.degree_v, form.knots_v) != static_cast<std::int64_t>(form.n_v))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = std::string(k_nurbs_surface_attempt),
-                 .problem = "the poles are said to be " + std::to_string(form.n_u) + " x " + std::to_string(form.n_v) + ", knots and degrees ask for " +
-                            std::to_string(count(form.degree_u, form.knots_u)) + " x " + std::to_string(count(form.degree_v, form.knots_v))});
+                 .problem = "the given numbers of poles are " + std::to_string(form.n_u) + " x " + std::to_string(form.n_v) +
+                            ", but knots and degrees require " + std::to_string(count(form.degree_u, form.knots_u)) + " x " +
+                            std::to_string(count(form.degree_v, form.knots_v))});
   return form;
 }
 

@@ -82,7 +82,7 @@ void split_weights(const std::vector<Lanes4>& poles, bool is_rational, std::vect
 }  // namespace
 
 std::vector<Lanes4> weighted_poles(const std::vector<Point>& poles, const std::vector<double>& weights, std::size_t n, std::string_view attempted) {
-  if (poles.size() != n) throw_bad_argument(attempted, std::to_string(poles.size()) + " poles, but knots and degree ask for " + std::to_string(n));
+  if (poles.size() != n) throw_bad_argument(attempted, std::to_string(poles.size()) + " poles, but knots and degree require " + std::to_string(n));
   if (!weights.empty() && weights.size() != n) throw_bad_argument(attempted, std::to_string(weights.size()) + " weights for " + std::to_string(n) + " poles");
   std::vector<Lanes4> result(n);
   for (std::size_t i = 0; i < n; ++i) {

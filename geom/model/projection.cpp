@@ -51,7 +51,7 @@ void check_range(Interval range) {
   if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "preparing a projection",
-                 .problem = "the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length"});
+                 .problem = "the parameter range [" + number_text(range.from) + ", " + number_text(range.to) + "] has no length"});
 }
 
 double inside(double t, Interval range, bool wraps) {

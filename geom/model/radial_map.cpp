@@ -61,7 +61,7 @@ ScatteredDisplacements merged(const ScatteredDisplacements& data, double toleran
       const std::size_t a = std::min(order[i], order[j]), b = std::max(order[i], order[j]);
       if (distance(data.at[a], data.at[b]) > tolerance) continue;
       if (distance(data.shift[a], data.shift[b]) > shift_tolerance)
-        refuse_map("points " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " lie at one place but move differently, by " +
+        refuse_map("points " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " have the same location but different displacements, " +
                        format_point(data.shift[a]) + " and " + format_point(data.shift[b]),
                    {{data.at[a], "both points"}});
       is_repeated[b] = 1;
@@ -102,7 +102,7 @@ Eigen::MatrixXd spanned_directions(const std::vector<Vec3>& points) {
 RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions& options)
     : is_thin_plate_(options.kernel == "thin_plate"), radius_(options.radius), scale_(1.0) {
   if (options.kernel != "thin_plate" && options.kernel != "wendland_c2") refuse_map("kernel is \"" + options.kernel + "\", must be thin_plate or wendland_c2");
-  if (data.at.empty()) refuse_map("there are no points");
+  if (data.at.empty()) refuse_map("no points were given");
   if (data.at.size() != data.shift.size()) refuse_map(std::to_string(data.at.size()) + " points, but " + std::to_string(data.shift.size()) + " displacements");
   Point low = data.at.front(), high = data.at.front();
   double largest = 0.0;
@@ -121,7 +121,7 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   const std::size_t n = unique.at.size();
   if (n > k_max_points)
     refuse_map(std::to_string(n) + " points, at most " + std::to_string(k_max_points) + " can be solved", {},
-               "thin the table out: displacements are smooth, a few hundred points are plenty");
+               "reduce the number of points: displacements are smooth, and a few hundred points are sufficient");
   if (!is_thin_plate_ && !is_automatic(radius_) && !(radius_ > 0.0)) refuse_map("radius is " + number_text(radius_) + " m, must be positive");
   radius_ = (is_automatic(radius_) ? scale_ : radius_) / scale_;
   for (const Point& p : unique.at) centres_.push_back((p - origin_) / scale_);
@@ -157,8 +157,8 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   for (std::size_t i = 0; i < n; ++i) {
     const double miss = distance(point(unique.at[i]), unique.at[i] + unique.shift[i]);
     if (!(miss <= k_same_shift * largest + 1e-14 * scale_))
-      refuse_map("the system cannot be solved: a point is missed by " + number_text(miss) + " m", {{unique.at[i], "this point"}},
-                 "thin out points that nearly coincide, or take a smaller radius");
+      refuse_map("the system cannot be solved accurately: the displacement of a point is off by " + number_text(miss) + " m", {{unique.at[i], "this point"}},
+                 "remove points that nearly coincide, or use a smaller radius");
   }
 }
 

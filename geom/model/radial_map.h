@@ -37,12 +37,13 @@ struct Schema<RadialMapOptions> {
                               .member = &RadialMapOptions::radius,
                               .unit = Unit::metre,
                               .min = 0.0,
-                              .help = "of the bumps of wendland_c2",
+                              .help = "radius of the functions of wendland_c2",
                               .automatic = "the diagonal of the points' box"},
-      Field<RadialMapOptions>{.name = "linear_part",
-                              .member = &RadialMapOptions::linear_part,
-                              .help = "reproduce moves, turns and linear bending exactly everywhere (thin_plate always does); without it wendland_c2 leaves "
-                                      "what is beyond the radius where it is"},
+      Field<RadialMapOptions>{
+          .name = "linear_part",
+          .member = &RadialMapOptions::linear_part,
+          .help = "reproduce translations, rotations and linear changes exactly everywhere (always with thin_plate); if false, wendland_c2 does not move "
+                  "geometry beyond the radius"},
   };
 };
 

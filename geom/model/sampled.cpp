@@ -39,10 +39,11 @@ struct Stations {
 
   Stations(Interval range, const std::vector<double>& kinks, bool periodic) : breaks(kinks), is_periodic(periodic) {
     if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-      refuse_sampling("the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length");
+      refuse_sampling("the parameter range [" + number_text(range.from) + ", " + number_text(range.to) + "] has no length");
     std::vector<double> stops{range.from};
     for (const double b : breaks) {
-      if (!(b > stops.back()) || !(b < range.to)) refuse_sampling("break " + number_text(b) + " is not inside, or breaks do not ascend");
+      if (!(b > stops.back()) || !(b < range.to))
+        refuse_sampling("break " + number_text(b) + " is outside the range, or the breaks are not in ascending order");
       stops.push_back(b);
     }
     stops.push_back(range.to);
@@ -82,7 +83,7 @@ class Function {
     const auto [place, is_new] = values_.try_emplace(std::array{at.u, at.v});
     if (is_new) {
       place->second = f_(at);
-      if (!is_finite(place->second)) refuse_sampling("the function does not give finite numbers at " + text_of(at));
+      if (!is_finite(place->second)) refuse_sampling("the function returns numbers that are not finite at " + text_of(at));
     }
     return place->second;
   }
@@ -100,7 +101,7 @@ void check_options(const SamplingOptions& o) {
 [[noreturn]] void fail_to_reach(double error, double tolerance, int max_intervals, const Point& place, const std::string& where) {
   refuse_sampling("the error is still " + number_text(error) + " m with " + std::to_string(max_intervals) + " intervals along a direction, the tolerance is " +
                       number_text(tolerance) + " m",
-                  {{place, where}}, "a kink or a step there? Name it as a break; or allow a larger tolerance or more intervals");
+                  {{place, where}}, "if the function has a kink or a step there, give its parameter in breaks; or allow a larger tolerance or more intervals");
 }
 
 struct Worst {
@@ -127,7 +128,7 @@ NurbsSurfaceForm spline_of(Function& f, const Stations& u, const Stations& v) {
 void check_seams(Function& f, const Stations& u, const Stations& v, double tolerance) {
   const auto check = [&](Uv a, Uv b) {
     if (const double gap = distance(f(a), f(b)); gap > k_seam * tolerance)
-      refuse_sampling("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart at " + text_of(a),
+      refuse_sampling("the function is declared periodic, but its ends are " + number_text(gap) + " m apart at " + text_of(a),
                       {{f(a), "start"}, {f(b), "end"}});
   };
   if (u.is_periodic)
@@ -195,7 +196,7 @@ SampledCurve sample_curve(const std::function<Point(double)>& function, Interval
   Function f(along);
   Stations t(range, options.breaks_u, options.is_periodic_u);
   if (const double gap = distance(f({range.from, 0.0}), f({range.to, 0.0})); t.is_periodic && gap > k_seam * options.tolerance)
-    refuse_sampling("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart",
+    refuse_sampling("the function is declared periodic, but its ends are " + number_text(gap) + " m apart",
                     {{f({range.from, 0.0}), "start"}, {f({range.to, 0.0}), "end"}});
   while (true) {
     std::vector<Point> points;

@@ -310,7 +310,7 @@ std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {
         top = i;
     }
     if (top == 0)
-      refuse_section(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point where it begins, at the bottom",
+      refuse_section(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point at its first point, which must be at the bottom",
                      {{frame.loop.front(), "first point"}});
     return halves_of(frame.loop, top, m);
   }

@@ -86,7 +86,8 @@ class ControlSetter {
 
   void ask_one(const std::string& surface, const ControlSetting& setting) {
     const auto [at, is_new] = asked_.insert({surface, {&setting, setting.angle, false}});
-    if (!is_new) refuse_setting(setting.names, "surface \"" + surface + "\" is asked for by \"" + at->second.setting->names + "\", too", "give each one angle");
+    if (!is_new)
+      refuse_setting(setting.names, "surface \"" + surface + "\" is already set by \"" + at->second.setting->names + "\"", "give each surface one angle");
   }
 
   void ask_by(const Control& control, const ControlSetting& setting) {
@@ -95,11 +96,12 @@ class ControlSetter {
       if (!is_surface(name))  // the only segment of a surface may have its name or a segment's
         for (const ControlSurface& surface : result_.control_surfaces)
           if (segment_name(surface.name, 0) == p.segment && surface.hinge.size() == 2) name = surface.name;
-      if (!is_surface(name)) refuse_setting(setting.names, "this control moves \"" + p.segment + "\", which is no control surface", "name surfaces");
+      if (!is_surface(name))
+        refuse_setting(setting.names, "this control moves \"" + p.segment + "\", which is not a control surface", "give the names of control surfaces");
       const auto [at, is_new] = asked_.insert({name, {&setting, p.factor * setting.angle, true}});
       if (is_new) continue;
       if (!at->second.is_by_control)
-        refuse_setting(setting.names, "surface \"" + name + "\" is asked for by \"" + at->second.setting->names + "\", too", "give each one angle");
+        refuse_setting(setting.names, "surface \"" + name + "\" is already set by \"" + at->second.setting->names + "\"", "give each surface one angle");
       at->second.angle += p.factor * setting.angle;
     }
   }
@@ -108,12 +110,12 @@ class ControlSetter {
     std::vector<std::string> known;
     for (const Control& control : result_.controls) known.push_back(control.name);
     for (const ControlSurface& surface : result_.control_surfaces) known.push_back(surface.name);
-    if (known.empty()) refuse_setting(names, "the file describes no control surfaces", "wing:deflect{} makes some on wings of a script");
+    if (known.empty()) refuse_setting(names, "the file describes no control surfaces", "wing:deflect{} adds control surfaces to wings of a script");
     std::string all;
     for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
     const std::string nearest = nearest_name(names, known);
-    refuse_setting(names, "there is no control or control surface of that name" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
-                   "there are " + all);
+    refuse_setting(names, "no control or control surface has this name" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+                   "the file has " + all);
   }
 
   /// Joins adjacent segments with equal deflections again; all segments together have their surface's name.

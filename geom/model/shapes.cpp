@@ -91,7 +91,7 @@ std::vector<Uv> symmetric_section(double thickness) {
 Model make_box(const std::string& name, const Point& from, const Point& to) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(to[axis] > from[axis]))
-      throw_bad_argument("making box '" + name + "'", "its corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
+      throw_bad_argument("making box '" + name + "'", "the corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
   ModelBuilder builder({name, ComponentKind::box});
   std::array<CornerId, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = builder.corner({i & 1 ? to.x : from.x, i & 2 ? to.y : from.y, i & 4 ? to.z : from.z});
@@ -109,7 +109,7 @@ Model make_cylinder(const std::string& name, const Point& from, const Point& to,
   const double length = distance(from, to);
   if (!(length > 0.0) || !(radius > 0.0))
     throw_bad_argument("making cylinder '" + name + "'",
-                       "it is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
+                       "the cylinder is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
   ModelBuilder builder({name, ComponentKind::body});
   const Frame frame = frame_along(from, to - from);
   const double pi = std::numbers::pi;
@@ -138,7 +138,7 @@ Model make_test_section(const TestSectionOptions& o) {
   const bool has_contraction = o.contraction_length > 0.0 && o.contraction_ratio > 1.0;
   if (!is_automatic(o.diameter)) {
     if (!is_automatic(o.width) || !is_automatic(o.height))
-      throw_bad_argument(attempted, "it has a diameter, and width or height; a round one has its diameter alone");
+      throw_bad_argument(attempted, "both diameter and width or height are given; for a round section give only the diameter");
     if (has_contraction || o.diffuser_length > 0.0) throw_bad_argument(attempted, "round sections have neither contraction nor diffuser");
     Model model = make_cylinder(o.wall, {start, 0.0, 0.0}, {start + o.length, 0.0, 0.0}, 0.5 * o.diameter);
     model.components.raw().front().kind = ComponentKind::tunnel;
@@ -149,7 +149,7 @@ Model make_test_section(const TestSectionOptions& o) {
     turn_inside_out(model);  // the fluid is inside
     return model;
   }
-  if (is_automatic(o.width) || is_automatic(o.height)) throw_bad_argument(attempted, "it needs width and height, or the diameter of a round one");
+  if (is_automatic(o.width) || is_automatic(o.height)) throw_bad_argument(attempted, "give width and height, or the diameter of a round section");
   std::vector<DuctStation> stations;
   if (has_contraction) {
     const double scale = std::sqrt(o.contraction_ratio);
@@ -250,10 +250,9 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
     const double fall = (top - *outline.height(trailing.u + room)) / room;
     if (std::isfinite(climb)) sink = std::min(sink, room * (climb + fall));
     if (!(sink > 0.0))
-      throw_bad_argument(
-          attempted,
-          "its trailing edge runs back to the wing below the nacelle's surface and leaves through the plane where that ends; nacelle_to or wing_to has to "
-          "be less");
+      throw_bad_argument(attempted,
+                         "the trailing edge of the pylon leaves the nacelle through its end plane instead of its surface; nacelle_to or wing_to must "
+                         "be less");
     trailing.v = top - sink;
   }
   // The section is thick and the surface round: where the section would protrude on either side of its middle, the leading end is lowered.
@@ -261,7 +260,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
     const double t = static_cast<double>(i) / k_pylon_stations, x = leading.u + t * (trailing.u - leading.u);
     if (is_behind && leading.v + t * (trailing.v - leading.v) > *outline.height(x)) break;  // from here on it is in the air behind the body
     const auto top = outline.height(x, 0.5 * o.thickness * (trailing.u - leading.u));
-    if (!top) throw_bad_argument(attempted, "it is thicker than the nacelle is wide: thickness has to be less");
+    if (!top) throw_bad_argument(attempted, "the pylon is thicker than the width of the nacelle: reduce thickness");
     // Near the trailing edge the section is thin again.
     if (t < 0.7) leading.v = std::min(leading.v, (*top - t * trailing.v) / (1.0 - t) - 0.1 * k_pylon_sink * outline.half_height(x));
   }
@@ -273,7 +272,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& o) {
   const std::string attempted = "making pylon '" + name + "'";
   if (!(o.nacelle_from < o.nacelle_to) || !(o.wing_from < o.wing_to))
-    throw_bad_argument(attempted, "its leading edges must lie before its trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
+    throw_bad_argument(attempted, "the leading edges must lie before the trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
   const Transform nacelle_map = transform_of(nacelle.placement), wing_map = transform_of(wing.placement);
   const Point front = nacelle_map.point(nacelle.frames.front().center), back = nacelle_map.point(nacelle.frames.back().center);
   const double y = 0.5 * (front.y + back.y);
@@ -298,7 +297,7 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
     local = Line{lines[i].leading + t * (lines[i + 1].leading - lines[i].leading), lines[i].trailing + t * (lines[i + 1].trailing - lines[i].trailing)};
   }
   if (!local)
-    throw_bad_argument(attempted, "nacelle '" + nacelle.name + "' stands at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
+    throw_bad_argument(attempted, "nacelle '" + nacelle.name + "' is at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
   const Vec3 chord = local->trailing - local->leading;
   const auto section = [&](const std::string& label, const Point& leading, const Point& trailing) {
     WingSection s{.name = label, .leading_edge = leading, .chord = distance(leading, trailing)};

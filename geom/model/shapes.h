@@ -39,34 +39,50 @@ struct Schema<TestSectionOptions> {
   using O = TestSectionOptions;
   static constexpr std::string_view stage = "test_section";
   static constexpr std::array fields = {
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "of the straight part", .required = true},
-      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y", .automatic = "needed, unless it is round"},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z", .automatic = "needed, unless it is round"},
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "length of the straight part", .required = true},
+      Field<O>{
+          .name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "width along y", .automatic = "required unless the section is round"},
+      Field<O>{.name = "height",
+               .member = &O::height,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "height along z",
+               .automatic = "required unless the section is round"},
       Field<O>{.name = "diameter",
                .member = &O::diameter,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "of a round section, without contraction and diffuser",
-               .automatic = "it is rectangular"},
+               .help = "diameter of a round section, without contraction and diffuser",
+               .automatic = "the section is rectangular"},
       Field<O>{.name = "upstream",
                .member = &O::upstream,
                .unit = Unit::metre,
-               .help = "how far the straight part begins before x = 0",
-               .automatic = "half its length"},
-      Field<O>{.name = "contraction_length", .member = &O::contraction_length, .unit = Unit::metre, .min = 0.0, .help = "of a contraction before it; 0 = none"},
-      Field<O>{.name = "contraction_ratio", .member = &O::contraction_ratio, .min = 1.0, .max = 100.0, .help = "of the areas at both ends of the contraction"},
-      Field<O>{.name = "diffuser_length", .member = &O::diffuser_length, .unit = Unit::metre, .min = 0.0, .help = "of a diffuser behind it; 0 = none"},
+               .help = "length of the straight part upstream of x = 0",
+               .automatic = "half the length"},
+      Field<O>{.name = "contraction_length",
+               .member = &O::contraction_length,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "length of a contraction upstream of the straight part; 0 = none"},
+      Field<O>{
+          .name = "contraction_ratio", .member = &O::contraction_ratio, .min = 1.0, .max = 100.0, .help = "ratio of the areas at both ends of the contraction"},
+      Field<O>{.name = "diffuser_length",
+               .member = &O::diffuser_length,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "length of a diffuser downstream of the straight part; 0 = none"},
       Field<O>{.name = "diffuser_angle",
                .member = &O::diffuser_angle,
                .unit = Unit::radian,
                .min = 0.0,
                .max = 0.7853981633974483,
-               .help = "of each wall of the diffuser against x"},
-      Field<O>{.name = "inflow", .member = &O::inflow, .help = "name of the patch where air comes in"},
-      Field<O>{.name = "outflow", .member = &O::outflow, .help = "name of the patch where it leaves"},
-      Field<O>{.name = "wall",
-               .member = &O::wall,
-               .help = "name of the walls: tunnel_floor, tunnel_right (starboard), tunnel_ceiling, tunnel_left; tunnel where it is round"},
+               .help = "angle of each wall of the diffuser to x"},
+      Field<O>{.name = "inflow", .member = &O::inflow, .help = "name of the inflow patch"},
+      Field<O>{.name = "outflow", .member = &O::outflow, .help = "name of the outflow patch"},
+      Field<O>{
+          .name = "wall",
+          .member = &O::wall,
+          .help = "prefix of the names of the walls: tunnel_floor, tunnel_right (starboard), tunnel_ceiling, tunnel_left; of a round section: the name itself"},
   };
 };
 /// \throws Error(bad_argument)
@@ -87,14 +103,23 @@ struct Schema<NacelleOptions> {
   using O = NacelleOptions;
   static constexpr std::string_view stage = "nacelle";
   static constexpr std::array fields = {
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "along x", .required = true},
-      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "largest outer one", .required = true},
-      Field<O>{.name = "highlight_ratio", .member = &O::highlight_ratio, .min = 0.3, .max = 0.99, .help = "diameter of the front edge, of the largest one"},
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "length along x", .required = true},
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "largest outer diameter", .required = true},
+      Field<O>{.name = "highlight_ratio",
+               .member = &O::highlight_ratio,
+               .min = 0.3,
+               .max = 0.99,
+               .help = "diameter of the front edge, relative to the largest diameter"},
+      Field<O>{.name = "fan_ratio",
+               .member = &O::fan_ratio,
+               .min = 0.1,
+               .max = 0.98,
+               .help = "diameter of the fan face, relative to the largest diameter; below highlight_ratio"},
       Field<O>{
-          .name = "fan_ratio", .member = &O::fan_ratio, .min = 0.1, .max = 0.98, .help = "diameter of the fan face, of the largest one; below highlight_ratio"},
-      Field<O>{.name = "fan_depth", .member = &O::fan_depth, .min = 0.01, .max = 0.8, .help = "how far the fan face stands behind the front, of the length"},
-      Field<O>{.name = "exit_ratio", .member = &O::exit_ratio, .min = 0.1, .max = 0.99, .help = "diameter of the nozzle plane, of the largest one"},
-      Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "where the largest diameter is, of the length"},
+          .name = "fan_depth", .member = &O::fan_depth, .min = 0.01, .max = 0.8, .help = "distance of the fan face behind the front, relative to the length"},
+      Field<O>{
+          .name = "exit_ratio", .member = &O::exit_ratio, .min = 0.1, .max = 0.99, .help = "diameter of the nozzle plane, relative to the largest diameter"},
+      Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "position of the largest diameter, relative to the length"},
   };
 };
 /// \throws Error(bad_argument)
@@ -113,15 +138,24 @@ struct Schema<PylonOptions> {
   using O = PylonOptions;
   static constexpr std::string_view stage = "pylon";
   static constexpr std::array fields = {
-      Field<O>{.name = "thickness", .member = &O::thickness, .min = 0.005, .max = 0.5, .help = "of its sections, of their chord"},
-      Field<O>{.name = "nacelle_from", .member = &O::nacelle_from, .min = 0.0, .max = 1.0, .help = "leading edge at the cowl, of the nacelle's length"},
+      Field<O>{.name = "thickness", .member = &O::thickness, .min = 0.005, .max = 0.5, .help = "thickness of the sections, relative to their chord"},
+      Field<O>{.name = "nacelle_from",
+               .member = &O::nacelle_from,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "position of the leading edge at the cowl, relative to the nacelle's length"},
       Field<O>{.name = "nacelle_to",
                .member = &O::nacelle_to,
                .min = 0.0,
                .max = 1.5,
-               .help = "trailing edge at the cowl, of the nacelle's length; above 0.98 it stands behind the nozzle, over the jet"},
-      Field<O>{.name = "wing_from", .member = &O::wing_from, .min = -0.5, .max = 0.9, .help = "leading edge in the wing, of the local chord"},
-      Field<O>{.name = "wing_to", .member = &O::wing_to, .min = 0.0, .max = 1.0, .help = "trailing edge in the wing, of the local chord"},
+               .help = "position of the trailing edge at the cowl, relative to the nacelle's length; above 0.98 the edge is behind the nozzle, over the jet"},
+      Field<O>{.name = "wing_from",
+               .member = &O::wing_from,
+               .min = -0.5,
+               .max = 0.9,
+               .help = "position of the leading edge in the wing, relative to the local chord"},
+      Field<O>{
+          .name = "wing_to", .member = &O::wing_to, .min = 0.0, .max = 1.0, .help = "position of the trailing edge in the wing, relative to the local chord"},
   };
 };
 /// The lower end of the pylon follows the outer surface that faces the wing. The pylon leaves the nacelle only through that surface, not through the nozzle
@@ -151,18 +185,18 @@ struct Schema<BoomOptions> {
   using O = BoomOptions;
   static constexpr std::string_view stage = "boom";
   static constexpr std::array fields = {
-      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the tube", .required = true},
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "diameter of the tube", .required = true},
       Field<O>{.name = "nose_length",
                .member = &O::nose_length,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "of the rounded front end; 0 = flat",
+               .help = "length of the rounded front end; 0 = flat",
                .automatic = "one diameter"},
       Field<O>{.name = "tail_length",
                .member = &O::tail_length,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "of the rounded rear end; 0 = flat",
+               .help = "length of the rounded rear end; 0 = flat",
                .automatic = "two diameters"},
   };
 };
@@ -182,11 +216,12 @@ struct Schema<FairingOptions> {
   using O = FairingOptions;
   static constexpr std::string_view stage = "fairing";
   static constexpr std::array fields = {
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "along x", .required = true},
-      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y, of the largest section", .required = true},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z, of the largest section", .required = true},
-      Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "where the largest section is, of the length"},
-      Field<O>{.name = "exponent", .member = &O::exponent, .min = 1.2, .max = 8.0, .help = "of the sections: 2 = ellipses, larger = nearer to rectangles"},
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "length along x", .required = true},
+      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "width of the largest section, along y", .required = true},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "height of the largest section, along z", .required = true},
+      Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "position of the largest section, relative to the length"},
+      Field<O>{
+          .name = "exponent", .member = &O::exponent, .min = 1.2, .max = 8.0, .help = "exponent of the sections: 2 = ellipses, larger = closer to rectangles"},
   };
 };
 /// \throws Error(bad_argument)
@@ -203,15 +238,19 @@ struct Schema<StingOptions> {
   using O = StingOptions;
   static constexpr std::string_view stage = "sting";
   static constexpr std::array fields = {
-      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the cylinder", .required = true},
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "diameter of the cylinder", .required = true},
       Field<O>{.name = "cone_start",
                .member = &O::cone_start,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "distance of the cone from the front end; 0 = all of it is a cone",
+               .help = "distance of the cone from the front end; 0 = the whole sting is a cone",
                .automatic = "no cone"},
-      Field<O>{
-          .name = "end_diameter", .member = &O::end_diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the rear end", .automatic = "that of the cylinder"},
+      Field<O>{.name = "end_diameter",
+               .member = &O::end_diameter,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "diameter of the rear end",
+               .automatic = "diameter of the cylinder"},
   };
 };
 /// \throws Error(bad_argument)

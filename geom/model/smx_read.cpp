@@ -83,7 +83,7 @@ bool SmxReader::read_shape(const Node& node, BodyFrame& frame) {
   for (const Node child : node.children()) {
     const std::string_view tag = child.name();
     if (!tag.ends_with("Constraint")) continue;
-    if (n_shapes++ > 0) file_.fail(child, "a frame has one shape; this is its second");
+    if (n_shapes++ > 0) file_.fail(child, "a frame must have one shape; this is the second shape");
     frame.n_points = static_cast<int>(std::clamp<std::int64_t>(file_.integer(child, "npoints", tag.starts_with("Circ") ? 7 : 11), 4, 10000));
     if (tag == "CircularShapeConstraint") {
       file_.warn_unknown(child, "npoints radius", "");
@@ -112,7 +112,7 @@ bool SmxReader::read_shape(const Node& node, BodyFrame& frame) {
       frame.a1 = file_.number(child, "a1", 0.0);
       frame.b1 = file_.number(child, "b1", 0.0);
     } else {
-      file_.fail(child, "this shape of a frame is not known");
+      file_.fail(child, "this frame shape is not known");
     }
   }
   return n_shapes > 0;
@@ -166,7 +166,7 @@ Body SmxReader::body(const Node& node) {
   body.tangents = file_.boolean(node, "akimatg", false) ? BodyTangents::akima : BodyTangents::bessel;
   for (const Node child : node.children("BodyFrame")) body.frames.push_back(frame(child));
   if (body.frames.size() < 2) file_.fail(node, "a body needs 2 frames; it has " + std::to_string(body.frames.size()));
-  if (body.frames.size() < 4) file_.tell(node, "sumo wants 4 frames; there are " + std::to_string(body.frames.size()));
+  if (body.frames.size() < 4) file_.tell(node, "sumo requires 4 frames; the body has " + std::to_string(body.frames.size()));
   const auto is_before = [](const BodyFrame& a, const BodyFrame& b) { return a.center.x < b.center.x; };
   if (!std::is_sorted(body.frames.begin(), body.frames.end(), is_before)) {
     std::stable_sort(body.frames.begin(), body.frames.end(), is_before);
@@ -175,14 +175,14 @@ Body SmxReader::body(const Node& node) {
   for (std::size_t i = 1; i < body.frames.size(); ++i)
     if (body.frames[i].center.x == body.frames[i - 1].center.x)
       file_.tell(node, "frames '" + body.frames[i - 1].name + "' and '" + body.frames[i].name +
-                           "' stand in the same plane x = " + exact_text(body.frames[i].center.x) + "; no surface can be made through both");
+                           "' are in the same plane x = " + exact_text(body.frames[i].center.x) + "; no surface can be made through both");
   if (const Node lip = node.child("NacelleInletLip")) {
     file_.warn_unknown(lip, "axialOffset radialOffset shapeCoef", "");
     body.lip = InletLip{file_.number(lip, "axialOffset", 0.4), file_.number(lip, "radialOffset", 0.2), file_.number(lip, "shapeCoef", 1.0)};
   }
   read_caps(node, body.nose, body.tail);
   if (body.lip && body.nose.height != 0.0) {
-    file_.tell(node, "an inlet lip makes the front cap flat");
+    file_.tell(node, "the body has an inlet lip, so its front cap is flat");
     body.nose.height = 0.0;
   }
   body.criterion = criterion(node);
@@ -199,7 +199,7 @@ void SmxReader::read_caps(const Node& node, EndCap& south, EndCap& north) {
     file_.warn_unknown(cap, "shape height side", "");
     const std::string shape = file_.required_text(cap, "shape"), side = file_.required_text(cap, "side");
     if (shape != "LongCap" && shape != "RingCap") file_.fail(cap, "a cap has the shape LongCap or RingCap, not '" + shape + "'");
-    if (side != "south" && side != "north") file_.fail(cap, "caps stand on the sides south and north, not '" + side + "'");
+    if (side != "south" && side != "north") file_.fail(cap, "the side of a cap is south or north, not '" + side + "'");
     const EndCap read{shape == "LongCap" ? CapShape::strip : CapShape::dome, file_.number(cap, "height", 0.0)};
     if (read.height < 0.0) file_.fail(cap, "the height is " + exact_text(read.height) + "; it must not be negative");
     (side == "south" ? south : north) = read;
@@ -437,7 +437,7 @@ void SmxReader::resolve(const Aircraft& aircraft) {
   for (const Control& control : aircraft.controls)
     for (const ControlParticipation& p : control.participations)
       if (!segments.contains(p.segment))
-        file_.tell(file_.root(), "control '" + control.name + "' moves '" + p.segment + "', which is no segment of a control surface");
+        file_.tell(file_.root(), "control '" + control.name + "' moves '" + p.segment + "', which is not a segment of a control surface");
   for (std::size_t i = 0; i < aircraft.engines.size(); ++i)
     for (const auto* regions : {&aircraft.engines[i].intakes, &aircraft.engines[i].nozzles})
       for (const EngineRegion& region : *regions)
@@ -468,9 +468,9 @@ AircraftReading SmxReader::read() {
       }
     }
   } else {
-    file_.fail(root, "the root of a .smx file is Assembly, BodySkeleton or WingSkeleton");
+    file_.fail(root, "the root element of a .smx file must be Assembly, BodySkeleton or WingSkeleton");
   }
-  if (aircraft.bodies.empty() && aircraft.wings.empty()) file_.fail(root, "there is no body and no wing in the file");
+  if (aircraft.bodies.empty() && aircraft.wings.empty()) file_.fail(root, "the file has no body and no wing");
   resolve(aircraft);
   reading.messages = std::move(file_.messages());
   return reading;

@@ -129,10 +129,10 @@ void add_body(Node& root, const Body& body) {
   if (body.tangents == BodyTangents::linear)
     refuse_smx("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
   if (body.tangents == BodyTangents::monotone && body.frames.size() > 2)
-    refuse_smx("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do",
-               "make it with fuselage{ along = \"smooth\" } or \"akima\", which .smx has, or write the model as STEP");
+    refuse_smx("body '" + body.name + "' does not overshoot between its frames; bodies of .smx do",
+               "make the body with fuselage{ along = \"smooth\" } or \"akima\", which .smx supports, or write the model as STEP");
   if (body.has_mirror_image)
-    refuse_smx("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
+    refuse_smx("body '" + body.name + "' has a mirror image; .smx requires a separate body for the image", "add the mirror image as a separate body");
   Node node = root.append_child("BodySkeleton");
   set(node, "akimatg", body.tangents == BodyTangents::akima);
   set(node, "name", body.name);
@@ -165,12 +165,12 @@ void add_wing(Node& root, const Wing& wing) {
   for (const WingSection& s : wing.sections)
     if (!wing.trailing_edge && s.points.size() > 2 &&
         std::hypot(s.points.front().u - s.points.back().u, s.points.front().v - s.points.back().v) > k_closed_airfoil)
-      refuse_smx("the airfoil of section '" + s.name + "' of wing '" + wing.name + "' is open at its trailing edge, .smx has only sharp ones",
+      refuse_smx("the airfoil of section '" + s.name + "' of wing '" + wing.name + "' is open at its trailing edge; .smx has only sharp trailing edges",
                  "give the wing trailing_edge = 0, or write the model as STEP");
   if (wing.trailing_edge.value_or(0.0) != 0.0)
-    refuse_smx("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp ones", "write the model as STEP instead");
+    refuse_smx("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp trailing edges", "write the model as STEP instead");
   if (wing.has_mirror_image)
-    refuse_smx("wing '" + wing.name + "' has a mirror image; .smx wants it as a wing of its own", "add the image as a wing of its own");
+    refuse_smx("wing '" + wing.name + "' has a mirror image; .smx requires a separate wing for the image", "add the mirror image as a separate wing");
   Node node = root.append_child("WingSkeleton");
   set(node, "flags", std::string(wing.is_symmetric ? "autosym," : "") + (wing.has_winglet ? "detectwinglet," : "") + (wing.is_cubic ? "cubic," : ""));
   set(node, "name", wing.name);
@@ -268,8 +268,8 @@ void write_smx(const Aircraft& aircraft, const std::filesystem::path& path) {
     refuse_smx("nacelle '" + aircraft.nacelles.front().name + "' is made of cowls; .smx has only bodies with an inlet lip", "write the model as STEP instead");
   for (const Deflection& deflection : aircraft.deflections)
     if (deflection.angle != 0.0 || deflection.gap != ControlGap::sealed)
-      refuse_smx("control surface '" + deflection.surface.name + "' is deflected or has a gap; .smx has only clean wings",
-                 "write the model as STEP instead, or give it no deflection");
+      refuse_smx("control surface '" + deflection.surface.name + "' is deflected or has a gap; .smx has only wings without deflected surfaces or gaps",
+                 "write the model as STEP instead, or set no deflection");
   pugi::xml_document document;
   Node declaration = document.append_child(pugi::node_declaration);
   set(declaration, "version", std::string("1.0"));

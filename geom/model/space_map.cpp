@@ -19,7 +19,7 @@ Point FunctionMap::point(const Point& p) const {
   if (!is_finite(q))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "deforming by a function",
-                 .problem = "the function does not give finite numbers here",
+                 .problem = "the function returns numbers that are not finite here",
                  .places = {{p, "argument"}}});
   return q;
 }

@@ -56,7 +56,7 @@ void check_options(const SplineOptions& o, std::size_t n, std::size_t n_rows, st
     if (o.at.size() != n) throw_bad_argument(attempted, std::to_string(o.at.size()) + " parameters for " + std::to_string(n) + " points");
     for (std::size_t i = 0; i < n; ++i)
       if (!std::isfinite(o.at[i]) || (i > 0 && !(o.at[i] > o.at[i - 1])))
-        throw_bad_argument(attempted, "the parameters do not ascend at point " + std::to_string(i));
+        throw_bad_argument(attempted, "the parameters are not in ascending order at point " + std::to_string(i));
   }
   if (!o.start_tangents.empty() && o.start_tangents.size() != n_rows)
     throw_bad_argument(attempted, std::to_string(o.start_tangents.size()) + " start tangents for " + std::to_string(n_rows) + " rows");
@@ -69,7 +69,8 @@ void check_options(const SplineOptions& o, std::size_t n, std::size_t n_rows, st
     if (c == 0 || c + 1 >= n || (k > 0 && c <= o.corners[k - 1]))
       throw_bad_argument(attempted, "corner " + std::to_string(c) + " is not an inner point (1 .. " + std::to_string(n - 2) + ") or not in ascending order");
   }
-  if (is_closed(o) && !o.corners.empty()) throw_bad_argument(attempted, "a closed smooth spline has corners; begin it at a corner and leave it open");
+  if (is_closed(o) && !o.corners.empty())
+    throw_bad_argument(attempted, "a closed smooth spline cannot have corners; begin the spline at a corner and leave it open");
   if (is_closed(o) && n < 4)
     throw_bad_argument(attempted, "a closed spline of " + std::to_string(n) + " points, at least 4 are needed (the last repeats the first)");
 }
@@ -321,7 +322,8 @@ EndTangents ends_of(const SplineOptions& o, std::size_t row) {
 
 void check_seam(const Point& first, const Point& last, double length, std::string_view attempted) {
   if (distance(first, last) > k_closed * length)
-    throw_bad_argument(attempted, "a closed spline whose last point does not repeat the first: they are " + number_text(distance(first, last)) + " m apart",
+    throw_bad_argument(attempted,
+                       "the last point of a closed spline must repeat the first point: the two points are " + number_text(distance(first, last)) + " m apart",
                        {{first, "first"}, {last, "last"}});
 }
 

@@ -18,7 +18,7 @@ constexpr double k_whole_period = 1e-12;
 
 void check_range(Interval range, const char* attempted) {
   if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-    throw_bad_argument(attempted, "its parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length");
+    throw_bad_argument(attempted, "the parameter range [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] has no length");
 }
 
 /// Tolerance within which a vector counts as a unit vector and is unchanged: dividing it again would change its last digits.
@@ -49,9 +49,9 @@ NurbsSurfaceForm rows_of(const NurbsCurveForm<Point>& a, const NurbsCurveForm<Po
 RevolutionSurface::RevolutionSurface(CurvePtr profile, const Point& axis_point, const Vec3& axis, Interval angles)
     : profile_(std::move(profile)), axis_point_(axis_point), axis_(unit(axis)), angles_(angles) {
   check_range(angles, "making a surface of revolution");
-  if (!(norm(axis_) > 0.0)) throw_bad_argument("making a surface of revolution", "its axis has no direction");
+  if (!(norm(axis_) > 0.0)) throw_bad_argument("making a surface of revolution", "the axis has no direction");
   if (angles.length() > k_sweep_turn * (1.0 + k_whole_period))
-    throw_bad_argument("making a surface of revolution", "it goes round by more than a turn: " + std::to_string(angles.length()) + " rad");
+    throw_bad_argument("making a surface of revolution", "the surface covers more than one turn: " + std::to_string(angles.length()) + " rad");
 }
 
 bool RevolutionSurface::is_periodic_u() const { return std::abs(angles_.length() - k_sweep_turn) <= k_whole_period * k_sweep_turn; }
@@ -76,7 +76,7 @@ SurfaceDerivatives RevolutionSurface::derivatives(Uv at) const {
 
 ExtrusionSurface::ExtrusionSurface(CurvePtr curve, const Vec3& direction, Interval range) : curve_(std::move(curve)), direction_(direction), range_(range) {
   check_range(range, "making an extrusion");
-  if (!(norm(direction) > 0.0)) throw_bad_argument("making an extrusion", "its direction has no length");
+  if (!(norm(direction) > 0.0)) throw_bad_argument("making an extrusion", "the direction has no length");
 }
 
 SurfaceDerivatives ExtrusionSurface::derivatives(Uv at) const {
@@ -172,8 +172,8 @@ SurfaceView::SurfaceView(SurfacePtr base, const ParameterBox& domain, Map u, Map
   const ParameterBox all = base_->domain();
   const Interval part_u = image(u, is_exchanged ? domain.v : domain.u), part_v = image(v, is_exchanged ? domain.u : domain.v);
   const auto complain = [](const char* name, Interval part, Interval whole) {
-    throw_bad_argument(k_view, std::string(name) + " in [" + std::to_string(part.from) + ", " + std::to_string(part.to) + "] is not within its domain [" +
-                                   std::to_string(whole.from) + ", " + std::to_string(whole.to) + "]");
+    throw_bad_argument(k_view, std::string(name) + " in [" + std::to_string(part.from) + ", " + std::to_string(part.to) +
+                                   "] is not within the parameter range [" + std::to_string(whole.from) + ", " + std::to_string(whole.to) + "]");
   };
   if (!base_->is_periodic_u() && reaches_beyond(part_u, all.u)) complain("u", part_u, all.u);
   if (!base_->is_periodic_v() && reaches_beyond(part_v, all.v)) complain("v", part_v, all.v);

@@ -100,7 +100,7 @@ void WingBuilder::make_rows() {
   const auto refuse = [&](const std::string& problem) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = problem});
   };
-  if (wing_.sections.size() < 2) refuse("it has " + std::to_string(wing_.sections.size()) + " sections; at least 2 are needed");
+  if (wing_.sections.size() < 2) refuse("the wing has " + std::to_string(wing_.sections.size()) + " sections; at least 2 are needed");
   made_ = wing_rows(wing_);
   is_blunt_ = made_.is_blunt;
   refuse_fold_back();
@@ -114,7 +114,7 @@ void WingBuilder::make_rows() {
     for (Point& p : row) p = map_.point(p);
   for (std::size_t i = 1; i < rows_.size(); ++i)
     if (distance(rows_[i].front(), rows_[i - 1].front()) + distance(rows_[i][k_side_points], rows_[i - 1][k_side_points]) == 0.0)
-      refuse("two neighbouring sections, number " + std::to_string(i) + " and " + std::to_string(i + 1) + " along the whole span, stand in the same place");
+      refuse("two neighbouring sections, number " + std::to_string(i) + " and " + std::to_string(i + 1) + " along the whole span, are at the same location");
 }
 
 /// Rejects a panel that folds back over the previous one: sections out of order. \pre rows in component axes
@@ -129,7 +129,7 @@ void WingBuilder::refuse_fold_back() const {
     if (rows_[i][k_side_points].x < between(0) && between(k_side_points) < rows_[i][0].x)
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "making wing '" + wing_.name + "'",
-                   .problem = "it folds back onto itself: the panel before and the one behind a section lie over each other",
+                   .problem = "the wing folds back onto itself: the panels before and behind a section overlap",
                    .places = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}},
                    .hint = "give the sections in their order along the span"});
   }

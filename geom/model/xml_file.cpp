@@ -70,7 +70,7 @@ XmlFile::XmlFile(const std::filesystem::path& path) : path_(path), document_(std
     const auto [line, column] = line_and_column(bytes_, result.offset);
     throw Error({.code = ErrorCode::file_malformed,
                  .attempted = "reading " + path.string(),
-                 .problem = "line " + std::to_string(line) + ", column " + std::to_string(column) + ": not XML: " + result.description()});
+                 .problem = "line " + std::to_string(line) + ", column " + std::to_string(column) + ": the file is not valid XML: " + result.description()});
   }
 }
 
@@ -134,7 +134,8 @@ bool XmlFile::boolean(const pugi::xml_node& node, const char* attribute, bool fa
   if (!a) return fallback;
   const std::string_view value = a.value();
   if (value == "true" || value == "1") return true;
-  if (value != "false" && value != "0") tell(node, std::string("attribute '") + attribute + "' is '" + a.value() + "', neither true nor false; taken as false");
+  if (value != "false" && value != "0")
+    tell(node, std::string("attribute '") + attribute + "' is '" + a.value() + "', neither true nor false; false is assumed");
   return false;
 }
 
@@ -199,7 +200,7 @@ double XmlFile::required_child_number(const pugi::xml_node& node, const char* ch
 
 std::vector<Uv> XmlFile::pairs(const pugi::xml_node& node) const {
   const std::vector<double> values = numbers(node, content(node));
-  if (values.size() % 2 != 0) fail(node, "a list of " + std::to_string(values.size()) + " numbers cannot be pairs");
+  if (values.size() % 2 != 0) fail(node, "a list of " + std::to_string(values.size()) + " numbers cannot form pairs");
   std::vector<Uv> pairs(values.size() / 2);
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {values[2 * i], values[2 * i + 1]};
   return pairs;

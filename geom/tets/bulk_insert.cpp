@@ -94,7 +94,7 @@ void BulkInserter::make_room(std::size_t n_places) {
     throw Error({.code = ErrorCode::overflow,
                  .attempted = "refining tetrahedra",
                  .problem = std::to_string(n_places) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
-                 .hint = "a size, or a source, is very small in a large region"});
+                 .hint = "use larger sizes: a size or a source is very small in a large region"});
   if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // not doubled, to save memory
   mesh_.nodes.resize(n_places, {k_none, k_none, k_none, k_none});
   mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});

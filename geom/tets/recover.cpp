@@ -86,7 +86,7 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
     }
   }
   if (failure.n_places > 0) {
-    failure.problem = std::to_string(failure.n_places) + " points of the boundary cannot be connected with the others";
+    failure.problem = std::to_string(failure.n_places) + " points of the boundary cannot be inserted into the tetrahedral mesh";
     return {};
   }
   parallel_for(context, mesh.nodes.size(), [&](std::size_t t) {
@@ -303,7 +303,7 @@ void Recoverer::make_all(std::vector<std::uint32_t>& list, const Make& make, con
 
 void Recoverer::run(RecoverReport& report, RecoverFailure& failure) {
   const auto tell = [&](const std::string& what, std::size_t n, const auto& place) {
-    failure.problem = std::to_string(n) + " " + what + " of the boundary could not be made a part of the mesh";
+    failure.problem = std::to_string(n) + " " + what + " of the boundary could not be recovered in the mesh";
     failure.n_places = static_cast<std::int64_t>(n);
     for (std::size_t i = 0; i < std::min(n, k_max_places); ++i) failure.places.push_back(place(i));
   };
@@ -398,7 +398,7 @@ Recovery recover(std::span<const Vec3> points, std::span<const Facet> facets, st
   recovery.report.n_facets = static_cast<std::int64_t>(all.size());
   Recoverer(recovery.mesh, wanted, context).run(recovery.report, recovery.failure);
   if (recovery.failure.problem.empty() && !keep_domain(recovery.mesh, wanted, facets.size(), points.size(), context))
-    recovery.failure.problem = "the boundary's normals do not all point to one side";
+    recovery.failure.problem = "the normals of the boundary do not all point to the same side";
   if (!recovery.failure.problem.empty()) {
     recovery.mesh = {};
     return recovery;

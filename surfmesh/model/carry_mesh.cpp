@@ -251,18 +251,18 @@ std::string text_of(const Faults& faults, Point& place) {
   const auto number = [](double value) { return number_text(value, 3); };
   if (const Fault& f = faults.folded; f.n > 0) {
     place = f.place;
-    return counted(f.n, "triangle") + " would be off the surface's normals by up to " + number(f.value / k_degree) + " degrees, where " +
-           number(f.limit / k_degree) + " are allowed";
+    return counted(f.n, "triangle") + " would deviate from the surface normals by up to " + number(f.value / k_degree) + " degrees; the limit is " +
+           number(f.limit / k_degree) + " degrees";
   }
   if (const Fault& f = faults.thin; f.n > 0) {
     place = f.place;
-    return counted(f.n, "triangle") + " would be too thin, the worst with an angle of " + number(f.value / k_degree) + " degrees, where " +
-           number(f.limit / k_degree) + " are needed";
+    return counted(f.n, "triangle") + " would be too thin, the worst with an angle of " + number(f.value / k_degree) + " degrees; the limit is " +
+           number(f.limit / k_degree) + " degrees";
   }
   if (const Fault& f = faults.stretched; f.n > 0) {
     place = f.place;
-    return counted(f.n, "edge") + " of triangles would be too long or too short, the worst " + number(f.value) + " times as long as in the reference, where " +
-           number(1.0 / f.limit) + " to " + number(f.limit) + " are allowed";
+    return counted(f.n, "edge") + " of triangles would be too long or too short, the worst " + number(f.value) +
+           " times as long as in the reference; allowed are " + number(1.0 / f.limit) + " to " + number(f.limit) + " times";
   }
   return {};
 }

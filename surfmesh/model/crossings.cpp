@@ -241,7 +241,7 @@ ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const Mesh
   const auto n_closed = count([](const CrossingFaces& c) { return !c.is_one_part && c.is_closed; });
   const auto n_open = static_cast<std::ptrdiff_t>(faces.size()) - n_own - n_closed;
   info.problem = std::to_string(crossings.total) + " pairs of triangles cross or touch, on " + std::to_string(faces.size()) + " pairs of faces (" +
-                 std::to_string(n_own) + " within one part, " + std::to_string(n_closed + n_open) + " between parts that stand in each other or touch)";
+                 std::to_string(n_own) + " within one part, " + std::to_string(n_closed + n_open) + " between parts that overlap or touch)";
   info.n_places = static_cast<std::int64_t>(faces.size());
   for (std::size_t i = 0; i < std::min(k_max_places, faces.size()); ++i) {
     const CrossingFaces& c = faces[i];
@@ -256,10 +256,11 @@ ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const Mesh
   }
   const auto advise = [&](const std::string& text) { info.hint += (info.hint.empty() ? "" : "; ") + text; };
   if (n_closed > 0) advise("unite the parts first: union{ ... } or sterna union model.step -o united.step");
-  if (n_open > 0) advise("a part that is open cannot be united: close it (cap = true on reading), or leave it out");
+  if (n_open > 0) advise("an open part cannot be united: close the part (cap = true on reading), or leave it out");
   if (n_own > 0)
     advise(
-        "mend the faces that cross within a part in CAD (a surface that folds cannot be meshed soundly), or, where they only run near to each other, give them "
+        "repair the faces that cross within a part in CAD (a folded surface cannot be meshed reliably), or, where faces are only close to each other, give "
+        "them "
         "a smaller max_edge by name (patches)");
   info.geometry = draw(mesh, crossings);
   return info;

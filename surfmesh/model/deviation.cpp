@@ -229,7 +229,7 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
   result.n_facets = static_cast<std::int64_t>(walls.facets.size());
   result.unknown = walls.unknown;
   if (walls.facets.empty()) {
-    std::string reason = "no patch of the mesh has the name of a patch of the model's surface, such as \"" +
+    std::string reason = "no patch name of the mesh matches a patch of the model's surface, such as \"" +
                          (wall.patches.empty() ? std::string() : wall.patches.raw().front().name) + "\"";
     result.distance = not_checked(Measure::cad_distance, limits, reason);
     result.normal = not_checked(Measure::cad_normal, limits, std::move(reason));
@@ -264,7 +264,7 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
     const Point p = centroid_of(walls, facet);
     return std::pair(p, std::string(facet.size == 3 ? "triangle " : "quad ") + std::to_string(facet.number) + ", patch " + walls.patches[facet.patch].name +
                             ", against face \"" + model.name_of(probe.nearest(p).face) + "\" of the model" +
-                            (turns[i].is_beside ? ", whose normal was taken beside a pole" : ""));
+                            (turns[i].is_beside ? ", whose normal was evaluated beside a pole" : ""));
   });
   context.progress(1.0);
   return result;

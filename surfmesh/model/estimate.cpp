@@ -59,7 +59,7 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
   if (total <= k_surely * options.max_triangles) return;
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.n > b.n; });
   ErrorInfo info{.code = ErrorCode::overflow, .attempted = k_estimate_attempt};
-  info.problem = "the wanted sizes ask for about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.max_triangles);
+  info.problem = "the target sizes require about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.max_triangles);
   info.n_places = static_cast<std::int64_t>(entries.size());
   for (std::size_t i = 0; i < std::min(k_shown_faces, entries.size()); ++i) {
     const FaceId f = entries[i].face;
@@ -68,7 +68,7 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
     info.places.push_back({place_on(model, edges, f), "\"" + model.faces[f].name + "\" (face " + std::to_string(f.value()) + "): about " +
                                                           rounded(entries[i].n) + " with edges of " + size + " m at most"});
   }
-  info.hint = "a larger max_edge, min_edge or curvature_angle; are the model's units right?";
+  info.hint = "a larger max_edge, min_edge or curvature_angle; check the units of the model";
   throw Error(std::move(info));
 }
 
@@ -83,10 +83,10 @@ void check_band_estimate(const Model& model, const WingBands& bands, const Colum
     const Point place = edges[e].samples[edges[e].samples.size() / 2].point;
     throw Error({.code = ErrorCode::overflow,
                  .attempted = k_estimate_attempt,
-                 .problem = "a band with a first cell of " + std::string(first) + " m asks for more than " + rounded(n) + " triangles; max_triangles is " +
+                 .problem = "a band with a first cell of " + std::string(first) + " m requires more than " + rounded(n) + " triangles; max_triangles is " +
                             std::to_string(options.max_triangles),
                  .places = {{place, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}},
-                 .hint = "a larger chordwise or stretch; are the units right?"});
+                 .hint = "a larger chordwise or stretch; check the units of the model"});
   }
 }
 
@@ -95,8 +95,8 @@ void check_count(const SurfaceMesh& mesh, const SurfaceMeshOptions& options) {
   if (n == 0)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_estimate_attempt,
-                 .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge, and were absorbed",
-                 .hint = "a smaller min_edge or max_edge; are the model's units right?"});
+                 .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge and were removed",
+                 .hint = "a smaller min_edge or max_edge; check the units of the model"});
   if (n <= static_cast<std::size_t>(options.max_triangles)) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = k_estimate_attempt,

@@ -113,7 +113,7 @@ LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology
 void note_dropped_rows(const BandedFace& banded, MeshedFace& face) {
   if (banded.dropped.empty()) return;
   face.notes.push_back("rows on \"" + face.summary.name + "\" are left out beside " + std::to_string(banded.dropped.size()) + " points, the first " +
-                       format_point(banded.dropped.front()) + ": the rest of the face could not be meshed around them");
+                       format_point(banded.dropped.front()) + ": the rest of the face could not be meshed around these points");
 }
 
 }  // namespace
@@ -226,7 +226,7 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
     }
     if (bands.strips[f] && result.mesh.n_band == 0)
       result.notes.push_back("the base of \"" + face.name + "\" near " + format_point(labelled.border.loops.front().front().point) +
-                             " could not be laid out as a strip of cells: it is meshed like other faces");
+                             " could not be divided into a strip of cells and is meshed like other faces");
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     return fail(error.info());

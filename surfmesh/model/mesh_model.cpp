@@ -130,7 +130,7 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
     if (info.hint.empty()) info.hint = face.failure->hint;
   }
   info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
-  info.hint += std::string(info.hint.empty() ? "" : "; ") + "failed_faces = \"hole\" leaves them out; --auto does so and fills the holes";
+  info.hint += std::string(info.hint.empty() ? "" : "; ") + "failed_faces = \"hole\" leaves these faces out; --auto also fills the holes";
   throw Error(std::move(info));
 }
 
@@ -163,13 +163,13 @@ void refine_triangle(Meshing& meshing, const SurfaceMesh& mesh, TriangleId t, do
 [[noreturn]] void throw_faults(const Meshing& meshing, const SurfaceMesh& mesh, const JoinFaults& faults) {
   ErrorInfo info{.code = ErrorCode::non_manifold_surface,
                  .attempted = k_attempted,
-                 .problem = "triangles of faces do not join: edges have one or more than two triangles, or two that run the same way"};
+                 .problem = "triangles of adjacent faces do not match: edges have one or more than two triangles, or two triangles of opposite orientation"};
   info.n_places = static_cast<std::int64_t>(faults.triangles.size());
   for (std::size_t i = 0; i < std::min(k_max_places, faults.triangles.size()); ++i) {
     const auto p = corners(mesh.mesh, faults.triangles[i]);
     info.places.push_back({(p[0] + p[1] + p[2]) / 3.0, "face \"" + meshing.model.faces[mesh.triangle_face[faults.triangles[i]]].name + "\""});
   }
-  info.hint = "faces of the model may overlap, or an edge may have more than two faces";
+  info.hint = "check the model in CAD: faces may overlap, or an edge may have more than two faces";
   throw Error(std::move(info));
 }
 
@@ -199,7 +199,7 @@ std::vector<std::string> holes_of(const Meshing& meshing) {
     const CornerId corner = meshing.model.edges[meshing.model.faces[f].borders.front().front().edge].start;
     const Point place = !face.failure->places.empty() ? face.failure->places.front().position : meshing.model.corners[corner].point;
     notes.push_back("face " + std::to_string(f.value()) + ", \"" + meshing.model.faces[f].name + "\", near " + format_point(place) +
-                    " cannot be meshed and stays a hole: " + face.failure->problem);
+                    " cannot be meshed and is left as a hole: " + face.failure->problem);
   }
   return notes;
 }
@@ -222,7 +222,7 @@ void check_options(const SurfaceMeshOptions& options) {
         {.code = ErrorCode::bad_argument,
          .attempted = k_attempted,
          .problem = "min_edge = " + number_text(options.min_edge, k_digits) + " m is above max_edge = " + number_text(options.max_edge, k_digits) + " m",
-         .hint = "curvature and narrow places ask for no edges below min_edge; leave it automatic for 2 % of max_edge"});
+         .hint = "curvature and narrow regions do not require edges below min_edge; automatic sets min_edge to 2 % of max_edge"});
 }
 
 }  // namespace
@@ -288,7 +288,8 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   if (smooth.angle_outside_spots > k_largest_smooth_turn)
     context.warn("the mesh turns by " + number_text(std::round(smooth.angle_outside_spots * 180.0 / std::numbers::pi), k_digits) + " degrees at " +
                  format_point(smooth.place_outside_spots) +
-                 ", where the model is smooth: layers will take it for an edge (shorter edges there: max_edge, min_edge, curvature_angle; or the model folds)");
+                 ", where the model is smooth: layers will treat this location as a sharp edge (use shorter edges there: max_edge, min_edge, curvature_angle; "
+                 "or the model folds)");
   return mesh;
 }
 
@@ -310,9 +311,9 @@ std::string to_text(const SurfaceMeshReport& report) {
   }
   if (report.worst_normal_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_normal_face.index()];
-    text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; farthest off on \"" + worst.name + "\" at " +
-            format_point(worst.normal_place) + ", " + number(worst.max_normal_angle / k_degree) + " degrees for " + number(worst.curvature_angle / k_degree) +
-            "\n";
+    text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; largest deviation on \"" + worst.name +
+            "\" at " + format_point(worst.normal_place) + ", " + number(worst.max_normal_angle / k_degree) + " degrees for " +
+            number(worst.curvature_angle / k_degree) + "\n";
   }
   if (const BandSummary& bands = report.bands; bands.n_triangles > 0) {
     text += "bands: " + std::to_string(bands.n_triangles) + " triangles beside " + std::to_string(bands.n_edges) + " edges and on " +
@@ -324,14 +325,14 @@ std::string to_text(const SurfaceMeshReport& report) {
   text += "; edges within " + number(report.max_edge_distance) + " m of their surfaces";
   if (!report.loose_edges.empty()) {
     const LooseEdge& loose = report.loose_edges.front();
-    text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " +
+    text += "; " + std::to_string(report.loose_edges.size()) + " edges exceed their tolerance, first: " + number(loose.distance) + " m instead of " +
             number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
   }
   constexpr double k_flat = 1e-6;  // rad: negligible
   if (report.max_smooth_angle > k_flat)
-    text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees an edge, at " + format_point(report.smooth_angle_place);
+    text += "; smooth regions turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees per edge, at " + format_point(report.smooth_angle_place);
   if (!report.absorbed.empty())
-    text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " +
+    text += "; " + std::to_string(report.absorbed.size()) + " small parts removed, first: " + report.absorbed.front().what + " at " +
             format_point(report.absorbed.front().place);
   if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
   return text + "\n";

@@ -74,7 +74,7 @@ void report_crossings(const Model& model, const SurfaceMeshOptions& options, con
   mesh.report.crossings = crossing_faces(model, mesh, crossings);
   ErrorInfo info = crossing_error(model, mesh, crossings, mesh.report.crossings);
   if (options.crossings != "error") return context.warn(Error(std::move(info)).what());
-  info.hint += "; crossings = \"warn\" keeps the mesh as it is";
+  info.hint += "; crossings = \"warn\" keeps the mesh with its crossings";
   throw Error(std::move(info));
 }
 

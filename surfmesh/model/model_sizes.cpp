@@ -122,9 +122,9 @@ void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& 
   if (n <= options.max_triangles) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = "meshing the model's surface",
-               .problem = "chord_error = " + number_text(least) + " m asks for about " + number_text(n, 2) + " triangles; max_triangles is " +
+               .problem = "chord_error = " + number_text(least) + " m requires about " + number_text(n, 2) + " triangles; max_triangles is " +
                           std::to_string(options.max_triangles),
-               .hint = "a larger chord_error, or a min_edge, where it ends; are the model's units right?"});
+               .hint = "a larger chord_error, or a min_edge that limits chord_error; check the units of the model"});
 }
 
 FaceSizes resolve(const std::string& name, double automatic_max, double automatic_least, double least_of_min, const SurfaceMeshOptions& options,

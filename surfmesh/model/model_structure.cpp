@@ -9,7 +9,7 @@ namespace {
 constexpr int k_use_samples = 5;
 
 std::string number_of(std::size_t now, std::string_view what, std::size_t before) {
-  return "it has " + std::to_string(now) + " " + std::string(what) + ", the reference " + std::to_string(before);
+  return "the model has " + std::to_string(now) + " " + std::string(what) + ", the reference has " + std::to_string(before);
 }
 
 double share_of(double t, const Interval& range) { return range.length() > 0.0 ? (t - range.from) / range.length() : 0.0; }
@@ -25,18 +25,18 @@ bool runs_alike(const UseStructure& a, const ParameterBox& of_a, const UseStruct
 
 std::string difference_of_faces(const FaceStructure& a, const FaceStructure& b, FaceId f) {
   const std::string face = "face " + std::to_string(f.value()) + " (\"" + b.name + "\")";
-  if (a.name != b.name) return face + " is called \"" + a.name + "\" in the reference";
+  if (a.name != b.name) return face + " has the name \"" + a.name + "\" in the reference";
   if (a.component != b.component || a.role != b.role || a.kind != b.kind || a.is_reversed != b.is_reversed)
-    return face + " is of another component, role, kind or sense in the reference";
+    return face + " has another component, role, kind or orientation in the reference";
   if (a.borders.size() != b.borders.size())
-    return face + " has " + std::to_string(b.borders.size()) + " borders, in the reference " + std::to_string(a.borders.size());
+    return face + " has " + std::to_string(b.borders.size()) + " borders, but in the reference " + std::to_string(a.borders.size());
   for (std::size_t i = 0; i < a.borders.size(); ++i) {
     if (a.borders[i].size() != b.borders[i].size())
-      return face + " has a border of " + std::to_string(b.borders[i].size()) + " edges, in the reference of " + std::to_string(a.borders[i].size());
+      return face + " has a border of " + std::to_string(b.borders[i].size()) + " edges, but in the reference of " + std::to_string(a.borders[i].size());
     for (std::size_t k = 0; k < a.borders[i].size(); ++k) {
       const UseStructure &x = a.borders[i][k], &y = b.borders[i][k];
-      if (x.edge != y.edge || x.is_reversed != y.is_reversed) return face + " is bounded by other edges than in the reference";
-      if (!runs_alike(x, a.box, y, b.box)) return face + " is trimmed in another way than in the reference";
+      if (x.edge != y.edge || x.is_reversed != y.is_reversed) return face + " is bounded by different edges in the reference";
+      if (!runs_alike(x, a.box, y, b.box)) return face + " is trimmed differently in the reference";
     }
   }
   return {};
@@ -83,11 +83,11 @@ std::string difference_of(const ModelStructure& reference, const ModelStructure&
       return "component \"" + b.components[i].name + "\" is \"" + a.components[i].name + "\", or of another kind, in the reference";
   for (std::size_t i = 0; i < a.solids.size(); ++i)
     if (a.solids[i].name != b.solids[i].name || a.solids[i].faces != b.solids[i].faces || a.solids[i].is_closed != b.solids[i].is_closed)
-      return "solid \"" + b.solids[i].name + "\" is another one in the reference";
+      return "solid \"" + b.solids[i].name + "\" is different in the reference";
   for (const EdgeId e : a.edges.ids()) {
     const EdgeStructure &x = a.edges[e], &y = b.edges[e];
     if (x.start != y.start || x.end != y.end || x.is_degenerate != y.is_degenerate || x.name != y.name)
-      return "edge " + std::to_string(e.value()) + " joins other corners, or is called otherwise, in the reference";
+      return "edge " + std::to_string(e.value()) + " joins other corners, or has another name, in the reference";
   }
   for (const FaceId f : a.faces.ids())
     if (std::string difference = difference_of_faces(a.faces[f], b.faces[f], f); !difference.empty()) return difference;

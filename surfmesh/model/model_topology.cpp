@@ -112,7 +112,7 @@ void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges,
         if (topology.is_point[use.edge] == 0) left.push_back(use.edge);
     if (left.empty()) topology.is_absorbed[f] = 1;
     if (left.empty())
-      absorbed.push_back({"face " + model.faces[f].name + ", all of whose edges are points",
+      absorbed.push_back({"face " + model.faces[f].name + ", whose edges all have zero length",
                           model.corners[model.edges[model.faces[f].borders.front().front().edge].start].point, 0.0});
     if (left.size() != 2 || left[0] == left[1] || model.faces[f].borders.size() != 1) continue;
     const SameEdge a = find(topology, left[0]), b = find(topology, left[1]);

@@ -21,7 +21,7 @@ constexpr std::size_t k_most_starts = 64;
   throw Error({.code = ErrorCode::geometry_failed,
                .attempted = "meshing a face",
                .problem = problem + " (" + surface.kind() + ")",
-               .places = {{place, "the border here"}},
+               .places = {{place, "border of the face"}},
                .hint = "split the face along a line between its borders in CAD"});
 }
 
@@ -156,18 +156,19 @@ void add_own_seam(const Surface& surface, const std::function<double(Uv, const P
   const Uv period = first.around;
   const Point place = first.points.front().point;
   if (around.size() > 2 || (period.u != 0.0 && period.v != 0.0))
-    fail(surface, "its borders run around it " + std::to_string(around.size()) + " times, or around both of its periods", place);
-  if (second != nullptr && !(second->around + period == Uv{})) fail(surface, "two borders run around its period the same way", place);
+    fail(surface, "the borders run around the face " + std::to_string(around.size()) + " times, or around both periods of the surface", place);
+  if (second != nullptr && !(second->around + period == Uv{})) fail(surface, "two borders run around the period of the surface in the same direction", place);
   // The face lies to the left: of +u at greater v, of +v at smaller u.
   const ParameterBox domain = surface.domain();
   const double pole = period.u != 0.0 ? (period.u > 0.0 ? domain.v.to : domain.v.from) : (period.v > 0.0 ? domain.u.from : domain.u.to);
   if (second == nullptr) {
     const SurfaceDerivatives d = surface.derivatives(period.u != 0.0 ? Uv{first.points.front().uv.u, pole} : Uv{pole, first.points.front().uv.v});
     const double along = period.u != 0.0 ? norm(d.du) : norm(d.dv), across = period.u != 0.0 ? norm(d.dv) : norm(d.du);
-    if (!(along <= k_pole_speed * across)) fail(surface, "one border runs around its period, and there is no pole on its left", place);
+    if (!(along <= k_pole_speed * across))
+      fail(surface, "one border runs around the period of the surface, and the surface has no pole on the left of the border", place);
   }
   const std::optional<Seam> seam = find_seam(loops, first, second, pole, period);
-  if (!seam) fail(surface, "no straight line in (u, v) joins the two borders that run around its period", place);
+  if (!seam) fail(surface, "no straight line in (u, v) joins the two borders that run around the period of the surface", place);
 
   Loop joined = unrolled(first, seam->start, {});
   LabelledBorder result;

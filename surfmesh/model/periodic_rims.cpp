@@ -17,7 +17,7 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_rim_digits = 3;
-constexpr const char* k_pairs_hint = "name two faces with a comma between them, pairs with a semicolon: \"left,right; floor,ceiling\"";
+constexpr const char* k_pairs_hint = "separate the two names of a pair with a comma, and pairs with a semicolon: \"left,right; floor,ceiling\"";
 
 std::string_view without_blanks(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
@@ -76,10 +76,11 @@ class RimFinder {
 
   static ErrorInfo error_of(const std::string& first, const std::string& second) {
     return {.code = ErrorCode::bad_argument,
-            .attempted = "cutting the borders of \"" + first + "\" and \"" + second + "\" alike, which are to be periodic",
+            .attempted = "dividing the borders of the periodic sides \"" + first + "\" and \"" + second + "\" alike",
             .hint =
-                "periodic sides are flat, face each other, and are each other's image under one translation: what passes through one passes through the other "
-                "at the same place (a wing of constant section, a straight bar)"};
+                "periodic sides must be flat, face each other, and be images of each other under one translation: a body that passes through one side must "
+                "pass through the other "
+                "at the same location (a wing of constant section, a straight bar)"};
   }
 
   bool is_face(const std::string& name) const {
@@ -90,14 +91,14 @@ class RimFinder {
     for (const std::string& name : names)
       if (!is_face(name) && free_rim_of(name).edges.empty()) {
         ErrorInfo info = error_of(names[0], names[1]);
-        info.problem = "there is no face \"" + name + "\"";
+        info.problem = "the model has no face \"" + name + "\"";
         std::vector<std::string> known;
         for (const ModelFace& face : model_.faces) known.push_back(face.name);
         info.hint = names_hint(known, name);
         throw Error(std::move(info));
       } else if (!taken_.insert(name).second) {
         ErrorInfo info = error_of(names[0], names[1]);
-        info.problem = "side \"" + name + "\" is named twice: each side has one partner";
+        info.problem = "side \"" + name + "\" is named twice; each side must have one partner";
         throw Error(std::move(info));
       }
     Sides sides{{is_face(names[0]) ? rim_of(names[0]) : free_rim_of(names[0]), is_face(names[1]) ? rim_of(names[1]) : free_rim_of(names[1])}, {}};
@@ -119,8 +120,8 @@ class RimFinder {
       if (n == 1) side.edges.push_back(edge);
     if (side.edges.empty()) {
       ErrorInfo info = error_of(name, name);
-      info.attempted = "cutting the border of periodic side \"" + name + "\"";
-      info.problem = "it has none";
+      info.attempted = "dividing the border of periodic side \"" + name + "\"";
+      info.problem = "the side has no border";
       throw Error(std::move(info));
     }
     return side;
@@ -243,13 +244,13 @@ class RimFinder {
         if (farthest.distance <= tolerance_) continue;
         ++info.n_places;
         if (info.places.size() < k_max_places)
-          info.places.push_back({place, "the border of \"" + to.name + "\" is " + in_metres(farthest.distance, k_rim_digits) + " off the image"});
+          info.places.push_back({place, "the border of \"" + to.name + "\" is " + in_metres(farthest.distance, k_rim_digits) + " off its image"});
       }
     };
     look(sides.side[0], sides.side[1], sides.translation);
     look(sides.side[1], sides.side[0], -sides.translation);
-    info.problem = std::to_string(info.n_places) + " edges have no image within " + in_metres(tolerance_, k_rim_digits) + ", the worst is " +
-                   in_metres(worst, k_rim_digits) + " off (the sides are " + format_point(sides.translation) + " m apart)";
+    info.problem = std::to_string(info.n_places) + " edges have no image within " + in_metres(tolerance_, k_rim_digits) + ", the largest deviation is " +
+                   in_metres(worst, k_rim_digits) + " (the sides are " + format_point(sides.translation) + " m apart)";
     throw Error(std::move(info));
   }
 
@@ -305,7 +306,7 @@ class RimFinder {
     double nearest = std::numeric_limits<double>::infinity();
     for (const CornerId c : corners_of(to)) nearest = std::min(nearest, distance(model_.corners[c].point, image));
     info.problem = "a corner on \"" + from.name + "\" has no image within " + in_metres(tolerance_, k_rim_digits) + " on \"" + to.name +
-                   "\", whose nearest corner is " + in_metres(nearest, k_rim_digits) + " off it";
+                   "\"; the nearest corner there is " + in_metres(nearest, k_rim_digits) + " off the image";
     info.n_places = 1;
     info.places.push_back({corner, "the corner"});
     throw Error(std::move(info));
@@ -397,8 +398,10 @@ std::vector<SidePair> side_pairs(std::string_view text) {
     const std::string_view first = without_blanks(pair.substr(0, comma)),
                            second = comma == std::string_view::npos ? std::string_view() : without_blanks(pair.substr(comma + 1));
     if (first.empty() || second.empty() || second.find(',') != std::string_view::npos)
-      throw Error(
-          {.code = ErrorCode::bad_argument, .attempted = "option periodic", .problem = "\"" + whole + "\" is no list of pairs of names", .hint = k_pairs_hint});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "option periodic",
+                   .problem = "\"" + whole + "\" is not a list of pairs of names",
+                   .hint = k_pairs_hint});
     pairs.push_back({std::string(first), std::string(second)});
   }
   return pairs;

@@ -141,7 +141,7 @@ double PlaceSizes::operator()(FaceId f, const Point& p) const {
   if (!(by_function > 0.0)) {
     ErrorInfo info{.code = ErrorCode::bad_argument,
                    .attempted = "meshing the model's surface",
-                   .problem = "the function of sizes gives " + std::to_string(by_function) + " m; lengths of edges are positive"};
+                   .problem = "the size function returns " + std::to_string(by_function) + " m; edge lengths must be positive"};
     info.places.push_back({p, "here"});
     throw Error(std::move(info));
   }

@@ -131,7 +131,7 @@ std::vector<std::string> to_lines(const std::vector<ReplacedFace>& faces, std::s
     const ReplacedFace& face = faces[i];
     std::string line = "face " + std::to_string(face.face.value()) + " \"" + face.name + "\": ";
     line += face.n_before == 0 ? "" : std::to_string(face.n_gone) + " of " + std::to_string(face.n_before) + " triangles ";
-    if (face.n_new == 0) line += "taken out";
+    if (face.n_new == 0) line += "removed";
     else
       line += (face.n_before == 0 ? "" : "replaced by ") + std::to_string(face.n_new) + (face.n_before == 0 ? " triangles" : "") + ", at most " +
               number_text(face.distance, k_digits) + " m from the model, at " + format_point(face.place);

@@ -125,13 +125,14 @@ void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) 
     if (size < forecast.least_edge) forecast.least_edge = size;
     forecast.place = p;
   });
-  const std::string curvature = "curvature: an edge spans at most " + number_text(wanted.limits.angle * k_degrees, 3) + " degrees";
+  const std::string curvature = "curvature: the surface turns along an edge by at most " + number_text(wanted.limits.angle * k_degrees, 3) + " degrees";
   const std::string less_curvature = "a larger curvature_angle or min_edge";
   if (by_longest >= goal) return blame("max_edge = " + metres(wanted.max_edge), "a larger max_edge");
   if (estimated_triangles(all.sizes, forecast.face) >= goal) return blame(curvature, less_curvature);
   const LeastEdge least = least_edge_of(all, forecast.face);
   if (!(least.size < wanted.max_edge / k_same_size))
-    return blame("short edges beside it or sources, from which lengths grow by at most " + number_text(1.0 + all.sizes.growth, 3), "a larger growth");
+    return blame("short edges beside the face or sources, from which edge lengths grow by at most a factor of " + number_text(1.0 + all.sizes.growth, 3),
+                 "a larger growth");
   forecast.place = least.place;
   forecast.least_edge = std::min(forecast.least_edge, least.size);
   if (all.edges[least.edge].length < wanted.max_edge && least.size * k_same_size >= all.edges[least.edge].length)
@@ -143,7 +144,7 @@ void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) 
         by_curvature = std::min(by_curvature,
                                 wanted.limits.size_of(largest_curvature(all.model.faces[forecast.face].surface->derivatives(use.parameter->point(least.t)))));
   if (by_curvature <= k_same_size * least.size) return blame(curvature, less_curvature);
-  return blame("narrow places: the face or the one beside it is about " + metres(least.size * all.options.refinement / all.options.narrow) + " wide there",
+  return blame("narrow region: the face or its neighbour is about " + metres(least.size * all.options.refinement / all.options.narrow) + " wide there",
                "a larger min_edge or narrow");
 }
 

@@ -199,7 +199,7 @@ void find_strips(Finding& finding) {
       if (finding.topology.is_absorbed[f] != 0 && finding.model.faces[f].role == FaceRole::trailing_edge &&
           !is_automatic(finding.sizes.faces[f].trailing_cells))
         finding.bands.notes.push_back("the base of \"" + finding.model.faces[f].name +
-                                      "\" is too narrow for cells (smaller edges: min_edge); its trailing edge is sharp in the mesh");
+                                      "\" is too narrow for cells (use a smaller min_edge); its trailing edge is sharp in the mesh");
       continue;
     }
     double cells = finding.sizes.faces[f].trailing_cells;
@@ -222,7 +222,7 @@ void find_strips(Finding& finding) {
       std::any_of(finding.bands.strips.begin(), finding.bands.strips.end(), [](const std::optional<BaseStrip>& strip) { return strip.has_value(); });
   if (is_asked && !is_found && finding.bands.notes.empty())
     finding.bands.notes.push_back(
-        "trailing_edge cells: no face of the model is the base of a blunt trailing edge (four sides, narrow, looking aft); sharp ones have no cells");
+        "trailing_edge_cells has no effect: no face of the model is the base of a blunt trailing edge (four sides, narrow, facing aft)");
   // A short side shared by two strips has the cells of the finer one; neighbours along the span follow.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
@@ -429,11 +429,13 @@ void note_missing(Finding& finding) {
   for (const auto& [rule, is_found] : leading)
     if (!is_found)
       note(rule, "leading edge",
-           "that is an edge between two smooth faces where they turn most, or a sharp one, that looks forward (-x); a face that wraps the nose has none until "
-           "it is split there");
+           "a leading edge is an edge that faces forward (-x), sharp or between two smooth faces where they turn most; a face that wraps the nose has no "
+           "leading edge until "
+           "the face is split there");
   for (const auto& [rule, is_found] : trailing)
     if (!is_found)
-      note(rule, "trailing edge", "that is a sharp edge between two faces, or one of the long sides of a narrow base of four sides, that looks aft (+x)");
+      note(rule, "trailing edge",
+           "a trailing edge is an edge that faces aft (+x): a sharp edge between two faces, or a long side of a narrow base of four sides");
 }
 
 }  // namespace

@@ -221,12 +221,12 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     rows.is_going_on = {n_at[line.vertices.front().index()] == 2, n_at[line.vertices.back().index()] == 2};
   }
   if (is_trailing_asked && !is_trailing_found)
-    found.notes.push_back(
-        "trailing edges: no line of the surface is one (a sharp edge, or a side of a narrow base, that looks aft along x), so there are no rows");
+    found.notes.push_back("no rows at trailing edges: the surface has no trailing edge (a sharp edge, or a side of a narrow base, that faces aft along x)");
   if (is_leading_asked && !is_leading_found)
     found.notes.push_back(
-        "leading edges: no nose was found (a smooth one, curved much more than what follows, or a sharp edge, that looks forward along x), so there are no "
-        "rows");
+        "no rows at leading edges: the surface has no leading edge (a sharp edge that faces forward along x, or a smooth nose, curved much more than the "
+        "surface "
+        "behind it)");
   return found;
 }
 

@@ -133,21 +133,23 @@ std::string to_text(const RemeshReport& r) {
     s << d.max << " m (" << d.max / r.length << " of the length) at " << format_point(d.place) << ", mean " << d.mean << " m";
     return s.str();
   };
-  text << r.n_triangles_before << " triangles became " << r.n_triangles << "; edges of " << r.least_size << " to " << r.max_edge << " m were asked for; "
-       << r.n_lines << " lines between " << r.n_corners << " corners stay\n";
+  text << r.n_triangles_before << " triangles were remeshed to " << r.n_triangles << "; edges of " << r.least_size << " to " << r.max_edge
+       << " m were requested; " << r.n_lines << " lines between " << r.n_corners << " corners were kept\n";
   text << "angles " << r.min_angle * k_to_degrees << " to " << r.max_angle * k_to_degrees << " degrees, 1 % of the triangles below "
        << r.angle_quantile_1 * k_to_degrees << ", radius ratio " << r.mean_radius_ratio << " by area\n";
-  text << "distance of the new surface from the given one: " << far(r.to_input) << "\n";
-  text << "distance of the given surface from the new one: " << far(r.from_input);
+  text << "distance of the new surface from the input surface: " << far(r.to_input) << "\n";
+  text << "distance of the input surface from the new surface: " << far(r.from_input);
   if (r.n_needles > 0) {
-    text << "\n" << r.n_needles << " needles (a corner below " << k_needle_angle * k_to_degrees << " degrees) are forced by lines and corners, the worst:";
+    text << "\n"
+         << r.n_needles << " sliver triangles (a corner below " << k_needle_angle * k_to_degrees << " degrees) are forced by lines and corners, the worst:";
     for (const ErrorPlace& place : r.needles) text << "\n  " << format_point(place.position) << " " << place.what;
   }
   if (r.rows.n_triangles > 0)
-    text << "\nrows at leading and trailing edges: " << r.rows.n_triangles << " triangles on " << r.rows.n_columns << " places (" << r.rows.n_without
-         << " without), stretched by at most " << r.rows.max_stretch << ", growth at most " << r.rows.max_growth << "; angles above count them, too";
+    text << "\nrows at leading and trailing edges: " << r.rows.n_triangles << " triangles at " << r.rows.n_columns << " locations (" << r.rows.n_without
+         << " without), stretched by at most " << r.rows.max_stretch << ", growth at most " << r.rows.max_growth
+         << "; the angles above include these triangles";
   for (const std::string& note : r.rows.notes) text << "\n" << note;
-  if (r.n_kept > 0) text << "\n" << r.n_kept << " triangles were kept as given, because new ones would cross";
+  if (r.n_kept > 0) text << "\n" << r.n_kept << " input triangles were kept, because new triangles would cross";
   return text.str();
 }
 

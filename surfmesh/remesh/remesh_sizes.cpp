@@ -47,12 +47,12 @@ void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rul
   for (const Patch& patch : wall.patches) names.push_back(patch.name);
   for (const PatchSurfaceOptions& rule : rules) {
     if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches_glob(name, rule.names); }))
-      throw_bad_argument(k_attempted, "no patch is named like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
+      throw_bad_argument(k_attempted, "no patch has a name like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
     for (const double value : {rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
       if (!is_automatic(value))
         throw_bad_argument(
             k_attempted,
-            "the rule for \"" + rule.names + "\" asks for trailing_edge_cells or factors at leading or trailing edges, which a triangulation does not know", {},
+            "the rule for \"" + rule.names + "\" sets trailing_edge_cells or factors at leading or trailing edges, which do not apply to a triangulation", {},
             "give max_edge, min_edge, curvature_angle, chord_error, or rows: trailing_edge_chordwise, leading_edge_chordwise");
   }
 }

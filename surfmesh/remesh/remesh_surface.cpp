@@ -53,7 +53,7 @@ constexpr double k_foretold_share = 1.5;
 constexpr double k_halving_share = 3.0;
 /// Fraction of the free memory that may be used, and the memory that halving needs per triangle, including vertices and lists.
 constexpr double k_memory_share = 0.5, k_bytes_of_triangle = 200.0;
-constexpr std::string_view k_fewer_triangles_hint = "larger max_edge, min_edge or curvature_angle; smooth = false where the triangles are very thin";
+constexpr std::string_view k_fewer_triangles_hint = "a larger max_edge, min_edge or curvature_angle; smooth = false if the input triangles are very thin";
 constexpr double k_half_turn = std::numbers::pi;
 constexpr int k_angle_digits = 3, k_length_digits = 3;
 
@@ -82,10 +82,10 @@ void split_long(Remesher& remesher, const RemeshOptions& options) {
       .code = ErrorCode::overflow,
       .attempted = std::string(k_attempted),
       .problem = "halving long edges did not end at " + std::to_string(n) + " triangles, " +
-                 (held < allowed ? "more would need too much of this machine's memory" : "max_triangles is " + std::to_string(options.max_triangles)),
+                 (held < allowed ? "more triangles would exceed the free memory of this machine" : "max_triangles is " + std::to_string(options.max_triangles)),
       .hint = std::string(k_fewer_triangles_hint)};
   if (const auto [place, length] = remesher.shortest_to_halve(k_long); length > 0.0)
-    info.add_place(place, "edge of " + number_text(length, k_length_digits) + " m, longer than asked for there");
+    info.add_place(place, "edge of " + number_text(length, k_length_digits) + " m, longer than the requested length there");
   throw Error(std::move(info));
 }
 
@@ -131,10 +131,10 @@ void run_passes(Remesher& remesher, const Reference& reference, const RemeshOpti
     remesher.smooth(2);
     if (pass == k_strip_pass) {
       narrow_strips(remesher, options, sizes);
-      require_few(sizes.n_expected(), 1.0, "narrow places make it ", options);
+      require_few(sizes.n_expected(), 1.0, "the sizes in narrow regions require ", options);
       remesher.refresh_sizes();
     }
-    require_few(static_cast<double>(remesher.n_triangles()), k_foretold_share, "lines and narrow places made ", options);
+    require_few(static_cast<double>(remesher.n_triangles()), k_foretold_share, "lines and narrow regions led to ", options);
     context.progress(0.8 * (pass + 1) / k_passes);
   }
   grow_rows(remesher, reference, rows, options, sizes, context);
@@ -152,13 +152,14 @@ void run_passes(Remesher& remesher, const Reference& reference, const RemeshOpti
 }
 
 void require_clear(const TriMesh& wall, const RunContext& context) {
-  if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_attempted), .problem = "it has no triangles"});
+  if (wall.n_triangles() == 0)
+    throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_attempted), .problem = "the surface has no triangles"});
   const CrossingPairs pairs = find_crossings(wall, context);
   if (pairs.total == 0) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = std::string(k_attempted),
-                 .problem = std::to_string(pairs.total) + " pairs of triangles of the given surface meet in more than they share",
-                 .hint = "remesh takes surfaces that are clear of themselves: repair{} resolves crossings"};
+                 .problem = std::to_string(pairs.total) + " pairs of triangles of the input surface cross or touch",
+                 .hint = "remesh requires a surface without self-intersections: repair{} removes crossings"};
   for (const auto& [i, j] : pairs.pairs) {
     const auto [a, b, c] = corners(wall, TriangleId(i));
     info.add_place((a + b + c) / 3.0, "triangle " + std::to_string(i) + " with " + std::to_string(j));
@@ -179,10 +180,11 @@ void require_worth(const NeedleCount& needles, double n_triangles, const char* w
   if (share <= demand.most_needles && needles.least_angle >= demand.least_angle) return;
   ErrorInfo info{.code = ErrorCode::geometry_failed,
                  .attempted = std::string(k_attempted),
-                 .problem = std::string(what) + " " + std::to_string(needles.n) + " needles, " + percent_text(share) + " of the triangles, the least angle " +
-                            number_text(needles.least_angle / k_degree, k_angle_digits) + " degrees; demanded are at most " +
-                            percent_text(demand.most_needles) + " and at least " + number_text(demand.least_angle / k_degree, k_angle_digits) + " degrees",
-                 .hint = "remesh without that demand, or wrap{}"};
+                 .problem = std::string(what) + " " + std::to_string(needles.n) + " sliver triangles, " + percent_text(share) +
+                            " of the triangles, smallest angle " + number_text(needles.least_angle / k_degree, k_angle_digits) +
+                            " degrees; the limits are at most " + percent_text(demand.most_needles) + " and at least " +
+                            number_text(demand.least_angle / k_degree, k_angle_digits) + " degrees",
+                 .hint = "remesh without this limit, or use wrap{}"};
   info.add_place(needles.place, "the thinnest triangle");
   throw Error(std::move(info));
 }
@@ -231,20 +233,20 @@ void require_likeness(const RemeshReport& report, const RemeshDemand& demand) {
   const double of_edge = std::max(report.to_input.of_edge, report.from_input.of_edge);
   std::string problem;
   if (further.max > demand.largest_distance * report.length)
-    problem = "the new triangles are up to " + number_text(further.max, k_angle_digits) + " m from the given ones, the limit is " +
+    problem = "the new triangles are up to " + number_text(further.max, k_angle_digits) + " m from the input triangles, the limit is " +
               number_text(demand.largest_distance * report.length, k_angle_digits) + " m, " + number_text(demand.largest_distance, k_angle_digits) +
               " of the length";
   else if (of_edge > demand.largest_distance_of_edge)
-    problem = "the new triangles are up to " + number_text(of_edge, k_angle_digits) + " of their edges from the given ones, the limit is " +
+    problem = "the new triangles are up to " + number_text(of_edge, k_angle_digits) + " of their edges from the input triangles, the limit is " +
               number_text(demand.largest_distance_of_edge, k_angle_digits);
   else if (report.turned > report.turned_before + demand.more_turned)
     problem = percent_text(report.turned) + " of the area is turned by more than " + number_text(k_turned_angle / k_degree, k_angle_digits) +
-              " degrees from the smooth surface, " + percent_text(report.turned_before) + " of the given triangles";
+              " degrees from the smooth surface, " + percent_text(report.turned_before) + " of the input triangles";
   else return;
   ErrorInfo info{.code = ErrorCode::geometry_failed,
                  .attempted = std::string(k_attempted),
                  .problem = std::move(problem),
-                 .hint = "remesh with a smaller max_edge, min_edge or curvature_angle, or wrap{}"};
+                 .hint = "remesh with a smaller max_edge, min_edge or curvature_angle, or use wrap{}"};
   info.add_place(further.place, "the largest distance");
   throw Error(std::move(info));
 }
@@ -280,8 +282,8 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
     }
     if (!trouble.sizes.empty()) sizes.carry();
     const double n_expected = sizes.n_expected();
-    if (round == 1) require_worth(forced_needles(reference, sizes), n_expected, "corners of lines, which stay, force", demand);
-    require_few(n_expected, 1.0, "sizes and areas foretell ", options);
+    if (round == 1) require_worth(forced_needles(reference, sizes), n_expected, "corners of lines, which are kept, force", demand);
+    require_few(n_expected, 1.0, "the sizes require about ", options);
     Remesher remesher(reference, sizes, context);
     run_passes(remesher, reference, options, rows, sizes, context.part("round", 0.0, 0.8));
     result.mesh = remesher.result();
@@ -308,7 +310,7 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
       ErrorInfo info{.code = ErrorCode::self_intersection,
                      .attempted = std::string(k_attempted),
                      .problem = std::to_string(pairs.total) + " pairs of " + std::to_string(result.mesh.n_triangles()) +
-                                " new triangles cross: sheets of the given surface are much nearer to each other than its edges are long",
+                                " new triangles cross: sheets of the input surface are much closer to each other than its edge length",
                      .hint = "smooth = false, a smaller max_edge, or wrap{} instead"};
       for (const auto& [i, j] : pairs.pairs) info.add_place(corners(result.mesh, TriangleId(i))[0], "crosses triangle " + std::to_string(j));
       throw Error(std::move(info));
@@ -335,8 +337,8 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
       }
     }
     context.info("remesh: " + std::to_string(pairs.total) + " pairs of triangles cross, the first at " +
-                 format_point(corners(result.mesh, TriangleId(pairs.pairs.front()[0]))[0]) + "; their places are done again, " +
-                 (is_fine ? "finer" : "with the given triangles"));
+                 format_point(corners(result.mesh, TriangleId(pairs.pairs.front()[0]))[0]) + "; these regions are remeshed again, " +
+                 (is_fine ? "finer" : "with the input triangles"));
   }
   report.n_triangles_before = static_cast<std::int64_t>(given.n_triangles());
   report.n_kept = std::count(trouble.kept.begin(), trouble.kept.end(), 1);

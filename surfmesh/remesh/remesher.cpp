@@ -532,7 +532,7 @@ std::vector<ErrorPlace> Remesher::needles(double angle) const {
     text.precision(3);
     text << least * k_to_degrees << " degrees on patch " << r_.mesh->patches[r_.mesh->triangle_patch[mesh_.hint[t]]].name << ": " << n_corners << " corners, "
          << n_lines << " vertices on lines, " << n_edges << " edges of lines";
-    if (is_kept(t)) text << ", kept as given";
+    if (is_kept(t)) text << ", kept from the input";
     places.push_back({(mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0, text.str()});
   }
   return places;

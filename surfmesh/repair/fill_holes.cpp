@@ -372,8 +372,8 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
     if (loops[i].size() < 3 || shape.diameter > limit || loops[i].size() > static_cast<std::size_t>(options.hole_edges)) {
       ++n_open;
       context.debug("repair: a hole of " + std::to_string(loops[i].size()) + " edges, " + short_number(shape.diameter) + " m across (" +
-                    short_number(shape.diameter / state.length) + " body lengths, its rim " + short_number(shape.off) + " m off its plane), about " +
-                    format_point(shape.center) + " is above the limits");
+                    short_number(shape.diameter / state.length) + " body lengths, its border " + short_number(shape.off) + " m off its plane) near " +
+                    format_point(shape.center) + " exceeds the limits");
       continue;
     }
     const std::uint32_t its_part = fans[loops[i][0]].empty() ? 0 : parts.part[fans[loops[i][0]][0]];

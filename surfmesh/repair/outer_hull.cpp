@@ -292,7 +292,7 @@ bool keep_outer_hull(RepairState& state, const SolidReference& reference, const 
     if (front[t] && back[t] && (is_solid(t, 1.0) || is_solid(t, -1.0))) leaking += area;
   }
   if (reference.is_by_winding || leaking > k_most_leaking * all) {
-    if (!reference.is_by_winding) context.debug("repair: the outside leaks in through open edges: sides by winding numbers");
+    if (!reference.is_by_winding) context.debug("repair: open edges connect the inside to the outside: the sides are determined by winding numbers");
     parallel_for(
         context, state.facets.size(),
         [&](std::size_t t) {

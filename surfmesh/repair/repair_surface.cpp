@@ -187,7 +187,7 @@ std::vector<std::string> tell(const RepairReport& report) {
   static constexpr std::array<const char*, k_repair_kinds> k_words = {"dropped (no area, copies)",
                                                                       "welded within rounding",
                                                                       "seams zipped",
-                                                                      "rim of the half model moved into its plane",
+                                                                      "open boundary of the half model moved into its plane",
                                                                       "holes filled",
                                                                       "cut where facets cross",
                                                                       "sheets without thickness removed",
@@ -197,7 +197,7 @@ std::vector<std::string> tell(const RepairReport& report) {
                                                                       "touching parts joined",
                                                                       "short edges collapsed",
                                                                       "crossing facets replaced by a filling",
-                                                                      "turned to the sense of their neighbours"};
+                                                                      "orientation changed to that of the neighbours"};
   std::vector<std::string> messages;
   for (std::size_t k = 0; k < k_repair_kinds; ++k) {
     std::int64_t n = 0, n_facets = 0;
@@ -213,7 +213,7 @@ std::vector<std::string> tell(const RepairReport& report) {
                        short_number(largest->size) + " m at " + format_point(largest->position));
   }
   if (report.half)
-    messages.push_back("half model: open at " + report.half->axis + " = " + short_number(report.half->at) + " m, the body is on the side of " +
+    messages.push_back("half model: open at " + report.half->axis + " = " + short_number(report.half->at) + " m, the body extends to " +
                        (report.half->is_above ? "larger " : "smaller ") + report.half->axis);
   return messages;
 }
@@ -228,7 +228,7 @@ void require_rim_in_plane(const TriMesh& mesh, const HalfRim& half, const RunCon
     if (!topology.is_boundary(h)) continue;
     const Vec3 &a = mesh.points[topology.from(h)], &b = mesh.points[topology.to(h)];
     if (a[axis] == half.at && b[axis] == half.at) continue;
-    info.add_place(0.5 * (a + b), "edge of one facet");
+    info.add_place(0.5 * (a + b), "edge with one facet");
     info.geometry.points.insert(info.geometry.points.end(), {a, b});
     const auto last = static_cast<std::uint32_t>(info.geometry.points.size());
     info.geometry.edges.push_back({last - 2, last - 1});
@@ -292,10 +292,11 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     if (!is_reparable(error.code()) && error.code() != ErrorCode::empty_surface) throw;
     ErrorInfo info = error.info();
     info.attempted = "repairing " + sources_of(soups);
-    info.problem = "after repair, " + info.problem + (is_leaking ? "; the outside reaches what should be inside, so no hull could be taken" : "");
+    info.problem = "after repair, " + info.problem +
+                   (is_leaking ? "; the surface is not watertight (the exterior connects to the interior), so no outer hull exists" : "");
     std::string done;
-    for (const std::string& message : tell(state.report)) done += (done.empty() ? "done before: " : "; ") + message;
-    info.hint = "wrap makes a closed surface of anything that is roughly a body; or raise repair's limits (gap, hole, flat_hole, hole_edges). " + done;
+    for (const std::string& message : tell(state.report)) done += (done.empty() ? "changes made before: " : "; ") + message;
+    info.hint = "use wrap, which makes a closed surface around any approximate body, or raise the limits of repair (gap, hole, flat_hole, hole_edges). " + done;
     throw Error(std::move(info));
   }
   {
@@ -306,15 +307,15 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   measure_changes(state, input.points, input.facets, context);
   state.report.messages = tell(state.report);
   clean_patch_names(soups, &state.report.messages);
-  state.report.messages.push_back("what is left moved by at most " + short_number(state.report.moved) + " m, the new surface is at most " +
-                                  short_number(state.report.from_result) + " m from the given one, the given one at most " +
-                                  short_number(state.report.from_input) + " m from the new one (what was removed)");
+  state.report.messages.push_back("retained facets moved by at most " + short_number(state.report.moved) + " m, the new surface is at most " +
+                                  short_number(state.report.from_result) + " m from the input surface, and the input surface at most " +
+                                  short_number(state.report.from_input) + " m from the new surface (removed parts)");
   for (const std::string& message : state.report.messages) context.info("repair: " + message);
   if (state.report.moved > options.largest_move * state.length) {
     ErrorInfo info;
     info.code = ErrorCode::mesh_invalid;
     info.attempted = "repairing " + sources_of(soups);
-    info.problem = "what is left of the surface would move by " + short_number(state.report.moved) + " m, more than " +
+    info.problem = "the retained surface would move by " + short_number(state.report.moved) + " m, more than " +
                    short_number(options.largest_move * state.length) + " m (largest_move = " + short_number(options.largest_move) + " body lengths)";
     info.hint = "lower gap, or raise largest_move";
     throw Error(std::move(info));

@@ -141,32 +141,34 @@ struct Schema<surfmesh::RepairOptions> {
   using O = surfmesh::RepairOptions;
   static constexpr std::string_view stage = "repair";
   static constexpr std::array fields = {
-      Field<O>{.name = "gap", .member = &O::gap, .min = 0.0, .max = 0.02, .help = "widest seam that is zipped, as a share of the body length"},
+      Field<O>{.name = "gap", .member = &O::gap, .min = 0.0, .max = 0.02, .help = "width of the widest seam that is closed, as a share of the body length"},
       Field<O>{.name = "hole", .member = &O::hole, .min = 0.0, .max = 10.0, .help = "diameter of the largest curved hole that is filled, in body lengths"},
       Field<O>{.name = "flat_hole",
                .member = &O::flat_hole,
                .min = 0.0,
                .max = 10.0,
-               .help = "diameter of the largest hole with a flat rim that is filled, in body lengths"},
-      Field<O>{.name = "hole_edges", .member = &O::hole_edges, .min = 3, .max = 100000, .help = "edges of the largest hole that is filled"},
-      Field<O>{.name = "smallest_part", .member = &O::smallest_part, .min = 0.0, .max = 0.5, .help = "parts with a smaller box are dropped; in body lengths"},
-      Field<O>{
-          .name = "sliver", .member = &O::sliver, .min = 0.0, .max = 1e-3, .help = "shorter edges are collapsed where something was changed; in body lengths"},
+               .help = "diameter of the largest hole with a flat border that is filled, in body lengths"},
+      Field<O>{.name = "hole_edges", .member = &O::hole_edges, .min = 3, .max = 100000, .help = "number of edges of the largest hole that is filled"},
+      Field<O>{.name = "smallest_part", .member = &O::smallest_part, .min = 0.0, .max = 0.5, .help = "parts with a smaller box are removed; in body lengths"},
+      Field<O>{.name = "sliver", .member = &O::sliver, .min = 0.0, .max = 1e-3, .help = "shorter edges are collapsed in repaired regions; in body lengths"},
       Field<O>{.name = "largest_move",
                .member = &O::largest_move,
                .min = 0.0,
                .max = 1.0,
-               .help = "how far what is left of the surface may move, in body lengths; more is an error. What fills holes is not counted"},
+               .help = "largest allowed displacement of retained facets, in body lengths; more is an error. Filled holes are not counted"},
       Field<O>{.name = "half",
                .member = &O::half,
-               .help = "plane in which half a model is open: found where it is clear, none, or its axis",
+               .help = "plane in which a half model is open: automatic if it is unique, off, or the axis normal to it",
                .choices = "automatic off x y z"},
-      Field<O>{
-          .name = "half_tolerance", .member = &O::half_tolerance, .min = 0.0, .max = 0.02, .help = "how far off that plane the rim may lie, in body lengths"},
+      Field<O>{.name = "half_tolerance",
+               .member = &O::half_tolerance,
+               .min = 0.0,
+               .max = 0.02,
+               .help = "largest distance of the open boundary from that plane, in body lengths"},
       Field<O>{.name = "hull",
                .member = &O::hull,
-               .help = "where facets cross or more than two meet in an edge, keep only what the outer flow reaches from one side"},
-      Field<O>{.name = "rounds", .member = &O::rounds, .min = 1, .max = 50, .help = "how often cutting and replacing are tried at most"},
+               .help = "where facets cross or more than two meet in an edge, keep only facets that the outer flow reaches from exactly one side"},
+      Field<O>{.name = "rounds", .member = &O::rounds, .min = 1, .max = 50, .help = "largest number of rounds of cutting and replacing"},
   };
 };
 

@@ -219,8 +219,8 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
                                                                  : "repair: " + name(contact.patch[0]) + " and " + name(contact.patch[1]);
     const std::string text = who + " touch along a line at " + format_point(contact.place);
     if (std::ranges::any_of(warnings, [&](const std::string& known) { return known.starts_with(who); })) continue;
-    warnings.push_back(text + ", where the fluid between them narrows to nothing; the contact is closed over a width of at most " +
-                       short_number(2.0 * k_apart_share * state.length) + " m. Sink one part into the other by a few percent of its size, or lift it." +
+    warnings.push_back(text + ", where the gap between them narrows to zero; the contact is closed over a width of at most " +
+                       short_number(2.0 * k_apart_share * state.length) + " m. Move one part into the other by a few percent of its size, or away from it." +
                        (contacts.is_fluid_inside ? "" : " If the fluid is between them, give fluid = \"inside\" (--fluid inside)"));
   }
 }
@@ -308,7 +308,7 @@ void warn_of_opened(RepairState& state, const EdgeTable& edges, const std::vecto
     state.report.stitch.warnings.push_back("repair: \"" + name_of_body(state, body, pair[0], names) + "\" and \"" + name_of_body(state, body, pair[1], names) +
                                            "\" touch along a line at " + format_point(place) + " and are separated by a gap of at most " +
                                            short_number(2.0 * k_apart_share * state.length) +
-                                           " m: each is a body of its own. Let one part reach into the other, or move them apart");
+                                           " m: each part is a separate body. Let one part extend into the other, or move them apart");
   }
 }
 

@@ -110,7 +110,7 @@ void drop_doubled_facets(WorkingSurface& surface, StitchReport& report) {
   surface.keep(is_kept);
   report.n_duplicate_removed += n_copies + n_redundant;
   std::string message = "removed " + count_of(n_copies, "copy of a facet", "copies of facets");
-  if (n_redundant > 0) message += " and with them " + count_of(n_redundant, "facet", "facets") + " of doubled sheets without thickness";
+  if (n_redundant > 0) message += " and " + count_of(n_redundant, "facet", "facets") + " of double-sided sheets without thickness";
   report.messages.push_back(std::move(message));
 }
 

@@ -15,7 +15,7 @@ namespace sterna::surfmesh {
 namespace {
 
 /// Remedy to try first (docs/dirty_surfaces.md).
-const std::string k_repair_hint = "`sterna repair`, or --auto (auto = true of read_surface), mends it; `sterna inspect` says how";
+const std::string k_repair_hint = "`sterna repair`, or --auto (auto = true of read_surface), repairs the surface; `sterna inspect` shows the steps";
 /// Largest number of boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
 constexpr std::size_t k_max_matching = 5000;
 /// Boundary edges match if their ends are nearer than this fraction of the shortest boundary edge: then a tolerance that closes the gap collapses none of
@@ -164,7 +164,8 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
     for (const std::uint32_t h : edges.at(edge)) add_facet(surface, h / 3, info.geometry);
   }
   add_pinched(surface, defects, info);
-  info.hint = k_repair_hint + ". Or remove internal walls and fins in the program that made the file, or join touching bodies there with a boolean union";
+  info.hint =
+      k_repair_hint + ". Or remove internal walls and fins in the program that made the file, or join touching bodies with a boolean union in that program";
   throw Error(std::move(info));
 }
 
@@ -179,7 +180,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   for (const Edge& edge : defects.boundary) {
     if (info.places.size() < k_max_places)
       info.places.push_back(
-          {middle(surface, edge), "edge of one facet, " + short_number(length(surface, edge)) + " m long, " + facet_name(surface, edges.at(edge)[0] / 3)});
+          {middle(surface, edge), "edge with one facet, " + short_number(length(surface, edge)) + " m long, " + facet_name(surface, edges.at(edge)[0] / 3)});
     add_edge(surface, edge, info.geometry);
   }
   const double shortest = std::accumulate(defects.boundary.begin(), defects.boundary.end(), std::numeric_limits<double>::infinity(),
@@ -189,7 +190,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
     const bool is_all = match.n_matched == n;
     info.hint = "weld_tolerance = " + short_number(1.01 * match.largest_gap) + " (m): " + (is_all ? "all" : std::to_string(match.n_matched)) +
                 " of these edges have a partner within " + short_number(match.largest_gap) + " m (shortest of them: " + short_number(shortest) + " m)" +
-                (is_all ? "" : "; " + k_repair_hint + " with the other holes, too");
+                (is_all ? "" : "; " + k_repair_hint + ", also for the other holes");
   } else {
     info.hint = k_repair_hint + ". Or fill the holes in the program that made the file, or add the file with the missing part";
   }
@@ -202,7 +203,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
                  in_addition(other_defects(defects, orientation, false, false, true));
   info.n_places = static_cast<std::int64_t>(defects.pinched.size());
   add_pinched(surface, defects, info);
-  info.hint = k_repair_hint + ". Or move the parts of the surface that touch in a point apart";
+  info.hint = k_repair_hint + ". Or move the parts of the surface that touch at a point apart";
   throw Error(std::move(info));
 }
 
@@ -213,7 +214,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   info.n_places = n;
   for (const Edge& edge : orientation.conflicts) {
     const std::uint32_t facet = edges.at(edge)[0] / 3;
-    if (info.places.size() < k_max_places) info.places.push_back({middle(surface, edge), "edge where the two senses meet, " + facet_name(surface, facet)});
+    if (info.places.size() < k_max_places) info.places.push_back({middle(surface, edge), "edge between opposite orientations, " + facet_name(surface, facet)});
     add_edge(surface, edge, info.geometry);
     for (const std::uint32_t h : edges.at(edge)) add_facet(surface, h / 3, info.geometry);
   }
@@ -270,16 +271,16 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     if (!is_shown[t]) add_facet(surface, t, info.geometry);
   }
   info.hint = n_between > 0 ? "unite the bodies with `sterna union` (union{...} in a script), or move them apart; " + k_repair_hint
-                            : k_repair_hint + ". Or mend these facets in the program that made the file";
+                            : k_repair_hint + ". Or repair these facets in the program that made the file";
   throw Error(std::move(info));
 }
 
 void throw_empty(const WorkingSurface& surface, const StitchReport& report) {
   ErrorInfo info = start_error(ErrorCode::empty_surface, surface);
   info.problem = report.n_triangles_read == 0
-                     ? "there is no facet"
-                     : "no facet is left: all " + std::to_string(report.n_triangles_read) + " are degenerate or doubled without thickness";
-  info.hint = "look whether the file holds a surface";
+                     ? "the file holds no facet"
+                     : "no facet is left: all " + std::to_string(report.n_triangles_read) + " are degenerate or parts of sheets without thickness";
+  info.hint = "check that the file holds a surface";
   throw Error(std::move(info));
 }
 

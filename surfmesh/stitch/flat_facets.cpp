@@ -149,8 +149,8 @@ std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchRepor
   const std::size_t n_removed = n_before - flat.size();
   if (n_removed > 0) {
     report.n_degenerate_removed += static_cast<std::int64_t>(n_removed);
-    report.messages.push_back("flipped away " + count_of(static_cast<std::int64_t>(n_removed), "facet", "facets") +
-                              " of zero area (the surface stays the same set of points)");
+    report.messages.push_back("removed with edge flips: " + count_of(static_cast<std::int64_t>(n_removed), "facet", "facets") +
+                              " of zero area (the shape of the surface is unchanged)");
   }
   return flat;
 }

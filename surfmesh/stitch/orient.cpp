@@ -181,19 +181,21 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
     for (const std::uint32_t t : component.facets)
       if (is_inside_out != static_cast<bool>(orientation.is_flipped[t])) std::swap(surface.facets[t][1], surface.facets[t][2]);
     if (is_hollow && component.depth > 0 && component.is_closed && is_same_sense(components, orientation, i))
-      report.warnings.push_back("part " + name_of(i) + " (" + count_of(n, "facet", "facets") + " about " +
-                                format_point(surface.metres(component.box.center())) + ") lies inside part " + name_of(component.parent) +
-                                ", both with normals outwards: it is turned inside out and is a cavity, which the outer flow does not reach. If \"" +
-                                plain_name(component.parent) + "\" is no solid, leave it out, or make it a source or an interface");
+      report.warnings.push_back(
+          "part " + name_of(i) + " (" + count_of(n, "facet", "facets") + " near " + format_point(surface.metres(component.box.center())) +
+          ") lies inside part " + name_of(component.parent) +
+          ", both with outward normals: the inner part is turned inside out and treated as a cavity, which the outer flow does not reach. If \"" +
+          plain_name(component.parent) + "\" is not a solid, leave it out, or make it a source or an interface");
     if (is_hollow && component.depth > 0 && component.is_closed)
-      report.messages.push_back("component " + std::to_string(i + 1) + " (" + count_of(n, "facet", "facets") + " about " +
+      report.messages.push_back("component " + std::to_string(i + 1) + " (" + count_of(n, "facet", "facets") + " near " +
                                 format_point(surface.metres(component.box.center())) + ") lies inside component " + std::to_string(component.parent + 1) +
-                                ": taken as a cavity in it, which the outer flow does not reach");
+                                ": treated as a cavity, which the outer flow does not reach");
   }
   if (n_inverted > 0)
     report.messages.push_back(count_of(n_inverted, "component", "components") + " (" + count_of(n_inverted_facets, "facet", "facets") + ") " +
-                              (n_inverted == 1 ? "was" : "were") + " inside out: turned");
-  if (n_inconsistent > 0) report.messages.push_back("turned " + count_of(n_inconsistent, "facet", "facets") + " against the sense of the neighbours");
+                              (n_inverted == 1 ? "was" : "were") + " inside out: orientation reversed");
+  if (n_inconsistent > 0)
+    report.messages.push_back("turned " + count_of(n_inconsistent, "facet", "facets") + " with an orientation opposite to that of the neighbours");
 }
 
 }  // namespace sterna::surfmesh

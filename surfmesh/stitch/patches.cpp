@@ -90,7 +90,7 @@ std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups
       if (name.empty()) name = "wall";
       names.push_back(unique_name(name, taken));
       if (messages && soup.has_names && !given.empty() && names.back() != given)
-        messages->push_back("the patch \"" + as_utf8(given) + "\" of " + soup.source + " is called \"" + names.back() + "\"");
+        messages->push_back("the patch \"" + as_utf8(given) + "\" of " + soup.source + " was renamed to \"" + names.back() + "\"");
     }
   }
   return names;

@@ -94,7 +94,7 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   StitchResult result;
   result.mesh = make_mesh(surface, clean_patch_names(soups, &report.messages));
   if (!is_automatic(options.split_angle)) split_patches(result.mesh, options.split_angle, context);
-  if (!report.is_closed) report.messages.push_back("the surface has a boundary, as allowed");
+  if (!report.is_closed) report.messages.push_back("the surface has an open boundary, which is allowed");
   log_messages(report, n_logged, context);
   context.debug("surface: " + count_of(static_cast<std::int64_t>(result.mesh.n_triangles()), "triangle", "triangles") + ", " +
                 count_of(static_cast<std::int64_t>(result.mesh.n_vertices()), "vertex", "vertices") + ", " +

@@ -77,7 +77,7 @@ struct Schema<surfmesh::StitchOptions> {
                .member = &O::weld_tolerance,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "vertices nearer than this become one",
+               .help = "vertices closer than this are merged",
                .automatic = "equal coordinates; if the surface is then open, its boundary within 1e-9 of the body length, 2.5e-7 for single precision"},
       Field<O>{.name = "split_angle",
                .member = &O::split_angle,
@@ -85,17 +85,18 @@ struct Schema<surfmesh::StitchOptions> {
                .min = 0.0,
                .max = 3.15,
                .help = "split into patches along edges that bend by more than this",
-               .automatic = "patches as named in the file, else one"},
+               .automatic = "patches as named in the file, else one patch"},
       Field<O>{.name = "fluid",
                .member = &O::fluid,
-               .help = "on which side of the outermost surface the fluid is: around bodies, or inside of a tunnel or of a complete domain. automatic: outside, "
-                       "unless the manifest beside the file says otherwise",
+               .help = "side of the outermost surface on which the fluid lies: around bodies, or inside a tunnel or a complete domain. automatic: outside, "
+                       "unless the manifest beside the file has another value",
                .choices = "automatic outside inside"},
-      Field<O>{.name = "allow_open", .member = &O::allow_open, .help = "accept a surface with a boundary"},
+      Field<O>{.name = "allow_open", .member = &O::allow_open, .help = "accept a surface with an open boundary"},
       Field<O>{.name = "check_intersections", .member = &O::check_intersections, .help = "test every pair of triangles exactly for intersection"},
-      Field<O>{.name = "take_boundary",
-               .member = &O::take_boundary,
-               .help = "of a file that holds a volume mesh, all of its boundary (farfield and planes, too) is the surface; else such a file is refused"},
+      Field<O>{
+          .name = "take_boundary",
+          .member = &O::take_boundary,
+          .help = "read the whole boundary of a volume mesh as the surface, including farfield and planes; if false, files with a volume mesh are rejected"},
   };
 };
 

@@ -82,7 +82,7 @@ void check_tolerance(const WorkingSurface& surface, double tolerance) {
   info.attempted = "welding the vertices of the surface";
   info.problem = "weld_tolerance is " + short_number(tolerance) + " m, more than " + short_number(100.0 * k_max_weld) + " % of the body length of " +
                  short_number(length) + " m";
-  info.hint = "a tolerance below the shortest edge; weld_tolerance is in metres, whatever the unit of the file";
+  info.hint = "a tolerance below the shortest edge; weld_tolerance is always in metres, independent of the unit of the file";
   throw Error(std::move(info));
 }
 
@@ -195,8 +195,8 @@ void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchRepo
   if (before) {
     const Defects after = find_defects(welded.facets, welded.points.size(), EdgeTable(welded.facets, welded.points.size()));
     if (after.boundary.size() >= before->boundary.size() || after.crowded.size() > before->crowded.size() || after.pinched.size() > before->pinched.size()) {
-      report.messages.push_back("left " + count_of(n_welded, "vertex", "vertices") + " of the boundary within " + short_number(tolerance * surface.to_metres) +
-                                " m of others: welding them closes nothing or makes other defects");
+      report.messages.push_back("did not weld " + count_of(n_welded, "vertex", "vertices") + " of the boundary within " +
+                                short_number(tolerance * surface.to_metres) + " m of others: welding them would close no gap or create other defects");
       return;
     }
   }

@@ -228,7 +228,7 @@ void mirror_half(WrapInput& input, double gap, WrapReport& report, const RunCont
   report.half_axis = input.half_axis;
   report.half_at = at;
   report.half_moved = input.half_moved;
-  report.messages.push_back("half model: open in the plane " + input.half_axis + " = " + short_number(at) + " m (rim of " + short_number(rim.length) +
+  report.messages.push_back("half model: open in the plane " + input.half_axis + " = " + short_number(at) + " m (open boundary of " + short_number(rim.length) +
                             " m, off the plane by at most " + short_number(input.half_moved) + " m); mirrored, wrapped, and cut in that plane");
   context.check_stop();
 }

@@ -211,12 +211,12 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
   }
   if (report.n_inside > 0)
     report.messages.push_back("dropped " + std::to_string(report.n_inside) + " facets (" + number(report.inside_area) +
-                              " m^2) that are inside, farther than the tolerance from the wrap");
+                              " m^2) inside the wrap, farther from it than the tolerance");
   for (const WrapLeak& leak : report.leaks)
-    report.messages.push_back("leak: the wrap goes inside near " + format_point(leak.position) + " and covers " + number(leak.area) +
+    report.messages.push_back("leak: the wrap enters the inside near " + format_point(leak.position) + " and covers " + number(leak.area) +
                               " m^2 there; an opening is wider than the gap of " + number(sizes.gap) + " m");
-  report.messages.push_back("wrap to input at most " + number(report.to_input) + " m outside of closures, " + number(report.to_input_closed) +
-                            " m in them; input to wrap at most " + number(report.from_input) + " m");
+  report.messages.push_back("wrap to input at most " + number(report.to_input) + " m outside closed openings, " + number(report.to_input_closed) +
+                            " m in closed openings; input to wrap at most " + number(report.from_input) + " m");
   if (report.n_beyond_tolerance > 0)
     report.messages.push_back(std::to_string(report.n_beyond_tolerance) + " triangles are farther from the input than the tolerance of " +
                               number(sizes.tolerance) + " m, the farthest at " + format_point(report.farthest));

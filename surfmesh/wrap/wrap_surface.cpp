@@ -68,8 +68,9 @@ void check_sizes(const WrapInput& input, const WrapSizes& sizes, const WrapOptio
   if (sizes.gap > input.length) throw_bad_argument("wrapping", "gap = " + short_number(sizes.gap) + " m is more than the body length of " + length);
   if (!is_automatic(options.gap) && sizes.gap < sizes.edge)
     throw_bad_argument(
-        "wrapping", "gap = " + short_number(sizes.gap) + " m is below the edge of " + short_number(sizes.edge) + " m, whose ball closes all that is narrower",
-        {}, "edge = " + short_number(sizes.gap) + " or less, or a larger gap");
+        "wrapping",
+        "gap = " + short_number(sizes.gap) + " m is below the edge of " + short_number(sizes.edge) + " m, which already closes all narrower openings", {},
+        "edge = " + short_number(sizes.gap) + " or less, or a larger gap");
   if (!(sizes.offset > 0.0) || sizes.offset > sizes.edge)
     throw_bad_argument("wrapping",
                        "offset = " + short_number(sizes.offset) + " m must be above 0 and not above the edge of " + short_number(sizes.edge) + " m");
@@ -158,7 +159,7 @@ void tell_gap(const std::vector<GapTrial>& trials, std::size_t chosen, double le
     report.messages.push_back("openings are wider than " + short_number(trials[chosen - 1].gap) + " m: the gap is " + short_number(trials[chosen].gap) + " m");
   if (trials[chosen].leaking < k_leaking_share) return;
   report.messages.push_back("openings are wider than " + short_number(trials.back().gap) + " m (" + short_number(trials.back().gap / length) +
-                            " of the length), the widest gap that is tried: the skin behind them is wrapped on both sides, with a gap of " +
+                            " of the length), the widest gap that is tried: the surface behind these openings is wrapped on both sides, with a gap of " +
                             short_number(trials[chosen].gap) + " m");
 }
 
@@ -181,7 +182,7 @@ Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) 
       64);
   const auto deepest = std::max_element(depth.begin(), depth.end());
   if (*deepest < 2.0 * alpha)
-    throw_bad_argument("wrapping", "fluid = \"inside\", but no room within the surface is wider than the gap", {}, "fluid = \"outside\", or a smaller gap");
+    throw_bad_argument("wrapping", "fluid = \"inside\", but no cavity of the surface is wider than the gap", {}, "fluid = \"outside\", or a smaller gap");
   return place(static_cast<std::size_t>(deepest - depth.begin()));
 }
 
@@ -243,7 +244,7 @@ TriMesh cut_half(const TriMesh& mesh, const WrapInput& input, const WrapSizes& s
           for (Vec3& p : half.points) p[axis] = p[axis] == input.half_at + by ? input.half_at : p[axis] - by;
         prove_wrap(half, report, context);
         if (shift > 0.0)
-          report.messages.push_back("cut " + short_number(std::abs(by)) + " m beside the plane and shifted back: in the plane the wrap touches itself");
+          report.messages.push_back("cut " + short_number(std::abs(by)) + " m beside the plane and shifted back, because the wrap touches itself in the plane");
         return half;
       } catch (const Error& error) {
         if (error.code() == ErrorCode::cancelled) throw;
@@ -305,7 +306,7 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
     if (wrap.triangles.empty())
       throw Error({.code = ErrorCode::geometry_failed,
                    .attempted = "wrapping",
-                   .problem = "a ball of " + short_number(alpha) + " m radius finds no surface",
+                   .problem = "alpha = " + short_number(alpha) + " m yields an empty wrap",
                    .hint = "a smaller edge or gap"});
   };
   soup = alpha_input(input);
@@ -357,8 +358,8 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
     report.tolerance = sizes.tolerance;
     report.offset = sizes.offset;
     report.expected_triangles = expected_triangles(area, sizes.edge);
-    report.messages.push_back("both sides of sheets and what closes openings have " + short_number(area) + " m^2 for " + short_number(input.area) +
-                              " of the input: the edge is " + short_number(sizes.edge) + " m");
+    report.messages.push_back("the wrap, including both sides of sheets and closed openings, has " + short_number(area) + " m^2, the input " +
+                              short_number(input.area) + " m^2: the edge is set to " + short_number(sizes.edge) + " m");
   }
   if (trial.alpha > sizes.edge) {
     // First the facets that the input nearly encloses, so that grooves keep their depth. If the leaking fraction is larger than with a ball of half the gap,

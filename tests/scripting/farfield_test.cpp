@@ -75,7 +75,7 @@ TEST_F(Farfield, MistakesAreToldAtTheirLine) {
   EXPECT_THAT(error_of("mesh(wall, 'dodecahedron')"), HasSubstr("\"dodecahedron\" is no shape"));
   EXPECT_THAT(error_of("mesh(wall, 'none')"), HasSubstr("encloses no fluid"));
   EXPECT_THAT(error_of("mesh(wall, 3)"), HasSubstr("farfield: expected a table"));
-  EXPECT_THAT(error_of("half{ wall, axis = 'z', at = 7 }"), HasSubstr("case.lua:3: half at z = 7 m: nothing of the surface is on the side that is kept"));
+  EXPECT_THAT(error_of("half{ wall, axis = 'z', at = 7 }"), HasSubstr("case.lua:3: half at z = 7 m: no part of the surface is on the side that is kept"));
   EXPECT_THAT(error_of("half{ wall, axes = 'z' }"), HasSubstr("did you mean \"axis\"?"));
   EXPECT_THAT(error_of("half(3)"), HasSubstr("half"));
 }

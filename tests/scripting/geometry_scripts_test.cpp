@@ -67,12 +67,12 @@ TEST_F(GeometryScripts, WhatSmxCannotHoldIsRefused) {
               HasSubstr("control surface 'flap' is deflected"));
   EXPECT_THAT(
       error("aircraft{ fuselage{ name='b', frames = { {x=0,diameter=1}, {x=2,diameter=2}, {x=4,diameter=1} } }, unite = false }:write(" + out("b.smx") + ")"),
-      HasSubstr("never swells beyond its frames"));
+      HasSubstr("does not overshoot between its frames"));
 }
 
 TEST_F(GeometryScripts, FoldedWingsAndTurnsInDegreesAreErrors) {
   EXPECT_THAT(error("wing{ sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3,chord=1.5}, {y=2} }, tip = 'flat' }:model()"),
-              AllOf(HasSubstr("it folds back onto itself"), HasSubstr("order along the span")));
+              AllOf(HasSubstr("the wing folds back onto itself"), HasSubstr("order along the span")));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:rotate{ pitch = 30 }"), HasSubstr("pitch"));
 }
 
@@ -95,8 +95,8 @@ TEST_F(GeometryScripts, FunctionsDeformModels) {
   EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ 'bend.dat', kernel = 'wendland_c2' }.min[3]"), 1.0, 1e-9);
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0 end }"), HasSubstr("must return 3 numbers here, but value 3 is nil"));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return nosuch.x, 0, 0 end }"), AllOf(HasSubstr("case.lua:1"), HasSubstr("nosuch")));
-  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, y > 0.3 and 1 or 0 end }"), HasSubstr("a kink or a step there?"));
-  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return -2*x, 0, 0 end }"), HasSubstr("space folds over"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, y > 0.3 and 1 or 0 end }"), HasSubstr("a kink or a step there"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return -2*x, 0, 0 end }"), HasSubstr("the deformation folds space"));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, 0 end, kernel = 'thin_plate' }"), HasSubstr("unknown key \"kernel\""));
 }
 
@@ -229,7 +229,7 @@ TEST_F(GeometryScripts, HalfOfAsymmetricModelIsReported) {
   run(wing + "half(w:model())");
   EXPECT_THAT(log_, testing::Not(HasSubstr("warning")));
   run(wing + "w:deflect{ 'aileron', from={0.6, 0.7}, to={0.9, 0.7}, angle=5*deg, other_side='opposite' } half(w:model())");
-  EXPECT_THAT(log_, HasSubstr("is not the image of the one that is kept"));
+  EXPECT_THAT(log_, HasSubstr("is not the mirror image of the kept side"));
 }
 
 TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {

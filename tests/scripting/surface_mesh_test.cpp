@@ -88,7 +88,7 @@ TEST_F(SurfaceMeshVerb, SourcesAndFunctionsMakeShorterEdges) {
               AllOf(HasSubstr("2 problems"), HasSubstr("sources, entry 1: expected a source"), HasSubstr("size: expected a function of x, y, z")));
   EXPECT_THAT(error(model + "n{ sources={ sphere{ {0,0,0}, raduis=0.5, size=0.05 } } }"),
               AllOf(HasSubstr("unknown key \"raduis\", did you mean \"radius\"?"), HasSubstr("sphere takes a point, size, radius")));
-  EXPECT_THAT(error(model + "n{ size=function(x, y, z) return -z end }"), HasSubstr("the function of sizes gives"));
+  EXPECT_THAT(error(model + "n{ size=function(x, y, z) return -z end }"), HasSubstr("the size function returns"));
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return nil + 1 end }"), HasSubstr("case.lua:1"));
   EXPECT_THAT(run("help(surface_mesh)"), AllOf(HasSubstr("gap_cells"), HasSubstr("sources = {")));
   // Manifests store the sources, and so do stage files.
@@ -200,7 +200,7 @@ TEST_F(SurfaceMeshVerb, FeatureAngleFollowsSurfaceMeshAlsoThroughFile) {
   const double angle = std::stod(run(wall + "w:write(" + out("wall.su2") + ") " + make));
   EXPECT_GT(angle, 20.0);
   EXPECT_LT(angle, 40.0);
-  EXPECT_THAT(log_, AllOf(HasSubstr("smooth places turn by up to"), HasSubstr("where the model is smooth"), HasSubstr("least angles ")));
+  EXPECT_THAT(log_, AllOf(HasSubstr("smooth regions turn by up to"), HasSubstr("where the model is smooth"), HasSubstr("least angles ")));
   EXPECT_THAT(text_of("wall.su2.json"), AllOf(HasSubstr("\"schema\": \"sterna-surface-1\""), HasSubstr("\"max_smooth_angle\""), HasSubstr("\"max_edge\": 0.6"),
                                               HasSubstr("\"mean_radius_ratio\"")));
   const std::string read = "local w = read_surface(" + out("wall.su2") + ") ";

@@ -35,7 +35,7 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
   EXPECT_EQ(run("local b = box{ {0,0,0}, {4,2,2}, name = 'shell' } local t = test_section{ b, walls = 'slip' } print(surface_mesh{ t }.patches[1])"),
             "shell\n");
   EXPECT_NEAR(number("test_section{ box{ {0,0,0}, {4,2,2} } }:measures().volume"), -16.0, 1e-9);  // reversed, since the fluid is inside
-  EXPECT_THAT(error("test_section{ length = 4, width = 2 }"), HasSubstr("needs width and height, or the diameter"));
+  EXPECT_THAT(error("test_section{ length = 4, width = 2 }"), HasSubstr("give width and height, or the diameter"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, diameter = 1 }"), HasSubstr("has neither width nor height"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"),
               AllOf(HasSubstr("not \"slippery\""), HasSubstr("layer")));
@@ -154,7 +154,7 @@ TEST_F(TunnelScripts, AWingThroughPeriodicSides) {
   EXPECT_THAT(run("local s = read_stages(" + out("blade.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check{ details = true }"),
               HasSubstr("periodic: tunnel_left and tunnel_right"));
   EXPECT_THAT(error(surface + "{ 'tunnel_left', 'tunnel_rigth' } }"),
-              AllOf(HasSubstr("there is no face \"tunnel_rigth\""), HasSubstr("did you mean \"tunnel_right\"?")));
+              AllOf(HasSubstr("the model has no face \"tunnel_rigth\""), HasSubstr("did you mean \"tunnel_right\"?")));
   EXPECT_THAT(error(surface + "'tunnel_left,tunnel_right' }"), HasSubstr("periodic: expected the names of two patches"));
 }
 

@@ -79,7 +79,7 @@ TEST(Stitch, FlippedSphereSubsetIsTurnedAndReported) {
   const auto [mesh, report] = stitch({soup});
   expect_stitched(mesh);
   EXPECT_EQ(report.n_flipped, n_turned);
-  EXPECT_THAT(report.messages, Contains(HasSubstr("turned " + std::to_string(n_turned) + " facets against")));
+  EXPECT_THAT(report.messages, Contains(HasSubstr("turned " + std::to_string(n_turned) + " facets with an orientation opposite")));
 }
 
 TEST(Stitch, InsideOutMirroredMovedAndScaled) {
@@ -89,7 +89,7 @@ TEST(Stitch, InsideOutMirroredMovedAndScaled) {
     const auto [mesh, report] = stitch({inside_out(soup_of(ball))});
     expect_stitched(mesh);
     EXPECT_EQ(report.n_flipped, static_cast<std::int64_t>(ball.n_triangles()));
-    EXPECT_THAT(report.messages, Contains(HasSubstr("1 component (500 facets) was inside out: turned")));
+    EXPECT_THAT(report.messages, Contains(HasSubstr("1 component (500 facets) was inside out: orientation reversed")));
   }
   {
     SurfaceSoup mirrored = soup_of(ball);
@@ -158,7 +158,7 @@ TEST(Stitch, DisjointAndNestedBodies) {
         const auto [mesh, report] = inner_first ? stitch({i, o}) : stitch({o, i});
         expect_stitched(mesh);
         EXPECT_NEAR(volume(mesh), 7.0 * v, 1e-12);  // a cavity, for either orientation in the file
-        EXPECT_THAT(report.messages, Contains(HasSubstr("a cavity in it")));
+        EXPECT_THAT(report.messages, Contains(HasSubstr("treated as a cavity")));
       }
   EXPECT_NEAR(volume(stitch({outer, core, inner}).mesh), 7.125 * v, 1e-12);  // a body in the cavity
 }
@@ -190,7 +190,7 @@ TEST(Stitch, DoubledMembraneAndFinWithoutThicknessAreRemoved) {
   expect_stitched(mesh);
   EXPECT_NEAR(volume(mesh), 2.0, 1e-14);
   EXPECT_EQ(report.n_duplicate_removed, 16);
-  EXPECT_THAT(report.messages, Contains(HasSubstr("8 facets of doubled sheets without thickness")));
+  EXPECT_THAT(report.messages, Contains(HasSubstr("8 facets of double-sided sheets without thickness")));
   // A fin of two facets on an edge of the cube.
   SurfaceSoup fin = soup_of(cube());
   add_facet(fin, {0, 0, 0}, {1, 0, 0}, {0.5, -1, -1});
@@ -390,8 +390,8 @@ TEST(StitchSurface, NamesKeepDigitsAndLettersOfAnyLanguage) {
   std::vector<std::string> names;
   for (const Patch& patch : result.mesh.patches) names.push_back(patch.name);
   EXPECT_THAT(names, testing::ElementsAre("1", "Fl\xc3\xbcgel", "\xe7\xbf\xbc_left", "Fl\xc3\xbcgel_\xc3\xa9", "left_wing", "left_wing_2", "a_b"));
-  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left wing\" of wall.stl is called \"left_wing\""));
-  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left_wing\" of wall.stl is called \"left_wing_2\""));
+  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left wing\" of wall.stl was renamed to \"left_wing\""));
+  EXPECT_THAT(result.report.messages, testing::Contains("the patch \"left_wing\" of wall.stl was renamed to \"left_wing_2\""));
   EXPECT_THAT(result.report.messages, testing::Not(testing::Contains(testing::HasSubstr("\"1\""))));
 }
 

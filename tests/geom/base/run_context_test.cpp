@@ -31,7 +31,7 @@ TEST(RunContext, LongStepsReportAtDoublingTimes) {
   EXPECT_TRUE(warnings.empty());
   work_for(step.part("refinement", 0.0, 1.0), 0.1);  // parts of a step count together
   ASSERT_GE(warnings.size(), 1u);
-  EXPECT_THAT(warnings.front(), HasSubstr("tetrahedra has taken 0 s so far, now at tetrahedra/refinement, and goes on"));
+  EXPECT_THAT(warnings.front(), HasSubstr("tetrahedra has taken 0 s so far, now at tetrahedra/refinement, and continues"));
   const std::size_t n = warnings.size();
   EXPECT_LE(n, 2u);
   work_for(step, 0.3);

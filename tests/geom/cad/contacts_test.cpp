@@ -138,7 +138,7 @@ TEST(Unite, APairThatDoesNotUniteIsNamed) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::geometry_failed);
     const std::string text = error.what();
-    EXPECT_NE(text.find("\"drum\" and \"wire\" do not unite"), std::string::npos) << text;
+    EXPECT_NE(text.find("\"drum\" and \"wire\" cannot be united"), std::string::npos) << text;
     EXPECT_FALSE(error.info().places.empty());
   }
 }

@@ -76,7 +76,7 @@ TEST(Refit, BentWingIsExportedClosedWithNames) {
     WriteCadOptions options;
     options.tolerance = tolerance;
     const Export file = exported(bent, cad::CadFormat::step, options);
-    EXPECT_THAT(file.log, testing::HasSubstr("have no exact form; splines within"));
+    EXPECT_THAT(file.log, testing::HasSubstr("have no exact form; they were replaced by splines within"));
     EXPECT_EQ(names_of(file.again.model), names_of(bent));
     EXPECT_EQ(file.again.model.edges.size(), bent.edges.size());  // shared edges stay shared
     expect_same_body(bent, file, tolerance);

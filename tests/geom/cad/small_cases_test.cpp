@@ -41,13 +41,13 @@ TEST(SmallCadCases, ADoubledFaceGoes) {
   const CadFile file = read_small("box_doubled_face.brep");
   EXPECT_TRUE(file.report.is_closed());
   EXPECT_EQ(file.report.n_faces, 6u);
-  EXPECT_EQ(count(file.report, "doubled face removed"), 1u);
+  EXPECT_EQ(count(file.report, "duplicate face removed"), 1u);
   EXPECT_NEAR(volume(file), 1.0, 1e-12);
 }
 
 TEST(SmallCadCases, InsideOutIsTurned) {
   const CadFile file = read_small("box_inside_out.brep");
-  EXPECT_EQ(count(file.report, "solid turned right side out"), 1u);
+  EXPECT_EQ(count(file.report, "orientation of an inside-out solid reversed"), 1u);
   EXPECT_NEAR(volume(file), 1.0, 1e-12);
 }
 

@@ -356,10 +356,10 @@ std::string rejection(const std::vector<Vec3>& points, const std::vector<Indices
 }
 
 TEST(FindCrossings, RejectsInvalidIndicesAndNonFinitePoints) {
-  EXPECT_EQ(rejection(std::vector<Vec3>(3), {{0, 1, 2}, {0, 1, 3}}), "looking for crossing triangles: triangle 1 refers to point 3 of 3");
+  EXPECT_EQ(rejection(std::vector<Vec3>(3), {{0, 1, 2}, {0, 1, 3}}), "finding crossing triangles: triangle 1 refers to point 3 of 3");
   std::vector<Vec3> points(4);
   points[2].y = std::nan("");
-  EXPECT_EQ(rejection(points, {{0, 1, 3}, {1, 2, 3}}), "looking for crossing triangles: point 2 of triangle 1 is not finite");
+  EXPECT_EQ(rejection(points, {{0, 1, 3}, {1, 2, 3}}), "finding crossing triangles: point 2 of triangle 1 is not finite");
   EXPECT_EQ(rejection(points, {{0, 1, 3}}), "accepted");  // only vertices used by triangles are checked
 }
 

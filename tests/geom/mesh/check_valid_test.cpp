@@ -96,7 +96,7 @@ TEST(CheckValid, LinesEndingLowerGivePyramidsAndTets) {
 TEST(CheckValid, NumbersOfLayersThatLinesDisagreeOn) {
   HybridMesh mesh = two_shells(2, 3, 7);
   mesh.layers.line_layers[mesh.layers.base[0][0]] = 1;
-  EXPECT_NE(to_text(checked(mesh)).find("its lines differ by more than one layer"), std::string::npos);
+  EXPECT_NE(to_text(checked(mesh)).find("the layer counts of its lines differ by more than one"), std::string::npos);
   mesh.layers.line_layers[mesh.layers.base[0][0]] = 8;
   EXPECT_NE(to_text(checked(mesh)).find("8 layers, expected 1 to 7"), std::string::npos);
   mesh.layers.line_layers.pop_back();

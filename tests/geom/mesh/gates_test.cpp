@@ -88,7 +88,7 @@ TEST(Gates, FirstHeightsFailOnlyAboveAShare) {
   EXPECT_TRUE(of(10, asked.limits).is_hard_missed);
   EXPECT_NEAR(of(10, asked.limits).share_beyond_hard, 0.01, 1e-15);
   EXPECT_EQ(of(11, asked.limits).state, GateState::fail);
-  EXPECT_NE(to_text(of(11, asked.limits)).find("hard <= 0.2 but on 1 %"), std::string::npos) << to_text(of(11, asked.limits));
+  EXPECT_NE(to_text(of(11, asked.limits)).find("hard <= 0.2 except on 1 %"), std::string::npos) << to_text(of(11, asked.limits));
   GateLimits own = asked.limits;
   own.hard = 0.3;  // the user's: one line is enough
   EXPECT_EQ(of(1, own).state, GateState::fail);
@@ -250,7 +250,7 @@ TEST(Gates, GrowthIsComparedWithRequestOrDefault) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 4, .layer_height = 0.1, .ratio = 1.3});
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::warn);  // default 1.2
   EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::not_checked);
-  EXPECT_NE(to_text(checked(mesh)).find("not checked: the mesh does not say what was asked for"), std::string::npos);
+  EXPECT_NE(to_text(checked(mesh)).find("not checked: the mesh does not store the requested layer"), std::string::npos);
   ask_for(mesh, 0.01, 0.1, 1.3);
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::pass);
   mesh.points[mesh.layers.node(5, 2)].z *= 1.5;
@@ -355,7 +355,7 @@ TEST(Gates, EdgeRatiosOfWallAreForcedOthersNot) {
   EXPECT_FALSE(wall.is_hard_missed);
   EXPECT_GT(wall.n_beyond_hard, 0);
   EXPECT_EQ(wall.n_forced, wall.n_beyond_hard);
-  EXPECT_NE(wall.forced.front().forcing.why.find("the wall has edges"), std::string::npos);
+  EXPECT_NE(wall.forced.front().forcing.why.find("the wall has an edge"), std::string::npos);
   const GateResult above = move_from(1);
   EXPECT_TRUE(above.is_hard_missed);
   EXPECT_EQ(above.n_forced, 0);

@@ -131,7 +131,7 @@ TEST(Half, TellsWhereTheOtherSideIsNoImage) {
   TriMesh dented = body;
   for (Point& p : dented.points)
     if (p.y < -0.8) p.y *= 0.9;
-  EXPECT_THAT(warnings_of(dented), testing::ElementsAre(testing::AllOf(HasSubstr("is not the image of the one that is kept"), HasSubstr("0.1 m"))));
+  EXPECT_THAT(warnings_of(dented), testing::ElementsAre(testing::AllOf(HasSubstr("is not the mirror image of the kept side"), HasSubstr("0.1 m"))));
   TriMesh rough = body;  // different triangulations of the two sides are no asymmetry
   for (std::size_t i = 0; i < rough.points.size(); ++i) {
     Point& p = rough.points[VertexId(i)];
@@ -192,7 +192,7 @@ TEST(Half, SaysWhatIsWrong) {
   const ErrorInfo away = error_of(moved(test::cube(1), {0.0, 0.25, 0.0}), {});
   EXPECT_EQ(away.code, ErrorCode::bad_argument);
   EXPECT_THAT(away.problem, HasSubstr("does not reach the plane: its nearest vertex is 0.25"));
-  EXPECT_THAT(error_of(moved(test::cube(1), {0.0, 0.25, 0.0}), {.keep = "-"}).problem, HasSubstr("nothing of the surface"));
+  EXPECT_THAT(error_of(moved(test::cube(1), {0.0, 0.25, 0.0}), {.keep = "-"}).problem, HasSubstr("no part of the surface"));
   TriMesh holed = test::cube(3);
   holed.triangles.raw().pop_back();
   holed.triangle_patch.raw().pop_back();

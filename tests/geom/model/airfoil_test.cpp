@@ -177,9 +177,9 @@ TEST(Airfoil, BadFilesAreRefusedWithTheLine) {
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0 0\n0.5 -0.1 3\n1 0\n"), testing::AllOf(HasSubstr("line 5"), HasSubstr("3 numbers")));
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0 0\n0.5 nan\n1 0\n"), HasSubstr("line 5"));
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0 0\n"), HasSubstr("3 points"));
-  EXPECT_THAT(message("n\n5 5\n0 0\n0.5 0.1\n1 0\n0 0\n0.5 -0.1\n1 0\n"), HasSubstr("5 + 5 points, there are 6"));
+  EXPECT_THAT(message("n\n5 5\n0 0\n0.5 0.1\n1 0\n0 0\n0.5 -0.1\n1 0\n"), HasSubstr("5 + 5 points, the file holds 6"));
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0.7 0.1\n0.3 0.1\n0 0\n0.5 -0.1\n1 0\n"), testing::AllOf(HasSubstr("line 4"), HasSubstr("turns back")));
-  EXPECT_THAT(message("n\n0 0\n0.2 0.1\n0.5 0.1\n0.8 0.05\n1 0\n"), HasSubstr("do not go around"));
+  EXPECT_THAT(message("n\n0 0\n0.2 0.1\n0.5 0.1\n0.8 0.05\n1 0\n"), HasSubstr("do not run around"));
   EXPECT_THAT(message_of([] { (void)read_airfoil("/absent/a.dat"); }), HasSubstr("does not exist"));
   // Any prefix of a good file is either read or refused, without a crash.
   const std::string good = "n\n1.0 0.001\n0.5 0.06\n0.1 0.04\n0 0\n0.1 -0.03\n0.5 -0.04\n1 -0.001\n";

@@ -250,7 +250,7 @@ TEST(Components, ErrorsNameTheFrame) {
     FAIL() << "no error";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::bad_argument);
-    EXPECT_THAT(e.what(), HasSubstr("'Odd' do not follow each other along x"));
+    EXPECT_THAT(e.what(), HasSubstr("'Odd' are not in ascending order along x"));
   }
 }
 

@@ -106,7 +106,7 @@ TEST(Cpacs, OmittedElementsAreNamed) {
   STERNA_NEEDS_SHARED_DATA();
   EXPECT_THAT(read_real("simpletest-nacelle.xml").messages, Contains(HasSubstr("/genericGeometryComponents: this element is not known and was left out")));
   EXPECT_THAT(read_real("landingGears.xml").messages, testing::IsEmpty());
-  EXPECT_THAT(read_real("landingGears.xml").notes, testing::ElementsAre(HasSubstr("landing gear is taken as retracted")));
+  EXPECT_THAT(read_real("landingGears.xml").notes, testing::ElementsAre(HasSubstr("landing gear is assumed to be retracted")));
   EXPECT_THAT(read_real("nacelles.xml").messages, Contains(HasSubstr("guide curves are not supported")));
   EXPECT_THAT(read_real("boxWing.xml").messages, Contains(HasSubstr("the engine has no cowls")));
 }
@@ -251,7 +251,7 @@ TEST(Cpacs, ErrorsNameLineAndPath) {
               HasSubstr("section[S1]/elements/element[E1]/transformation/scaling/x: 'wide' is not a finite number"));
   EXPECT_THAT(
       error_of(wing_file("", k_diamond, "<positioning><length>1</length><fromSectionUID>S1</fromSectionUID><toSectionUID>S1</toSectionUID></positioning>")),
-      HasSubstr("run in a circle"));
+      HasSubstr("form a cycle"));
   EXPECT_THAT(error_of("<cpacs><header><cpacsVersion>1.5</cpacsVersion></header></cpacs>"), HasSubstr("version 1.5 is not supported"));
   EXPECT_THAT(error_of("<cpacs/>"), HasSubstr("no aircraft model"));
   std::string broken = wing_file("", k_diamond);

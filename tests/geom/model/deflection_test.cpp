@@ -363,7 +363,7 @@ TEST(Deflection, AileronsOfTheWidebodyMoveApart) {
   EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
   expect_valid(model);
   deflections[0].gap = ControlGap::open;
-  test::expect_error(ErrorCode::bad_argument, "leaves the middle of the wing's section by",
+  test::expect_error(ErrorCode::bad_argument, "deviates from the middle of the wing section by",
                      [&] { (void)deflected(wing, deflections); });  // the control surface extends across a kink of the wing
 }
 
@@ -408,19 +408,19 @@ TEST(Deflection, ImpossibleDeflectionsAreRefusedByName) {
     ADD_FAILURE() << "no error";
     return {};
   };
-  EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 1.5}}), HasSubstr("at most 60"));
-  EXPECT_THAT(error_of(wing, {{flap(0.3, 0.1, 0.7), 0.1}}), HasSubstr("do not ascend"));
+  EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 1.5}}), HasSubstr("the limit is 60 degrees"));
+  EXPECT_THAT(error_of(wing, {{flap(0.3, 0.1, 0.7), 0.1}}), HasSubstr("not in ascending order"));
   EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 0.1}, {flap(0.3, 0.4, 0.7), 0.2}}), HasSubstr("overlaps 'Flap'"));
-  EXPECT_THAT(error_of(wing, {open_flap(flap(-0.1, 0.3, 0.7))}), HasSubstr("before the tips"));
+  EXPECT_THAT(error_of(wing, {open_flap(flap(-0.1, 0.3, 0.7))}), HasSubstr("before the wing tips"));
   EXPECT_THAT(error_of(wing, {open_flap(flap(0.1, 0.3, 0.99))}), HasSubstr("0.03 and 0.97"));
   EXPECT_THAT(error_of(wing, {open_flap(flap(0.1, 0.3, 0.7)), open_flap(flap(0.302, 0.4, 0.7))}), HasSubstr("overlaps 'Flap'"));
   Deflection wide = open_flap(flap(0.1, 0.3, 0.7));
   wide.slot = 2.0;
-  EXPECT_THAT(error_of(wing, {wide}), HasSubstr("larger than what is left"));
+  EXPECT_THAT(error_of(wing, {wide}), HasSubstr("larger than the remaining part"));
   Wing gull = wing;
   gull.sections.insert(gull.sections.begin() + 1, gull.sections[1]);
   gull.sections[1].leading_edge = {0.0, 3.5, 0.5};
-  EXPECT_THAT(error_of(gull, {open_flap(flap(0.1, 0.3, 0.7))}), HasSubstr("leaves the middle of the wing's section"));
+  EXPECT_THAT(error_of(gull, {open_flap(flap(0.1, 0.3, 0.7))}), HasSubstr("deviates from the middle of the wing section"));
   ControlSurface other = flap(0.1, 0.3, 0.7);
   other.wing = "tail";
   EXPECT_THAT(error_of(wing, {{other, 0.1}}), HasSubstr("belongs to wing 'tail'"));
@@ -489,8 +489,9 @@ TEST(SetControls, UnknownControlsAreRefusedWithKnownNames) {
   aircraft.control_surfaces.push_back(flap(0.1, 0.3, 0.7));
   aircraft.controls.push_back({"High lift", {{"Flap", 1.0}}});
   EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flop", .angle = 0.1}}), HasSubstr("did you mean \"Flap\"?"));
-  EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flap", .angle = 0.1}, {.names = "F*", .angle = 0.1}}), HasSubstr("is asked for by \"Flap\", too"));
-  EXPECT_THAT(error_of_settings(aircraft, {{.names = "High lift", .angle = 0.1}, {.names = "Flap", .angle = 0.1}}), HasSubstr("is asked for by \"High lift\""));
+  EXPECT_THAT(error_of_settings(aircraft, {{.names = "Flap", .angle = 0.1}, {.names = "F*", .angle = 0.1}}), HasSubstr("is already set by \"Flap\""));
+  EXPECT_THAT(error_of_settings(aircraft, {{.names = "High lift", .angle = 0.1}, {.names = "Flap", .angle = 0.1}}),
+              HasSubstr("is already set by \"High lift\""));
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(Deformed, DerivativesFollowTheChainRule) {
     FunctionMap([](const Point&) { return Point{NAN, 0, 0}; }, 1.0).point({1, 2, 3});
     FAIL();
   } catch (const Error& e) {
-    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("not give finite"), testing::HasSubstr("(1, 2, 3)")));
+    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("not finite"), testing::HasSubstr("(1, 2, 3)")));
   }
 }
 
@@ -303,7 +303,7 @@ TEST(DeformedModel, FoldOverIsAnErrorWithItsPlace) {
     FAIL() << "folded space was accepted";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::self_intersection);
-    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("folds over"), testing::HasSubstr("face ")));
+    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("folds space"), testing::HasSubstr("face ")));
     ASSERT_FALSE(e.info().places.empty());
     EXPECT_NEAR(e.info().places[0].position.x, 1.0, 0.2);
   }

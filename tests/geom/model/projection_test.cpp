@@ -124,7 +124,7 @@ TEST(SurfaceProjector, CrossesSeamsPolesAndKeepsToBorders) {
   const SurfaceFoot limited = part.nearest({1, 0, 0});
   EXPECT_NEAR(limited.at.u, 1.0, 1e-12);
   EXPECT_NEAR(limited.at.v, 0.0, 1e-9);
-  test::expect_error(ErrorCode::bad_argument, "the parameters [1, 1] have no length", [&] { (void)SurfaceProjector(sphere, {{1.0, 1.0}, {0.0, 1.0}}); });
+  test::expect_error(ErrorCode::bad_argument, "the parameter range [1, 1] has no length", [&] { (void)SurfaceProjector(sphere, {{1.0, 1.0}, {0.0, 1.0}}); });
 }
 
 TEST(SurfaceProjector, SameForAnyNumberOfThreads) {

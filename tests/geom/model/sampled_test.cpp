@@ -83,12 +83,12 @@ TEST(SampledSurface, MistakesAreNamed) {
   const auto plane = [](Uv p) { return Point{p.u, p.v, 0.0}; };
   EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.tolerance = 0.0}); }), testing::HasSubstr("tolerance"));
   EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {1, 1}}, {}); }), testing::HasSubstr("no length"));
-  EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.is_periodic_u = true}); }), testing::HasSubstr("said to be periodic"));
-  EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.breaks_u = {2.0}}); }), testing::HasSubstr("not inside"));
+  EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.is_periodic_u = true}); }), testing::HasSubstr("declared periodic"));
+  EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.breaks_u = {2.0}}); }), testing::HasSubstr("outside the range"));
   EXPECT_THAT(message_of([&] {
                 (void)sample_surface([](Uv p) { return Point{std::log(p.u - 0.5), 0, 0}; }, {{0, 1}, {0, 1}}, {});
               }),
-              testing::HasSubstr("finite numbers at (u, v) = (0"));
+              testing::HasSubstr("not finite at (u, v) = (0"));
 }
 
 TEST(SampledCurve, ToleranceHoldsBetweenTheSamples) {

@@ -34,10 +34,12 @@ TEST(Shapes, BoxAndCylinderHaveTheirVolumes) {
   expect_no_opening(cylinder);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).volume, pi * 0.25 * 3.0, 1e-9);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).area, 2 * pi * 0.5 * 3.0 + 2 * pi * 0.25, 1e-9);
-  test::expect_error(ErrorCode::bad_argument, "box 'flat': its corners (0, 0, 0) and (1, 1, 0) must ascend", [&] {
+  test::expect_error(ErrorCode::bad_argument, "box 'flat': the corners (0, 0, 0) and (1, 1, 0) must ascend", [&] {
     (void)make_box("flat", {0, 0, 0}, {1, 1, 0});
   });
-  test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': it is 0.000000 m long", [&] { (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0); });
+  test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': the cylinder is 0.000000 m long", [&] {
+    (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0);
+  });
 }
 
 TEST(Shapes, TestSectionHoldsFluidInside) {
@@ -75,7 +77,7 @@ TEST(Shapes, RequiredOptionsAreNamed) {
     return "no error";
   };
   EXPECT_THAT(error_of({}), HasSubstr("needs length"));
-  EXPECT_THAT(error_of({.length = 4.0}), HasSubstr("needs width and height, or the diameter"));
+  EXPECT_THAT(error_of({.length = 4.0}), HasSubstr("give width and height, or the diameter"));
 }
 
 TEST(Shapes, NacelleAndPylonJoinAWing) {
@@ -102,7 +104,7 @@ TEST(Shapes, NacelleAndPylonJoinAWing) {
   const Model solid = make_wing(pylon);
   expect_no_opening(solid);
   EXPECT_EQ(solid.components[ComponentId(0)].kind, ComponentKind::pylon);
-  test::expect_error(ErrorCode::bad_argument, "nacelle 'far' stands at y = 50.000000 m, where wing 'wing' has no section", [&] {
+  test::expect_error(ErrorCode::bad_argument, "nacelle 'far' is at y = 50.000000 m, where wing 'wing' has no section", [&] {
     (void)pylon_wing("pylon", wing, nacelle_body("far", {0.0, 50.0, 0.0}, n), {});
   });
 }
@@ -184,10 +186,10 @@ TEST(Shapes, BodyOfRevolutionHasVolumeOfItsProfile) {
   const auto expect_refused = [](const std::string& problem, const std::vector<Uv>& profile_of_it) {
     test::expect_error(ErrorCode::bad_argument, problem, [&] { (void)body_of_revolution("bad", {}, profile_of_it); });
   };
-  expect_refused("its profile has 1 points; at least 2 are needed", {{0.0, 1.0}});
-  expect_refused("point 2 of its profile (x = 1, radius 0) needs a positive radius", {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}});
-  expect_refused("point 2 of its profile (x = 0, radius 2) does not lie behind the one before it", {{0.0, 1.0}, {0.0, 2.0}});
-  expect_refused("point 1 of its profile (x = 0, radius -1) needs a positive radius", {{0.0, -1.0}, {1.0, 1.0}});
+  expect_refused("the profile has 1 points; at least 2 are needed", {{0.0, 1.0}});
+  expect_refused("point 2 of the profile (x = 1, radius 0) needs a positive radius", {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}});
+  expect_refused("point 2 of the profile (x = 0, radius 2) does not lie behind the point before it", {{0.0, 1.0}, {0.0, 2.0}});
+  expect_refused("point 1 of the profile (x = 0, radius -1) needs a positive radius", {{0.0, -1.0}, {1.0, 1.0}});
 }
 
 TEST(Shapes, FairingFillsItsBox) {
@@ -216,7 +218,7 @@ TEST(Shapes, StingIsCylinderAndConeWithFlatEnds) {
   for (const ModelFace& face : model.faces) n_tails += face.role == FaceRole::tail;
   EXPECT_EQ(n_tails, 1);
   o.cone_start = 5.0;
-  test::expect_error(ErrorCode::bad_argument, "its cone starts at 5.000000 m, but it is only 3.000000 m long", [&] {
+  test::expect_error(ErrorCode::bad_argument, "the cone starts at 5.000000 m, but the sting is only 3.000000 m long", [&] {
     (void)sting_body("sting", {1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, o);
   });
 }

@@ -78,8 +78,8 @@ TEST(Smx, MessagesNameLineAndPathOfOddEntries) {
   EXPECT_THAT(read_smx(test::shared_data() / "smx/widebody.smx", RunContext()).messages, IsEmpty());
   const AircraftReading odd = read_smx(test::shared_data() / "smx/sumo_empty.smx", RunContext());
   EXPECT_THAT(odd.messages, Contains(HasSubstr("line 3, /Assembly/BodySkeleton[test]: attribute 'akimatg' is 'ture'")));
-  EXPECT_THAT(odd.messages, Contains(HasSubstr("stand in the same plane x = 0")));
-  EXPECT_THAT(odd.messages, Contains(HasSubstr("sumo wants 4 frames; there are 3")));
+  EXPECT_THAT(odd.messages, Contains(HasSubstr("are in the same plane x = 0")));
+  EXPECT_THAT(odd.messages, Contains(HasSubstr("sumo requires 4 frames; the body has 3")));
 }
 
 TEST(Smx, FramePointsAreNormalisedShapeStays) {
@@ -111,7 +111,7 @@ TEST(Smx, FramesAreSortedAndLipMakesNoseFlat) {
   EXPECT_EQ(body.lip->axial_offset, 0.3);
   EXPECT_EQ(body.lip->radial_offset, 0.2);
   EXPECT_EQ(body.nose.height, 0.0);
-  EXPECT_THAT(reading.messages, Contains(HasSubstr("makes the front cap flat")));
+  EXPECT_THAT(reading.messages, Contains(HasSubstr("its front cap is flat")));
 }
 
 TEST(Smx, MissingCapsAreFlatDomesOrRoundStrips) {
@@ -156,13 +156,13 @@ TEST(Smx, ErrorsNameLineAndPath) {
   EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 zero 0' height='1' width='1'/>")), HasSubstr("'zero' is not a finite number"));
   EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0' height='1' width='1'/>")), HasSubstr("has 2 numbers instead of 3"));
   EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 0.5 </BodyFrame>")),
-              HasSubstr("5 numbers cannot be pairs"));
+              HasSubstr("5 numbers cannot form pairs"));
   EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 1 0 0 1 </BodyFrame>")), HasSubstr("4 points; it has 3"));
   EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1  1 0  0 1  0.5 0.5  0.1 0.9</BodyFrame>")),
               HasSubstr("turns back by 180 degrees"));
   EXPECT_THAT(malformed(body_with(circle_at(0))), HasSubstr("a body needs 2 frames"));
-  EXPECT_THAT(malformed("<Mesh/>"), HasSubstr("the root of a .smx file"));
-  EXPECT_THAT(malformed("<Assembly/>"), HasSubstr("there is no body and no wing"));
+  EXPECT_THAT(malformed("<Mesh/>"), HasSubstr("the root element of a .smx file"));
+  EXPECT_THAT(malformed("<Assembly/>"), HasSubstr("the file has no body and no wing"));
 }
 
 TEST(Smx, UnsupportedContentIsRefusedByName) {

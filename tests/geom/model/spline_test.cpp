@@ -188,9 +188,9 @@ TEST(Spline, MistakesAreNamedWithTheirPlace) {
   };
   EXPECT_THAT(message({{1, 2, 3}}, {}), testing::HasSubstr("1 points"));
   EXPECT_THAT(message({{0, 0, 0}, {1, 2, 3}, {1, 2, 3}}, {}), testing::AllOf(testing::HasSubstr("points 1 and 2 coincide"), testing::HasSubstr("(1, 2, 3)")));
-  EXPECT_THAT(message(helix(5), {.tangents = SplineTangents::periodic}), testing::HasSubstr("does not repeat the first"));
+  EXPECT_THAT(message(helix(5), {.tangents = SplineTangents::periodic}), testing::HasSubstr("must repeat the first"));
   EXPECT_THAT(message(helix(5), {.at = {0, 1, 2}}), testing::HasSubstr("3 parameters for 5 points"));
-  EXPECT_THAT(message(helix(3), {.at = {0, 1, 1}}), testing::HasSubstr("do not ascend"));
+  EXPECT_THAT(message(helix(3), {.at = {0, 1, 1}}), testing::HasSubstr("not in ascending order"));
   EXPECT_THAT(message(helix(5), {.corners = {4}}), testing::HasSubstr("not an inner point"));
   EXPECT_THAT(message(helix(5), {.tangents = SplineTangents::natural, .start_tangents = {{1, 0, 0}}}), testing::HasSubstr("not `clamped`"));
 }

@@ -70,9 +70,9 @@ TEST(AnalyticSurfaces, SatisfyTheirEquations) {
   const PlaneSurface plane(k_frame, {{-1, 2}, {0, 5}});
   test::expect_derivatives(plane, 5);
   test::expect_exact_nurbs(plane);
-  test::expect_error(ErrorCode::bad_argument, "its radius is -1.000000 m, must be positive", [&] { (void)CylinderSurface(k_frame, -1.0, {{0, 1}, {0, 1}}); });
-  test::expect_error(ErrorCode::bad_argument, "goes round by more than a turn: 7.000000 rad", [&] { (void)SphereSurface(k_frame, 1.0, {{0, 7}, {0, 1}}); });
-  test::expect_error(ErrorCode::bad_argument, "its half angle is 0.000000 rad, must be between 0 and pi/2", [&] {
+  test::expect_error(ErrorCode::bad_argument, "the radius is -1.000000 m, must be positive", [&] { (void)CylinderSurface(k_frame, -1.0, {{0, 1}, {0, 1}}); });
+  test::expect_error(ErrorCode::bad_argument, "covers more than one turn: 7.000000 rad", [&] { (void)SphereSurface(k_frame, 1.0, {{0, 7}, {0, 1}}); });
+  test::expect_error(ErrorCode::bad_argument, "the half angle is 0.000000 rad, must be between 0 and pi/2", [&] {
     (void)ConeSurface(k_frame, 1.0, 0.0, {{0, 1}, {0, 1}});
   });
 }
@@ -100,12 +100,14 @@ TEST(Curves, LinesArcsAndViews) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-13);
   }
   EXPECT_LE(distance(reversed(spline)->point(0.0), spline->point(1.0)), 1e-15);
-  test::expect_error(ErrorCode::bad_argument, "[0.500000, 1.500000] is not within its domain [0.000000, 1.000000]", [&] { (void)part_of(spline, {0.5, 1.5}); });
+  test::expect_error(ErrorCode::bad_argument, "[0.500000, 1.500000] is not within the parameter range [0.000000, 1.000000]", [&] {
+    (void)part_of(spline, {0.5, 1.5});
+  });
   EXPECT_NO_THROW(part_of(std::make_shared<EllipseCurve>(ellipse), {5.0, 7.0}));
   test::expect_error(ErrorCode::bad_argument, "(1, 0, 0) and (1, 1, 0) have no length or are not at right angles", [&] {
     (void)EllipseCurve({}, {1, 0, 0}, {1, 1, 0}, k_full_turn);
   });
-  test::expect_error(ErrorCode::bad_argument, "its ends coincide at (1, 1, 1)", [&] { (void)segment({1, 1, 1}, {1, 1, 1}); });
+  test::expect_error(ErrorCode::bad_argument, "the ends coincide at (1, 1, 1)", [&] { (void)segment({1, 1, 1}, {1, 1, 1}); });
 }
 
 TEST(Curves, ParameterCurves) {
@@ -160,7 +162,9 @@ TEST(SurfaceView, PartsReversalsAndExchangesAreTheSameSurface) {
   }
   EXPECT_LE(distance(exchanged(base)->point({0.3, 0.6}), base->point({0.6, 0.3})), 1e-15);
   EXPECT_LE(distance(reversed_u(base)->point({0.25, 0.6}), base->point({0.75, 0.6})), 1e-15);
-  test::expect_error(ErrorCode::bad_argument, "u in [0.200000, 1.200000] is not within its domain", [&] { (void)part_of(base, {{0.2, 1.2}, {0.3, 0.5}}); });
+  test::expect_error(ErrorCode::bad_argument, "u in [0.200000, 1.200000] is not within the parameter range", [&] {
+    (void)part_of(base, {{0.2, 1.2}, {0.3, 0.5}});
+  });
   // A part may extend across the seam of a periodic surface.
   const SurfacePtr cylinder = std::make_shared<CylinderSurface>(Frame{}, 1.0, ParameterBox{k_full_turn, {0, 1}});
   const SurfacePtr across = part_of(cylinder, {{5.0, 8.0}, {0.0, 1.0}});

@@ -144,7 +144,7 @@ TEST_F(AutoSurfaceTest, StagesTakeTheirOptions) {
   ASSERT_EQ(bounded.status, 0) << bounded.errors;
   EXPECT_THAT(bounded.output + bounded.errors, AllOf(HasSubstr("remesh.max_triangles"), Not(HasSubstr("remeshed: 12 ->"))));
   const test::ProcessResult coarse = sterna({"surface", "bar.off", "--auto", "-o", "coarse.off", "--set", "remesh.max_edge=0.03", "--set", "repair.gap=1e-4"});
-  EXPECT_THAT(coarse.output + coarse.errors, HasSubstr("edges of 0.03 to 0.03 m were asked for")) << coarse.errors;
+  EXPECT_THAT(coarse.output + coarse.errors, HasSubstr("edges of 0.03 to 0.03 m were requested")) << coarse.errors;
   EXPECT_THAT(sterna({"surface", "bar.off", "-o", "a.off", "--set", "remesh.max_edge=0.03"}).errors, HasSubstr("is given without --auto"));
 }
 
@@ -178,7 +178,8 @@ TEST_F(AutoSurfaceTest, SmoothBodyIsNotDentedForItsBudget) {
   EXPECT_THAT(result.output + result.errors, AllOf(HasSubstr("the triangles stay as they are"), Not(HasSubstr("changed: remeshed"))));
   const test::ProcessResult free = sterna({"surface", "car.off", "--auto", "-o", "new.off"});
   // With enough triangles the distance is the criterion: over new edges it is 0.255, above the limit of 0.2.
-  EXPECT_THAT(free.output + free.errors, AllOf(HasSubstr("of their edges from the given ones, the limit is 0.2"), HasSubstr("the triangles stay as they are")))
+  EXPECT_THAT(free.output + free.errors,
+              AllOf(HasSubstr("of their edges from the input triangles, the limit is 0.2"), HasSubstr("the triangles stay as they are")))
       << free.errors;
 }
 

@@ -80,8 +80,8 @@ TEST(FamilyRules, WhatIsNotKnownIsNotChecked) {
   const FamilyReport report = check_family({file, member(1.5)}, {});
   EXPECT_EQ(report.state(), GateState::pass);
   EXPECT_EQ(rule(report, "first_height").state, GateState::not_checked);
-  EXPECT_THAT(rule(report, "first_height").reason, HasSubstr("does not say what was asked of its layer"));
-  EXPECT_THAT(to_text(report), HasSubstr("not checked: f = 1.000000 comes without the manifest"));
+  EXPECT_THAT(rule(report, "first_height").reason, HasSubstr("does not store the requested layer"));
+  EXPECT_THAT(to_text(report), HasSubstr("not checked: f = 1.000000 has no manifest"));
   EXPECT_THAT(test::error_of([&] { check_family({member(1)}, {}); }).what(), HasSubstr("at least two"));
   EXPECT_THAT(test::error_of([&] { check_family({member(1.5), member(1)}, {}); }).what(), HasSubstr("from coarse to fine"));
   const auto json = nlohmann::json::parse(to_json(report));
@@ -105,12 +105,12 @@ TEST_F(FamilyGate, MeshesAndTheirFilesGiveSameVerdict) {
               "a:write(" +
               out("a.sterna") + ") b:write(" + out("b.sterna") + ") b:write(" + out("b.su2") + ") check_family{ a, " + out("b.sterna") + " }",
           {}, 2);
-  EXPECT_THAT(printed, AllOf(HasSubstr("factor 1.5 by the refinements asked for"), HasSubstr("pass\tpass\t1.5"), HasSubstr("growth of tetrahedra")));
+  EXPECT_THAT(printed, AllOf(HasSubstr("factor 1.5 by the requested refinements"), HasSubstr("pass\tpass\t1.5"), HasSubstr("growth of tetrahedra")));
   EXPECT_THAT(printed, Not(HasSubstr("FAIL")));
   const test::ProcessResult files = sterna({"check-family", "a.sterna", "b.sterna"});
   EXPECT_EQ(files.status, k_exit_success) << files.errors;
   EXPECT_THAT(files.output,
-              AllOf(HasSubstr("family of 2 meshes: "), HasSubstr("a.sterna -> b.sterna: factor 1.5 by the refinements asked for"), Not(HasSubstr("FAIL"))));
+              AllOf(HasSubstr("family of 2 meshes: "), HasSubstr("a.sterna -> b.sterna: factor 1.5 by the requested refinements"), Not(HasSubstr("FAIL"))));
   // SU2 knows no columns; what was requested stands in the manifest beside it.
   const auto json = nlohmann::json::parse(sterna({"check-family", "a.sterna", "b.su2", "--json"}).output);
   for (const auto& entry : json["steps"][0]["rules"]) {
@@ -129,7 +129,7 @@ TEST_F(FamilyGate, UnrefinedLayerIsNoFamily) {
                              "local a = member(1) local b = volume_mesh{ surface_mesh{ m, max_edge=0.2, refinement=1.5 }, layers=12, first_height=2e-3, "
                              "max_growth=1.25, farfield=sphere{ radius=10 } } ";
   EXPECT_THAT(run(broken + "print(check_family{ a, b }.verdict)", {}, 2),
-              AllOf(HasSubstr("FAIL\n"), HasSubstr("first height asked for, m                    FAIL")));
+              AllOf(HasSubstr("FAIL\n"), HasSubstr("requested first height, m                    FAIL")));
   EXPECT_THAT(error(broken + "check_family{ a, b, strict = true }"), HasSubstr("the meshes are no family"));
   EXPECT_THAT(error("check_family{ 'a.sterna' }"), HasSubstr("at least two meshes"));
 }

@@ -134,7 +134,7 @@ class Errors(Case):
         self.assertEqual(error.status, 1)
         self.assertIn("is open along 3 edges", str(error))
         self.assertEqual(len(error.places), 3)
-        self.assertIn("edge of one facet", error.places[0].what)
+        self.assertIn("edge with one facet", error.places[0].what)
         self.assertIn("sterna repair", error.advice)
         found = self.sterna.inspect("open.stl", layers=2, first_height=1e-3)  # here it is an answer
         self.assertGreater(found["errors"], 0)

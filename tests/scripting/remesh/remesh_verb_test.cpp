@@ -25,7 +25,7 @@ TEST_F(RemeshVerb, VerbAndOptionOfReadSurfaceAgree) {
                 "print(remesh(w).triangles == read_surface{ " +
                 out("box.stl") + ", remesh = true }.triangles)"),
             "true\ttrue\ttrue\ttrue\ntrue\n");
-  EXPECT_THAT(log_, AllOf(HasSubstr("remeshed: "), HasSubstr("distance of the new surface from the given one")));
+  EXPECT_THAT(log_, AllOf(HasSubstr("remeshed: "), HasSubstr("distance of the new surface from the input surface")));
   EXPECT_EQ(
       run("local w = read_surface(" + out("box.stl") +
           ") local n = remesh{ w, max_edge = 0.2 }.triangles print(remesh{ w, max_edge = 0.2, sources = { point{ {0,0,0}, size = 0.02 } } }.triangles > n, "

@@ -92,7 +92,7 @@ TEST_F(Report, TellsWhatWasChangedOnTheSurface) {
   const nlohmann::json page = test::page_json(folder_ / "open.html");
   ASSERT_EQ(page["manifest"]["changes"].size(), 1u);
   EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("holes filled: 1 place"));
-  EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("what is left moved by at most 0 m"));
+  EXPECT_THAT(page["manifest"]["changes"][0].get<std::string>(), HasSubstr("retained facets moved by at most 0 m"));
 }
 
 TEST_F(Report, RefusesWhatItCannotShow) {
@@ -101,7 +101,7 @@ TEST_F(Report, RefusesWhatItCannotShow) {
   EXPECT_THAT(error("report{ 5, 'x.html' }"), HasSubstr("expected a mesh, a surface or the name of a file"));
   EXPECT_THAT(error("report{ 'nothing.su2', 'x.html' }"), HasSubstr("nothing.su2"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { { x = 1000 } } }"),
-              HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh reaches from"));
+              HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh extends from"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { 'leadin edge' } }"), HasSubstr("leadin edge"));
   EXPECT_THAT(error(mesh_script() + "report{ wall, 'x.html', cuts = 'tip' }"), HasSubstr("no cells to cut"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', titel = 'box' }"), HasSubstr("title"));

@@ -64,7 +64,7 @@ TEST(BadModels, UnmeshableFaceStaysAHole) {
   options.failed_faces = "hole";
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   EXPECT_GE(mesh.report.n_free_edges, 4);
-  EXPECT_THAT(mesh.report.bands.notes, testing::Contains(AllOf(HasSubstr("face 2, \"box\""), HasSubstr("stays a hole"))));
+  EXPECT_THAT(mesh.report.bands.notes, testing::Contains(AllOf(HasSubstr("face 2, \"box\""), HasSubstr("is left as a hole"))));
   double area = 0.0;
   for (const FaceMeshSummary& face : mesh.report.faces) area += face.area;
   EXPECT_NEAR(area, 5.0, 1e-12);
@@ -80,7 +80,7 @@ TEST(BadModels, OverlappingSolidsRequireUnion) {
     EXPECT_NEAR(place.position.x, 1.0, 1e-12);
     EXPECT_THAT(place.what, AllOf(HasSubstr("\"left\""), HasSubstr("\"right\"")));
   }
-  EXPECT_THAT(info.hint, AllOf(HasSubstr("union{"), HasSubstr("crossings = \"warn\""), Not(HasSubstr("mend"))));
+  EXPECT_THAT(info.hint, AllOf(HasSubstr("union{"), HasSubstr("crossings = \"warn\""), Not(HasSubstr("repair the faces"))));
   EXPECT_FALSE(info.geometry.triangles.empty());
   // The same model with a warning, and then with the advised change.
   const SurfaceMesh kept = mesh_model(model, edges_and_crossings(0.2, "warn"), {}, k_context);
@@ -283,7 +283,7 @@ TEST(BadModels, EdgesOffTheirFacesAreNamed) {
     EXPECT_NEAR(loose.distance, 1e-4, 1e-6);
     EXPECT_LT(loose.tolerance, 1e-5);
   }
-  EXPECT_THAT(to_text(mesh.report), HasSubstr("8 edges beyond their tolerance"));
+  EXPECT_THAT(to_text(mesh.report), HasSubstr("8 edges exceed their tolerance"));
 }
 
 TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
@@ -380,7 +380,7 @@ TEST(BadModels, FoldedSurfaceIsNamedWithLocation) {
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_NEAR(std::abs(info.places.front().position.y), 0.511, 0.005);
   EXPECT_THAT(info.places.front().what, HasSubstr("folds"));
-  EXPECT_THAT(info.hint, AllOf(HasSubstr("mend"), Not(HasSubstr("union{"))));
+  EXPECT_THAT(info.hint, AllOf(HasSubstr("repair the faces"), Not(HasSubstr("union{"))));
 }
 
 }  // namespace

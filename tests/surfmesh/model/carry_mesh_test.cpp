@@ -107,7 +107,7 @@ TEST(CarryMesh, IsRefusedWithLocationOfBadTriangles) {
   const StructuredMesh from = mesh_of(twisted_wing(0.0));
   const CarriedMesh result = carried(from, bent(twisted_wing(0.0), 1.0));
   EXPECT_FALSE(result.mesh);
-  EXPECT_THAT(result.objection, HasSubstr("would be"));
+  EXPECT_THAT(result.objection, HasSubstr("would "));
   EXPECT_GT(std::abs(result.place.y), 1.0);  // at the tips, where the bending is largest
   const CarriedMesh long_wing = carried(from, deformed(twisted_wing(0.0),
                                                        std::make_shared<FunctionMap>(
@@ -125,7 +125,7 @@ TEST(ModelStructure, TellsWhatDiffers) {
   EXPECT_THAT(difference_of(one, structure_of(body())), HasSubstr("the reference"));
   Model renamed = twisted_wing(0.0);
   renamed.faces.raw().front().name = "other";
-  EXPECT_THAT(difference_of(one, structure_of(renamed)), HasSubstr("is called \"W\" in the reference"));
+  EXPECT_THAT(difference_of(one, structure_of(renamed)), HasSubstr("has the name \"W\" in the reference"));
 }
 
 }  // namespace

@@ -210,12 +210,13 @@ TEST(PeriodicRims, AnyNumberOfThreadsGivesTheSame) {
 
 TEST(PeriodicRims, SidesThatAreNoImagesAreRefused) {
   const Model model = through_duct({bar()});
-  expect_error(ErrorCode::bad_argument, "there is no face \"tunnel_rigth\"", [&] { mesh_model(model, alike(0.2, "tunnel_left,tunnel_rigth"), {}, k_context); });
+  expect_error(ErrorCode::bad_argument, "the model has no face \"tunnel_rigth\"",
+               [&] { mesh_model(model, alike(0.2, "tunnel_left,tunnel_rigth"), {}, k_context); });
   expect_error(ErrorCode::bad_argument, "named twice", [&] { mesh_model(model, alike(0.2, "tunnel_left,tunnel_left"), {}, k_context); });
-  expect_error(ErrorCode::bad_argument, "no list of pairs", [&] { mesh_model(model, alike(0.2, "tunnel_left"), {}, k_context); });
+  expect_error(ErrorCode::bad_argument, "not a list of pairs", [&] { mesh_model(model, alike(0.2, "tunnel_left"), {}, k_context); });
   expect_error(ErrorCode::bad_argument, "have no image within", [&] { mesh_model(model, alike(0.2, "tunnel_left,tunnel_floor"), {}, k_context); });
   const Model slanted = through_duct({bar(0.2)});
-  expect_error(ErrorCode::bad_argument, "the worst is 0.2 m off", [&] { mesh_model(slanted, alike(0.2), {}, k_context); });
+  expect_error(ErrorCode::bad_argument, "the largest deviation is 0.2 m", [&] { mesh_model(slanted, alike(0.2), {}, k_context); });
 }
 
 TEST(PeriodicRims, PairsAreReadAndWritten) {

@@ -78,7 +78,7 @@ TEST(PlaceSizes, FunctionsMayJumpAndSamplesCount) {
   EXPECT_NEAR(mean_edge(mesh, [](const Point& p) { return p.z > 0.99 && distance(p, {5.0, 5.0, 1.0}) < 0.5; }), 0.5, 0.1);
   EXPECT_LT(mean_edge(mesh, [](const Point& p) { return distance(p, {9.0, 9.0, 1.0}) < 0.05; }), 0.035);
   asked.function = [](const Point&) { return -1.0; };
-  test::expect_error(ErrorCode::bad_argument, "the function of sizes gives -1.000000 m", [&] { (void)meshed(model, plain_edges(1.0), asked); });
+  test::expect_error(ErrorCode::bad_argument, "the size function returns -1.000000 m", [&] { (void)meshed(model, plain_edges(1.0), asked); });
 }
 
 TEST(PlaceSizes, GapsHaveTheirCells) {

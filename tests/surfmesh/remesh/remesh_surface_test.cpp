@@ -223,8 +223,8 @@ TEST(RemeshSurface, RowsThatCannotBeAreTold) {
   const RemeshResult result = remeshed(test::sphere(8), {.leading_edge_chordwise = 0.01, .trailing_edge_chordwise = 0.01});
   EXPECT_EQ(result.report.rows.n_triangles, 0);
   ASSERT_EQ(result.report.rows.notes.size(), 2u);
-  EXPECT_THAT(result.report.rows.notes[0], testing::HasSubstr("no line of the surface is one"));
-  EXPECT_THAT(result.report.rows.notes[1], testing::HasSubstr("no nose was found"));
+  EXPECT_THAT(result.report.rows.notes[0], testing::HasSubstr("no rows at trailing edges"));
+  EXPECT_THAT(result.report.rows.notes[1], testing::HasSubstr("no rows at leading edges"));
 }
 
 TEST(RemeshSurface, ThinPlateKeepsItsSides) {
@@ -343,12 +343,12 @@ TEST(RemeshSurface, UnreachableDemandEndsItEarly) {
   const RemeshResult free = remeshed(wall), met = demanding({.most_needles = 0, .least_angle = 10.0 * k_degree});
   EXPECT_EQ(free.mesh.points, met.mesh.points);
   EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
-  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 needles, 0 % of the triangles",
+  test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 sliver triangles, 0 % of the triangles",
                      [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
   // A sphere of 8 squares a side lies inside the remeshed one by a hundredth of its diameter.
-  test::expect_error(ErrorCode::geometry_failed, "from the given ones, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
+  test::expect_error(ErrorCode::geometry_failed, "from the input triangles, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
   EXPECT_EQ(free.mesh.points, demanding({.largest_distance = 0.1}).mesh.points);
-  test::expect_error(ErrorCode::geometry_failed, "of their edges from the given ones", [&] { demanding({.largest_distance_of_edge = 1e-4}); });
+  test::expect_error(ErrorCode::geometry_failed, "of their edges from the input triangles", [&] { demanding({.largest_distance_of_edge = 1e-4}); });
   // Edges that span 40 degrees of a sphere with finer triangles.
   const TriMesh fine = test::sphere(24);
   test::expect_error(ErrorCode::geometry_failed, "of the area is turned by more than 10 degrees",
@@ -358,7 +358,7 @@ TEST(RemeshSurface, UnreachableDemandEndsItEarly) {
   for (Point& p : wedge.points)
     if (p.x == 1.0) p.z = 1e-4 * p.z;
   ASSERT_GE(count_needles(wedge).n, 2);
-  test::expect_error(ErrorCode::geometry_failed, "corners of lines, which stay, force",
+  test::expect_error(ErrorCode::geometry_failed, "corners of lines, which are kept, force",
                      [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 0.0, .least_angle = 0.0}, k_context); });
 }
 

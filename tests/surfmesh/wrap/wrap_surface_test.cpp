@@ -91,7 +91,7 @@ TEST(Wrap, WhatIsInsideVanishesAndIsTold) {
   expect_stitched(result.mesh);
   EXPECT_EQ(result.report.n_components, 1);
   EXPECT_EQ(result.report.n_inside, static_cast<std::int64_t>(inner.triangles.size()));
-  EXPECT_TRUE(has_message(result, "that are inside"));
+  EXPECT_TRUE(has_message(result, "inside the wrap"));
 }
 
 TEST(Wrap, OverlappingBodiesJoinAndSeparateBodiesStay) {

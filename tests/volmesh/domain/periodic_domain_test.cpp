@@ -295,7 +295,7 @@ TEST(PeriodicDomain, TheCheckFindsSidesThatDoNotMatch) {
   EXPECT_EQ(report.count(Violation::periodic_mismatch), 2);
   EXPECT_EQ(gate_of(Violation::periodic_mismatch), "G20");
   EXPECT_TRUE(report.periodic.empty());
-  EXPECT_THAT(to_text(report), HasSubstr("no node at its image"));
+  EXPECT_THAT(to_text(report), HasSubstr("no node at the image of this node"));
 }
 
 }  // namespace

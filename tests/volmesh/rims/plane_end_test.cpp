@@ -143,8 +143,7 @@ TEST(PlaneEnd, SizesOfTheCallerHold) {
   // 1.4 m^2 of triangles with sides of 0.05: one point per 0.00217 m^2, fewer near the coarse border.
   EXPECT_GT(n_in, 350u);
   region.size = [](const Point&) { return -1.0; };
-  test::expect_error(ErrorCode::bad_argument, "the wanted edge length is -1.000000 m; it has to be positive",
-                     [&] { (void)triangulate_end(region, {}, k_context); });
+  test::expect_error(ErrorCode::bad_argument, "the target edge length is -1.000000 m, must be positive", [&] { (void)triangulate_end(region, {}, k_context); });
 }
 
 TEST(PlaneEnd, ObliquePlaneFarFromTheOrigin) {

@@ -182,7 +182,7 @@ TEST_F(Ladder, MissingEngineIsNamed) {
   const ErrorInfo error = error_info_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = only_hxt}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_missing);
   EXPECT_THAT(error.attempted, HasSubstr("sterna-tet-tetgen"));
-  EXPECT_THAT(error.problem, HasSubstr("not built in"));
+  EXPECT_THAT(error.problem, HasSubstr("was not built"));
   const TetraResult result = fill(domain_, {.helper_folder = only_hxt});  // automatic: any available engine
   EXPECT_EQ(result.engine, "hxt");
   EXPECT_TRUE(result.is_reproducible);

@@ -115,7 +115,7 @@ TEST_F(OwnEngine, FailedRecoveryIsErrorOfAllEngines) {
   });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("signal 11"));
-  EXPECT_THAT(warnings_, testing::Contains(HasSubstr("could not be made a part of the mesh, the first at")));
+  EXPECT_THAT(warnings_, testing::Contains(HasSubstr("could not be recovered in the mesh, the first at")));
 }
 
 TEST_F(OwnEngine, EndsAtItsLimits) {
