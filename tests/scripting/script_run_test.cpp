@@ -178,7 +178,7 @@ TEST(ScriptRun, OverridesOfTheCommandLineWin) {
 
 TEST(ScriptRun, HelpNamesEveryOptionWithItsRange) {
   const std::string text = run_text("help(volume_mesh) help() help 'mesh:check' help(read_surface) help(sphere)");
-  for (const char* part : {"layers = automatic (by max_growth and the edges of the walls)  (0 .. 1000, or automatic)", "first_height = required [m]",
+  for (const char* part : {"layers = automatic (from max_growth and the edge lengths of the walls)  (0 .. 1000, or automatic)", "first_height = required [m]",
                            "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(error_of("help(3)").code(), ErrorCode::bad_argument);

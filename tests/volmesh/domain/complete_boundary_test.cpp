@@ -285,7 +285,7 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "cylinder", .farfield_radius = 0.5}, {}}).problem, HasSubstr("inside the flat triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_mim=inflow"}, {}}).problem, HasSubstr("did you mean \"x_min\""));
-  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is no kind"));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is not a patch kind"));
 }
 
 TEST(CompleteBoundary, OfHalvesOfRealAircraft) {
