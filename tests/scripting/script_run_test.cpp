@@ -151,7 +151,7 @@ TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
   EXPECT_THAT(
       message("volume_mesh{ half(surface_mesh{ wing{ trailing_edge = 0.01, tip = 'flat', sections = { {chord = 1, airfoil = 'naca0012'}, {z = 2} } }:model(), "
               "max_edge = 0.2, min_edge = 0.03, curvature_angle = 40*deg }), layers = 3, first_height = 1e-3, wakes = 'auto' }"),
-      testing::HasSubstr("all sheets would be in planes"));
+      testing::HasSubstr("all sheets would lie in planes"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = 'always' }"),
               testing::HasSubstr("wakes: expected \"auto\" or a list"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = { wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0}, length = 10, "

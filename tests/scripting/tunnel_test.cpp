@@ -136,7 +136,7 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   EXPECT_THAT(error(mesh + "{ 'tunnel_left', 'tunnel_rigth' } }"), HasSubstr("did you mean \"tunnel_right\"?"));
   EXPECT_THAT(error(mesh + "{ 'tunnel_left' } }"), HasSubstr("periodic, entry 1: expected the names of two patches"));
   EXPECT_THAT(error(mesh + "'tunnel_left' }"), HasSubstr("periodic: expected the names of two patches"));
-  EXPECT_THAT(error(mesh + "{ { 'tunnel_left', 'tunnel_floor' } } }"), HasSubstr("do not point against each other"));
+  EXPECT_THAT(error(mesh + "{ { 'tunnel_left', 'tunnel_floor' } } }"), HasSubstr("do not point in opposite directions"));
 }
 
 TEST_F(TunnelScripts, AWingThroughPeriodicSides) {
