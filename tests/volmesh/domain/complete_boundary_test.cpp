@@ -269,7 +269,7 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   holed.triangle_patch.raw().pop_back();
   const ErrorInfo open = completion_error(holed, {});
   EXPECT_EQ(open.code, ErrorCode::open_surface);
-  EXPECT_THAT(open.problem, HasSubstr("1 rims with 3 edges"));
+  EXPECT_THAT(open.problem, HasSubstr("1 open boundaries with 3 edges"));
   EXPECT_FALSE(open.places.empty());
   const FarfieldOptions box{.farfield_shape = "box",
                             .farfield_from_x = -10,
