@@ -27,7 +27,7 @@ class ImageReader {
   ImageReader(std::span<const std::byte> bytes, const std::string& source) : bytes_(bytes), source_(source) {
     if (bytes_.size() < sizeof header_) fail("the image has " + std::to_string(bytes_.size()) + " bytes");
     std::memcpy(&header_, bytes_.data(), sizeof header_);
-    if (header_.magic != wire::k_image_magic) fail("the image is of another version: build the target sterna-read-container again");
+    if (header_.magic != wire::k_image_magic) fail("the image has another version: build the target sterna-read-container again");
     if (header_.n_nodes > (bytes_.size() - sizeof header_) / sizeof(NodeRecord))
       fail("the image has room for fewer nodes than " + std::to_string(header_.n_nodes));
     const std::uint64_t text_begin = sizeof header_ + sizeof(NodeRecord) * header_.n_nodes;

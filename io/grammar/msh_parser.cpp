@@ -138,7 +138,7 @@ class MshParser {
     begin_bytes();
     const std::int32_t one = bytes_->read<std::int32_t>("the number 1 that marks the byte order");
     constexpr std::int32_t k_swapped_one = 0x01000000;
-    if (one != 1 && one != k_swapped_one) bytes_->fail("found " + std::to_string(one) + " before this byte, expected the number 1 that tells the byte order");
+    if (one != 1 && one != k_swapped_one) bytes_->fail("found " + std::to_string(one) + " before this byte, expected the number 1 that marks the byte order");
     if (one == k_swapped_one) order_ = std::endian::big;
     end_bytes();
   }

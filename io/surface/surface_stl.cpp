@@ -32,7 +32,7 @@ bool looks_like_text(const FileBuffer& buffer) {
 
 SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t n_facets, const RunContext& context) {
   ByteReader reader(buffer, std::endian::little, k_first_facet);
-  reader.require(n_facets, k_facet_bytes, "facets of the binary STL, as many as its header says");
+  reader.require(n_facets, k_facet_bytes, "facets of the binary STL, the number given in its header");
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(3 * n_facets);
   builder.reserve_polygons(n_facets);

@@ -624,7 +624,7 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
   if (raise < k_least_raise * largest)
     throw_bad_argument("opening ridges",
                        "the first height of " + number_text(first_height, 3) + " m is too small for coordinates of " + number_text(largest, 3) + " m", {},
-                       "move the surface to the origin, or open_ridges = \"never\"");
+                       "move the surface to the origin, or set open_ridges = \"never\"");
   std::vector<VertexId> shut(closed.begin(), closed.end());
   for (;;) {
     Domain opened = domain;

@@ -122,7 +122,7 @@ class CellSurvey {
     if (const int n = enough_layers(v, 1.0 / finding.limit); n > 0)
       finding.advice = "layers = " + std::to_string(n) + " is enough with max_growth = " + number_text(scale_.max_growth(v), k_text_digits);
     else
-      finding.advice = "shorter edges on the wall (max_edge = " + number_text(cells_at(base_, scale_, v).last / k_regular_height, k_advice_digits) +
+      finding.advice = "use shorter edges on the wall (max_edge = " + number_text(cells_at(base_, scale_, v).last / k_regular_height, k_advice_digits) +
                        "), or a taller layer (total_height, max_thickness)";
     const double rise = std::log(k_regular_height * base_.mean_edge[v] / scale_.h0(v)), growth = std::exp(rise / std::max(scale_.n(v) - 1, 1)) + k_growth_step;
     if (is_automatic(scale_.total_height(v)) && growth < k_steep_growth && layer_height(scale_.h0(v), growth, scale_.n(v)) < scale_.max_thickness(v))

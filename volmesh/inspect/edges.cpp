@@ -102,7 +102,7 @@ void add_folds(const Survey& survey, const Topology& topology, const Column<Tria
   finding.text = count_of(static_cast<std::int64_t>(folded.size()), "pair of neighbours is", "pairs of neighbours are") +
                  " folded onto each other, with less than " + number_text(finding.limit, k_text_digits) + " deg between them (" + std::to_string(n_concave) +
                  " of them with fluid in between): no layer fits there, and tetrahedra engines fail";
-  finding.advice = n_concave > 0 ? "open the slit in the CAD model, or fill it"
+  finding.advice = n_concave > 0 ? "open the gap in the CAD model, or fill the gap"
                                  : "make the edge blunt in the CAD model: a trailing edge should be at least a few first heights thick";
   add_edges(survey, topology, std::move(finding), folded, -1.0 / k_degree);
 }

@@ -45,7 +45,7 @@ void require_no_others(const MeshCase& options) {
   if (options.wakes.empty()) return;
   const auto refuse = [](std::string what, std::string hint) { throw_bad_argument("making wake sheets", std::move(what), {}, std::move(hint)); };
   if (opens_ridges(options))
-    refuse("wake sheets cannot be combined with several normals at ridges (open_ridges)", "leave wakes out, or open_ridges = \"never\"");
+    refuse("wake sheets cannot be combined with several normals at ridges (open_ridges)", "leave wakes out, or set open_ridges = \"never\"");
   if (!options.discs.empty()) refuse("wake sheets cannot be combined with actuator discs", "leave the wakes or the discs out");
 }
 

@@ -129,7 +129,7 @@ std::string megabytes(double bytes) { return with_unit(std::round(bytes / 1e6), 
 
 std::string attempt(EngineKind kind) { return "filling the volume with tetrahedra (" + std::string(display_name(kind)) + ")"; }
 
-constexpr const char* k_hint = "the boundary does not cross itself; look for features many orders of magnitude smaller than the farfield";
+constexpr const char* k_hint = "the boundary has no self-intersections; search for features many orders of magnitude smaller than the farfield";
 
 EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string problem, std::string hint = k_hint) {
   return {failure_kind, {.code = ErrorCode::tetra_engine_failed, .attempted = attempt(kind), .problem = std::move(problem), .hint = std::move(hint)}};
@@ -168,7 +168,7 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
   }
   return failure(FailureKind::deterministic, kind,
                  "the helper returned no result, exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit),
-                 "the helper may be of another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
+                 "the helper may have another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
 }
 
 /// Returns a failure for a mesh with more points than the user allows.

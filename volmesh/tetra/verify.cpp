@@ -26,8 +26,8 @@ constexpr std::size_t k_places_kept = 1000;
 
 enum class Fault : std::uint8_t { bad_index, not_positive, missing_boundary, free_face, crowded_face, same_sense };
 constexpr std::array<const char*, 6> k_fault_text = {
-    "tetrahedra with a node out of range or repeated", "tetrahedra without positive volume", "boundary triangles that are no face of a tetrahedron",
-    "outer faces that are no boundary triangle",       "faces of more than two cells",       "faces with both cells on the same side"};
+    "tetrahedra with a node out of range or repeated", "tetrahedra without positive volume", "boundary triangles that are not a face of a tetrahedron",
+    "outer faces that are not a boundary triangle",    "faces of more than two cells",       "faces with both cells on the same side"};
 
 struct Defect {
   Fault fault;

@@ -60,7 +60,8 @@ TEST(Stages, PartsOfDifferentRunsAreRefused) {
   expect_refused("outer triangles of the layer that are not on", [&] { finish_mesh(wall, wrong, options, k_context); });
   wrong = filled;
   wrong.tets.tetrahedra.pop_back();
-  test::expect_error(ErrorCode::tetra_result_invalid, "outer faces that are no boundary triangle", [&] { (void)finish_mesh(wall, wrong, options, k_context); });
+  test::expect_error(ErrorCode::tetra_result_invalid, "outer faces that are not a boundary triangle",
+                     [&] { (void)finish_mesh(wall, wrong, options, k_context); });
 }
 
 }  // namespace
