@@ -37,12 +37,11 @@ FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, 
     if (wrong.size() < k_max_places) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_height_digits)});
   }
   if (!wrong.empty())
-    throw Error(
-        {.code = ErrorCode::bad_argument,
-         .attempted = "setting first heights by location",
-         .problem = "the function first_height returns values that are not heights of " + in_metres(k_least_first_height, k_height_digits) + " at least",
-         .places = std::move(wrong),
-         .hint = "the function is called at every vertex of the surface, also on patches without layers"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "setting first heights by location",
+                 .problem = "the function first_height returns values that are not heights of " + in_metres(k_least_first_height, k_height_digits) + " or more",
+                 .places = std::move(wrong),
+                 .hint = "the function is called at every vertex of the surface, also on patches without layers"});
   const auto [least, greatest] = std::minmax_element(heights_.begin(), heights_.end());
   least_ = *least;
   greatest_ = *greatest;

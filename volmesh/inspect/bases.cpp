@@ -115,7 +115,7 @@ class BaseSurvey {
     const Base worst_base = of(listed.front().id);
     finding.value = listed.front().badness;
     finding.text = "the layer on a blunt base is up to " + number_text(finding.value, k_text_digits) + " times as high as the base is thick, along " +
-                   count_of(finding.count, "edge", "edges") + ": " + in_metres(worst_base.thickness, k_text_digits) + " under " +
+                   count_of(finding.count, "edge", "edges") + ": " + in_metres(worst_base.thickness, k_text_digits) + " thick under a layer of " +
                    in_metres(worst_base.height, k_text_digits) + "; prism sides behind the base are too skewed for cell-centred solvers";
     finding.advice = "in the CAD model, make the base at least " + in_metres(k_enough * worst_base.height, k_advice_digits) +
                      " thick, or make the edge sharp; a lower layer changes little";
