@@ -82,37 +82,37 @@ local pre = inspect{ wall, layers = 30, first_height = 1e-6 * wall.length,
   top_ratio = 3,                    -- last layer over the tetrahedra above it
   wanted_y_plus = 1,                -- with flow = flow{ ... }
   base_ratio = 20,
-  least_length = 1e-3,              -- of the body, else the unit is doubted
+  least_length = 1e-3,              -- shorter bodies are reported as a probable unit mistake
   largest_length = 1000,
-  max_places = 5,                   -- listed of each finding
+  max_places = 5,                   -- locations listed for each finding
 }
 print(pre.ok, pre.coverage)
 
 local mesh = volume_mesh{ wall,
-  -- What the layers are asked to be; options can stand here or in the table of their stage, below.
-  layers = "automatic",               -- so many that the last cells are as tall as half a regular tetrahedron on nine tenths of the area
-  first_height = 1e-6 * wall.length,  -- or of flow conditions: y_plus{ ... }, below
-  refinement = 1.0,                 -- of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
-  family_wake = "automatic",        -- wake{ wall } where no source is given: on where refinement is given; on, off
+  -- Layer options; options can be given here or in the table of their stage, below.
+  layers = "automatic",               -- last cells of at least half the height of a regular tetrahedron on nine tenths of the area
+  first_height = 1e-6 * wall.length,  -- or from flow conditions: y_plus{ ... }, below
+  refinement = 1.0,                 -- member of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
+  family_wake = "automatic",        -- adds wake{ wall } if no source is given; automatic: if refinement is given; on, off
 
-  needles = {                          -- of the wall: see docs/needles.md
+  needles = {                          -- sliver triangles of the wall: see docs/needles.md
     split_needles = 5*deg,          -- triangles with a smaller angle are flipped and split; 0: never
-    needle_budget = 0.0,            -- triangles that splitting adds at most, over those of the walls; 0: flips only
-    flip_angle = 1*deg,             -- edges at which the wall turns by less may be flipped for it
+    needle_budget = 0.0,            -- largest number of triangles that splitting adds, relative to the walls; 0: flips only
+    flip_angle = 1*deg,             -- edges may be flipped if the wall turns by less than this angle
   },
   ridges = {                          -- several normals along sharp convex edges: see docs/ridges.md
     open_ridges = "never",          -- or always
-    open_angle = 100*deg,           -- edges at which the wall turns by more
-    fan_angle = 30*deg,             -- between two normals of an edge, at most
+    open_angle = 100*deg,           -- edges at which the wall turns by more than this angle
+    fan_angle = 30*deg,             -- largest angle between two normals of an edge
   },
   envelope = {
     max_growth = 1.25,
-    growth = "uniform",             -- flat layers grow by max_growth on all lines; local: each line by one ratio of its own
-    total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
-    solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
-    boundary_layer = "automatic",   -- metres that the layers have to cover (gate G12); automatic: total_height, or of the flow that first_height is of
+    growth = "uniform",             -- flat cells grow by max_growth on all growth lines; local: each growth line has its own constant ratio
+    total_height = "automatic",     -- metres; give it with layers or with max_growth: the other option follows
+    solve_for = "none",             -- layers, max_growth: the option that follows from total_height; by default the one that is not given
+    boundary_layer = "automatic",   -- metres that the layers must cover (gate G12); automatic: total_height, or from the flow of first_height
     max_thickness = "automatic",
-    max_relative_height = "automatic",  -- total height over the length of the wall's edges there; automatic: no limit
+    max_relative_height = "automatic",  -- largest ratio of total height to local edge length of the wall; automatic: no limit
     feature_angle = 35*deg,
     height_gradient = 0.35,
     height_sweeps = 20,
@@ -120,55 +120,55 @@ local mesh = volume_mesh{ wall,
     envelope_sweeps = 5,
     untangle_share = 0.7,
     max_retract_sweeps = 40,
-    height_floor = 0.938,         -- share of the target height to which smoothing may lower
-    optimiser = "descent",        -- none, descent, lbfgs (ours), mma, ccsaq (NLopt)
+    height_floor = 0.938,         -- lowest height after smoothing, as a share of the target height
+    optimiser = "descent",        -- none, descent, lbfgs (built in), mma, ccsaq (NLopt)
     optimiser_evaluations = 30,
-    height_weight = 1.0,          -- of full height, against lines normal to the wall
-    top_weight = 0.4,             -- of lines normal to the envelope
-    membrane_weight = 1.0,        -- even heights against lines normal to the wall
-    barrier_weight = 0.02,        -- around invalid elements
+    height_weight = 1.0,          -- weight of full height relative to wall-normal growth lines
+    top_weight = 0.4,             -- weight of envelope-normal growth lines
+    membrane_weight = 1.0,        -- weight of even heights
+    barrier_weight = 0.02,        -- weight of the barrier that keeps elements valid
   },
   prisms = {
     wall_perpendicularity = 1.0,
     truncate = "never",
   },
-  patches = {                         -- what patches with such names ask for instead; of two patterns that match the one with more letters counts
+  patches = {                         -- other values for patches with such names; of two matching patterns the one with more letters counts
     ["*"] = {
       kind = "as_read",               -- wall, slip, symmetry, inflow, outflow, farfield, interface; only walls carry layers
-      layers = -1,                    -- walls that are connected get the largest number asked for; 0: none; -1: as above
+      layers = -1,                    -- connected walls get the largest requested number; 0: none; -1: as above
       first_height = "automatic",     -- here and below: as above
       max_growth = "automatic",
-      total_height = "automatic",     -- max_growth follows, or layers where max_growth is given
+      total_height = "automatic",     -- max_growth follows, or layers if max_growth is given
       max_thickness = "automatic",
-      blend = "automatic",            -- metres from the border with walls that ask for something else; automatic: by their layers and edges
-      open_ridges = "as_all",         -- as ridges says; always, never: of edges between such patches
-      truncate = "as_all",            -- as prisms says; never, auto, always
+      blend = "automatic",            -- blending distance (metres) from walls with other layer settings; automatic: from layers and edges
+      open_ridges = "as_all",         -- as_all: value of ridges; always, never: edges between such patches
+      truncate = "as_all",            -- as_all: value of prisms; never, auto, always
     },
   },
   farfield = {                         -- or sphere{ radius = 100 }, box{ {-10, -5, -5}, {20, 5, 5}, edge = 2 }, cylinder{...}, a surface, a file, "none"
     shape = "sphere",               -- automatic, sphere, box, cylinder, surface, none
     radius = 50 * wall.length,      -- sphere, cylinder
     edge = 10 * wall.length,
-    center_x = "automatic",         -- sphere: of the wall's box, in the plane of a half model
+    center_x = "automatic",         -- sphere: centre of the wall's bounding box, in the symmetry plane of a half model
     center_y = "automatic",
     center_z = "automatic",
-    from_x = "automatic",           -- box: corners; cylinder: centres of its ends
+    from_x = "automatic",           -- box: corners; cylinder: centres of the ends
     from_y = "automatic",
     from_z = "automatic",
     to_x = "automatic",
     to_y = "automatic",
     to_z = "automatic",
-    floor = "",                     -- patches of an open sheet (terrain): the box gets sides from its rim upwards, and a lid
+    floor = "",                     -- patches of an open floor surface (terrain): the box gets sides upwards from its border, and a lid
     sides = "",                     -- "x_min=inflow x_max=outflow,name:exit,edge:0.5 symmetry=slip"
-    surface = "",                   -- file of the closed surface, for the shape "surface"
+    surface = "",                   -- file of the closed farfield surface, for the shape "surface"
   },
-  ends = {                             -- patches on which layers end (symmetry planes, slip walls), triangulated anew around them
-    ends_growth = 1.3,                 -- ratio of neighbouring edges away from the layer
-    ends_min_angle = 25*deg,           -- goal for their angles
-    ends_max_triangles = 2e7,          -- of one patch; beyond it is an error
+  ends = {                             -- adjacent patches (where layers end: symmetry planes, slip walls), re-meshed around the layers
+    ends_growth = 1.3,                 -- edge length ratio of neighbouring triangles, with distance from the layer
+    ends_min_angle = 25*deg,           -- target of their smallest angle
+    ends_max_triangles = 2e7,          -- of one patch; more triangles are an error
   },
   size = {
-    size_growth = 1.3,                 -- of neighbouring tetrahedra
+    size_growth = 1.3,                 -- largest ratio of the sizes of neighbouring tetrahedra
     size_max = "automatic",           -- longest edge; automatic: no limit
   },
   sources = {},                        -- smaller tetrahedra: box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }, point, line, sphere, cylinder, wake, size_samples
@@ -177,26 +177,26 @@ local mesh = volume_mesh{ wall,
   tetrahedra = {
     engine = "automatic",           -- or "sterna", "hxt", "tetgen"
     radius_edge = 1.2,              -- TetGen
-    two_pass = false,               -- TetGen: a coarse mesh gives the sizes of the mesh itself
+    two_pass = false,               -- TetGen: a coarse mesh gives the sizes of the final mesh
     hxt_improve_below = 0,          -- HXT's own improvement; 0: none
     max_new_points = "automatic",   -- more are a failure; automatic: no limit
-    boundary_splits = "ladder",     -- never, ladder, always: may TetGen split triangles of envelope and farfield; ladder: after other failures
-    try_other_engine = true,        -- after a failure that would repeat itself
-    repair_boundary = true,         -- when nothing of that helps: a lower, smoother layer around slivers, folds and gaps of its top, and all again
+    boundary_splits = "ladder",     -- never, ladder, always: whether TetGen may split triangles of envelope and farfield; ladder: after other failures
+    try_other_engine = true,        -- after a reproducible failure
+    repair_boundary = true,         -- after all failures: lowers and smooths the layer around slivers, folds and gaps of its top, then tries again
     fall_back_on_limits = false,    -- also after a time or memory limit; the manifest then says "not reproducible"
-    memory_limit = 20e9,            -- bytes, of the engine
+    memory_limit = 20e9,            -- bytes; limit of the engine
     time_limit = "automatic",       -- seconds; automatic: in proportion to boundary and sizes
-    helper_folder = "",             -- where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside sterna
+    helper_folder = "",             -- folder of sterna-tet-tetgen and sterna-tet-hxt; empty: the folder of sterna
   },
-  improve = {                         -- of tetrahedra with dihedral angles beyond these
+  improve = {                         -- improves tetrahedra with dihedral angles beyond these
     improve_min_angle = 12*deg,
     improve_max_angle = 160*deg,
     improve_rounds = 30,            -- 0: none
-    slide_share = 0.2,              -- of the layer's height, that lines may end lower where prisms and tetrahedra do not fit; 0: never
+    slide_share = 0.2,              -- share of the layer height by which growth lines may become lower where prisms and tetrahedra do not match; 0: never
   },
-  limits = {                          -- what a mesh may need of the machine: more is an error before the work
-    max_memory = 20e9,              -- bytes; automatic: what is free
-    force = false,                  -- goes on all the same
+  limits = {                          -- if the mesh is expected to need more, the run ends with an error before meshing
+    max_memory = 20e9,              -- bytes; automatic: free memory
+    force = false,                  -- continue anyway
   },
 }
 

@@ -57,16 +57,16 @@ void require_room(const Forecast& forecast, const LimitOptions& limits, const Ru
   const double allowed = is_given ? limits.max_memory : available_memory() + resident_memory();
   const double seconds = forecast.seconds(context.threads());
   if (forecast.bytes() > allowed) {
-    const std::string problem = figures(forecast) + " are to be expected; " + (is_given ? "limits.max_memory is " : "the machine has ") + gigabytes(allowed) +
-                                (is_given ? "" : " for it");
+    const std::string problem = figures(forecast) + " are expected; " + (is_given ? "limits.max_memory is " : "the machine has ") + gigabytes(allowed) +
+                                (is_given ? "" : " of free memory");
     const std::string hint =
-        "fewer or larger triangles, fewer layers, larger size sources or a larger size_growth; or more memory. force = true (--force) goes on all the same";
+        "use fewer or larger triangles, fewer layers, larger size sources or a larger size_growth; or more memory. force = true (--force) continues anyway";
     if (!limits.force) throw Error({.code = ErrorCode::overflow, .attempted = "volume_mesh", .problem = problem, .hint = hint});
     context.warn(problem);
   } else if (seconds > k_long) {
-    context.warn(figures(forecast) + " are to be expected, in about " + number_text(std::round(seconds / 60.0), 2) + " min");
+    context.warn(figures(forecast) + " are expected, in about " + number_text(std::round(seconds / 60.0), 2) + " min");
   } else {
-    context.debug(figures(forecast) + " are to be expected");
+    context.debug(figures(forecast) + " are expected");
   }
 }
 

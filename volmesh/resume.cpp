@@ -26,8 +26,8 @@ void require_same(std::size_t found, std::size_t expected, const std::string& wh
 void require_layers_on(const Domain& domain, const HybridMesh& layers) {
   const TriMesh& wall = domain.wall;
   const bool has_rims = domain.has_rims();
-  require_same(layers.layers.n_lines(), wall.n_vertices() + domain.slit_vertices.size(), "lines of the layer");
-  require_same(layers.layers.n_columns(), wall.n_triangles(), "columns of the layer");
+  require_same(layers.layers.n_lines(), wall.n_vertices() + domain.slit_vertices.size(), "growth lines of the layer");
+  require_same(layers.layers.n_columns(), wall.n_triangles(), "prism columns of the layer");
   std::size_t n_wrong = 0, n_layer_nodes = 0;
   for (const TriangleId t : wall.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != line_under(domain, t, k) ? 1 : 0;
@@ -38,10 +38,10 @@ void require_layers_on(const Domain& domain, const HybridMesh& layers) {
   }
   for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
     for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_rims && node.index() < n_layer_nodes ? 1 : 0;
-  require_same(n_wrong, 0, "lines, columns and outer triangles of the layer that are not where wall and outer boundary are");
+  require_same(n_wrong, 0, "growth lines, columns and outer triangles of the layer that are not on the wall and the outer boundary");
   require_same(
       layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_rims ? 0 : layers.boundary_quads.size()), 0,
-      "cells and quadrilaterals beside columns");
+      "cells and quadrilaterals outside the prism columns");
 }
 
 /// Restores the layer data that make_tetrahedra() had when it ended.

@@ -72,7 +72,7 @@ TetraBoundary improved_boundary(const FillBoundary& boundary) {
 }
 
 std::string described(const HardMisses& misses) {
-  return std::to_string(misses.n()) + " beyond the hard limits, dihedral angles " + number_text(k_degrees * misses.smallest, 3) + " to " +
+  return std::to_string(misses.n()) + " items beyond the hard limits, dihedral angles " + number_text(k_degrees * misses.smallest, 3) + " to " +
          number_text(k_degrees * misses.largest, 4) + " deg" + (misses.n_growth > 0 ? ", volume ratio " + number_text(misses.growth, 3) : "");
 }
 
@@ -131,11 +131,11 @@ std::string choose_engine(const FillBoundary& boundary, const SecondEngine& seco
   const HardMisses first = hard_misses(domain, tets, options, context);
   if (first.n() == 0) return {};
   const std::string other = tets.engine == "sterna" ? "hxt" : "sterna";
-  context.info("tetrahedra by " + tets.engine + ": " + described(first) + "; trying " + other + " as well");
+  context.info("tetrahedra by " + tets.engine + ": " + described(first) + "; trying " + other + " too");
   std::optional<TetraResult> filled = fill_again(boundary, second, other, tets.is_reproducible, context);
   std::string choice = tets.engine + ": " + described(first);
   if (!filled) {
-    choice += "; " + other + ": no answer; kept " + tets.engine;
+    choice += "; " + other + ": no result; kept " + tets.engine;
   } else {
     ImproveReport of_other = improve_tetrahedra(domain, *filled, options, context);
     const HardMisses now = hard_misses(domain, *filled, options, context);

@@ -63,11 +63,11 @@ void tell_needles(const NeedleReport& needles, const NeedleOptions& options, con
   if (needles.has_changed()) context.debug(describe(needles));
   if (needles.n_left == 0) return;
   std::string hint;
-  if (options.needle_budget == 0.0) hint = "; needle_budget = 1 splits those that can become better";
-  if (needles.is_over_budget) hint = "; a larger needle_budget splits more of them";
+  if (options.needle_budget == 0.0) hint = "; needle_budget = 1 splits the slivers that can be improved";
+  if (needles.is_over_budget) hint = "; a larger needle_budget splits more slivers";
   context.warn(std::to_string(needles.n_left) + " triangles of the wall have an angle below " +
-               number_text(options.split_needles * 180.0 / std::numbers::pi, 3) + " degrees (needles" + (needles.has_changed() ? " that are left" : "") +
-               "); the first is at " + format_point(needles.first_left) + hint);
+               number_text(options.split_needles * 180.0 / std::numbers::pi, 3) + " degrees (slivers" + (needles.has_changed() ? " that are left" : "") +
+               "); the first one is at " + format_point(needles.first_left) + hint);
 }
 
 /// Returns the boundary for engines. \p is_clear: already verified; false if patches were re-meshed.
@@ -143,7 +143,8 @@ bool repair_for_engines(MeshingSite& site, Envelope& envelope, const LaidLayer& 
   const bool has_sheets = !site.options.discs.empty();
   const std::size_t n_changed = repair_envelope(site.base, layer.boundary, has_sheets, error.info().places, site.collider, envelope, context).size();
   if (n_changed == 0) return false;
-  context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) + " vertices around slivers, folds and gaps of its top");
+  context.warn("trying again with the layer lowered and smoothed at " + std::to_string(n_changed) +
+               " vertices around slivers, folds and gaps of the layer top");
   return true;
 }
 
@@ -227,7 +228,7 @@ void require_valid(const CheckReport& report) {
   });
   ErrorInfo info{.code = ErrorCode::mesh_invalid,
                  .attempted = "checking the finished mesh",
-                 .hint = is_rounding_alone ? "these cells are too flat for the double precision of solvers: remesh the wall there without sliver triangles, or "
+                 .hint = is_rounding_alone ? "these cells are too flat for solvers in double precision: remesh the wall there without sliver triangles, or "
                                              "move the model towards the origin if it is far from it"
                                            : "report this surface"};
   for (const auto& [violation, count] : report.counts) {
@@ -276,7 +277,7 @@ FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Make
                    (error.info().places.empty() ? "" : ", the first at " + format_point(error.info().places.front().position)));
       closed.feet.insert(closed.feet.end(), more.begin(), more.end());
       if (++closed.n_rounds == k_fan_rounds)
-        context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some fans still had no valid cells");
+        context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some multi-normal fans still had invalid cells");
     }
   }
 }

@@ -21,7 +21,7 @@ inline constexpr int k_helper_late_ready_fd = 6;  ///< pipe: receives the length
 /// Description of a helper's task for error messages.
 struct HelperTask {
   std::string helper;                       ///< "the tetrahedra engine"
-  std::string attempted;                    ///< "handing the boundary to the tetrahedra engine"
+  std::string attempted;                    ///< "passing the boundary to the tetrahedra engine"
   std::string else_try;                     ///< appended to the hint to build it: ", or set ..."; may be empty
   ErrorCode missing = ErrorCode::internal;  ///< code of the error if the helper is missing or cannot be started
   ErrorCode failed = ErrorCode::internal;   ///< code of the error if the system refuses memory or a pipe

@@ -65,7 +65,7 @@ struct FamilyRule {
 struct FamilyStep {
   std::string coarse, fine;                             ///< names of the two members
   double factor = 0.0;                                  ///< refinement per direction: the requested factor, else from wall edges
-  std::string factor_from;                              ///< "the option factor", "the refinements asked for", "the mean wall edges", "the nodes"
+  std::string factor_from;                              ///< "the option factor", "the requested refinements", "the mean wall edges", "the nodes"
   double factor_by_nodes = 0.0, factor_by_edges = 0.0;  ///< 0: unknown
   std::vector<FamilyRule> rules;
 };

@@ -58,7 +58,7 @@ CgnsNode CgnsTree::node_of(const ContainerNode& group) const {
   for (const ContainerNode& child : group.children) {
     if (child.name.starts_with(' ') || child.role == wire::Role::left_out) continue;  // data and marks of the container
     if (child.role == wire::Role::link) throw_unsupported(source(), child.path + " is a link to another node or file", k_link_hint);
-    if (child.role == wire::Role::dataset) throw_malformed(source(), child.path, "found a dataset that is no node: this HDF5 file is not CGNS");
+    if (child.role == wire::Role::dataset) throw_malformed(source(), child.path, "found a dataset that is not a node: this HDF5 file is not CGNS");
     node.children.push_back(node_of(child));
   }
   return node;

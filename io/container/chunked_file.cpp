@@ -158,13 +158,13 @@ ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
   if (version == 0 || version > k_chunked_version)
     throw_unsupported(buffer.source,
                       "the file has version " + std::to_string(version) + " of the container, this program reads up to " + std::to_string(k_chunked_version),
-                      "read it with a later sterna");
+                      "read the file with a newer version of sterna");
   if (head.take<std::uint32_t>() != k_byte_order_mark) head.fail("found another byte order, expected little endian");
   const auto place = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(),
              file_bytes = head.take<std::uint64_t>();
   const auto head_hash = head.take<std::uint64_t>();
   if (!is_intact(text.substr(0, k_hashed_head_bytes), head_hash))
-    throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash is another", "copy or write the file again");
+    throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash does not match", "copy or write the file again");
   if (file_bytes != text.size())
     throw_malformed(buffer.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes),
                     "the file may have been cut short: copy or write it again");
@@ -172,7 +172,7 @@ ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
     throw_malformed(buffer.source, "byte 24",
                     "found the directory at byte " + std::to_string(place) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
   if (!is_intact(text.substr(place), hash))
-    throw_malformed(buffer.source, "byte " + std::to_string(place), "the directory is damaged: its hash is another", "copy or write the file again");
+    throw_malformed(buffer.source, "byte " + std::to_string(place), "the directory is damaged: its hash does not match", "copy or write the file again");
   read_directory(place, text.size());
 }
 
@@ -199,7 +199,7 @@ void ChunkedReader::read_directory(std::uint64_t begin, std::uint64_t end) {
         array.values_per_chunk > k_max_chunk_bytes / size ||
         n_chunks != array.n_values / array.values_per_chunk + (array.n_values % array.values_per_chunk != 0 ? 1 : 0))
       bytes.fail("array " + quoted_excerpt(name) + " has " + std::to_string(array.n_values) + " values of " + std::to_string(array.n_components) +
-                 " components in " + std::to_string(n_chunks) + " chunks of " + std::to_string(array.values_per_chunk) + ", which cannot be");
+                 " components in " + std::to_string(n_chunks) + " chunks of " + std::to_string(array.values_per_chunk) + ", which is impossible");
     bytes.require(n_chunks, 25, "the chunks of an array");
     array.chunks.resize(n_chunks);
     for (std::uint64_t c = 0; c < n_chunks; ++c) {
@@ -213,7 +213,7 @@ void ChunkedReader::read_directory(std::uint64_t begin, std::uint64_t end) {
       const bool can_unpack =
           chunk.codec == k_plain ? chunk.packed_bytes == n_bytes : chunk.codec == k_lz4_planes && n_bytes <= k_lz4_expansion * chunk.packed_bytes;
       if (!is_inside || !can_unpack)
-        bytes.fail("chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " cannot be where and what the directory says");
+        bytes.fail("chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " has an impossible position, size or codec in the directory");
       free = chunk.offset + chunk.packed_bytes;
     }
     if (!arrays_.emplace(name, std::move(array)).second) bytes.fail("array " + quoted_excerpt(name) + " occurs twice");
@@ -234,7 +234,7 @@ void ChunkedReader::read(std::string_view name, char* to, const RunContext& cont
           throw_malformed(buffer_.source, "byte " + std::to_string(chunk.offset),
                           "chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " is damaged: " + what, "copy or write the file again");
         };
-        if (!is_intact(packed, chunk.hash)) damaged("its hash is another");
+        if (!is_intact(packed, chunk.hash)) damaged("its hash does not match");
         char* const place = to + begin * size;
         if (chunk.codec == k_plain) {
           std::memcpy(place, packed.data(), n * size);
@@ -242,7 +242,7 @@ void ChunkedReader::read(std::string_view name, char* to, const RunContext& cont
         }
         const auto planes = std::make_unique_for_overwrite<char[]>(n * size);
         if (LZ4_decompress_safe(packed.data(), planes.get(), static_cast<int>(packed.size()), static_cast<int>(n * size)) != static_cast<int>(n * size))
-          damaged("LZ4 cannot unpack it");
+          damaged("LZ4 cannot decompress it");
         scatter_planes(planes.get(), n, size, place);
       },
       1);

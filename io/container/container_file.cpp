@@ -93,12 +93,15 @@ std::string library_for(ContainerFormat format, const std::string& head, const s
   if (WIFSIGNALED(exit.wait_status)) {
     const int signal = WTERMSIG(exit.wait_status);
     if (signal == SIGXCPU || signal == SIGKILL)
-      throw_malformed(source, "the file", "the " + name + " library came to no end with it within its limits of time and memory" + last_words(exit), k_hint);
-    throw_malformed(source, "the file",
-                    "the " + name + " library crashed on it: signal " + std::to_string(signal) + " (" + strsignal(signal) + ")" + last_words(exit), k_hint);
+      throw_malformed(source, "the file", "the " + name + " library did not finish reading the file within its limits of time and memory" + last_words(exit),
+                      k_hint);
+    throw_malformed(
+        source, "the file",
+        "the " + name + " library crashed while reading the file: signal " + std::to_string(signal) + " (" + strsignal(signal) + ")" + last_words(exit),
+        k_hint);
   }
-  throw_malformed(source, "the file", "the " + name + " library gave up on it: exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit),
-                  k_hint);
+  throw_malformed(source, "the file",
+                  "the " + name + " library failed to read the file: exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit), k_hint);
 }
 
 }  // namespace

@@ -27,11 +27,11 @@ class ImageReader {
   ImageReader(std::span<const std::byte> bytes, const std::string& source) : bytes_(bytes), source_(source) {
     if (bytes_.size() < sizeof header_) fail("the image has " + std::to_string(bytes_.size()) + " bytes");
     std::memcpy(&header_, bytes_.data(), sizeof header_);
-    if (header_.magic != wire::k_image_magic) fail("the image is of another version: build the target sterna-read-container again");
+    if (header_.magic != wire::k_image_magic) fail("the image has another version: build the target sterna-read-container again");
     if (header_.n_nodes > (bytes_.size() - sizeof header_) / sizeof(NodeRecord))
       fail("the image has room for fewer nodes than " + std::to_string(header_.n_nodes));
     const std::uint64_t text_begin = sizeof header_ + sizeof(NodeRecord) * header_.n_nodes;
-    if (header_.text_size > bytes_.size() - text_begin) fail("the text leaves the image");
+    if (header_.text_size > bytes_.size() - text_begin) fail("the text block exceeds the image");
     text_ = {reinterpret_cast<const char*>(bytes_.data()) + text_begin, header_.text_size};
     if (header_.outcome != wire::Outcome::ok) throw_outcome();
     if (header_.n_nodes == 0) fail("the image has no root");
@@ -41,31 +41,31 @@ class ImageReader {
     records_.resize(header_.n_nodes);
     std::memcpy(records_.data(), bytes_.data() + sizeof header_, sizeof(NodeRecord) * header_.n_nodes);
     children_.resize(header_.n_nodes);
-    if (records_[0].parent != 0 || records_[0].role != Role::group) fail("the first node is no root");
+    if (records_[0].parent != 0 || records_[0].role != Role::group) fail("the first node is not a root");
     for (std::uint32_t i = 1; i < header_.n_nodes; ++i) {
       const std::uint32_t parent = records_[i].parent;
       if (parent >= i) fail("node " + std::to_string(i) + " comes before its parent");
       if (records_[i].role > Role::left_out) fail("node " + std::to_string(i) + " has an unknown role");
       const Role above = records_[parent].role;
       if (above != Role::group && !(above == Role::dataset && records_[i].role == Role::attribute))
-        fail("node " + std::to_string(i) + " is below one that has no children");
+        fail("node " + std::to_string(i) + " is below a node that cannot have children");
       children_[parent].push_back(i);
     }
     return node(0, "", 0);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& problem) const { throw_malformed(source_, "the file", "sterna-read-container made no sense of it: " + problem); }
+  [[noreturn]] void fail(const std::string& problem) const { throw_malformed(source_, "the file", "sterna-read-container returned invalid data: " + problem); }
 
   [[noreturn]] void throw_outcome() const {
     const std::string where(text(header_.where)), problem(text(header_.problem)), hint(text(header_.hint));
-    if (!is_place(where) || problem.empty()) fail("it was refused without a place or a reason");
+    if (!is_place(where) || problem.empty()) fail("the file was rejected without location or reason");
     if (header_.outcome == wire::Outcome::unsupported) throw_unsupported(source_, where + ": " + problem, hint);
     throw_malformed(source_, where, problem, hint);
   }
 
   std::string_view text(const wire::Text& place) const {
-    if (place.begin > text_.size() || place.size > text_.size() - place.begin) fail("a text leaves its place");
+    if (place.begin > text_.size() || place.size > text_.size() - place.begin) fail("a string exceeds the text block");
     return text_.substr(place.begin, place.size);
   }
 
@@ -74,9 +74,9 @@ class ImageReader {
     NumberArray& array = result.array;
     array.source = source_;
     array.where = std::move(where);
-    if (record.trouble > wire::Trouble::unsupported) fail("a trouble is unknown");
+    if (record.trouble > wire::Trouble::unsupported) fail("an error code is unknown");
     if (record.trouble != wire::Trouble::none) return result;
-    if (static_cast<std::size_t>(record.kind) >= k_number_kinds) fail("a kind of numbers is unknown");
+    if (static_cast<std::size_t>(record.kind) >= k_number_kinds) fail("a number type is unknown");
     if (record.rank > wire::k_max_rank) fail("an array has " + std::to_string(record.rank) + " extents");
     array.kind = record.kind;
     array.order = record.is_big_endian != 0 ? std::endian::big : std::endian::little;
@@ -84,7 +84,7 @@ class ImageReader {
     std::uint64_t n_bytes = 0;
     if (__builtin_mul_overflow(count_of(array.extents, source_, array.where), byte_size(array.kind), &n_bytes) || n_bytes != record.n_bytes)
       fail("an array has " + std::to_string(record.n_bytes) + " bytes");
-    if (record.begin > bytes_.size() || n_bytes > bytes_.size() - record.begin) fail("an array leaves the image");
+    if (record.begin > bytes_.size() || n_bytes > bytes_.size() - record.begin) fail("an array exceeds the image");
     array.bytes = {reinterpret_cast<const char*>(bytes_.data()) + record.begin, n_bytes};
     return result;
   }

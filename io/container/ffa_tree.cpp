@@ -70,7 +70,7 @@ const FfaNode* FfaNode::find(std::string_view child) const {
 
 const FfaNode& FfaNode::at(std::string_view child) const {
   const FfaNode* const found = find(child);
-  if (!found) fail("found no \"" + std::string(child) + "\" below it");
+  if (!found) fail("found no \"" + std::string(child) + "\" below this node");
   return *found;
 }
 
@@ -103,7 +103,7 @@ class FfaParser {
       scanner_.set_line_bound(false);
     }
     FfaNode root = node(0);
-    if (version_ == 0 ? !scanner_.at_end() : bytes_.remaining() > 0) root.fail("there is more behind the end of the tree");
+    if (version_ == 0 ? !scanner_.at_end() : bytes_.remaining() > 0) root.fail("found data after the end of the tree");
     return root;
   }
 
@@ -144,7 +144,7 @@ class FfaParser {
   void marker(std::int64_t expected, std::string_view what) {
     const std::size_t at = bytes_.offset();
     const std::int32_t found = bytes_.read<std::int32_t>(what);
-    if (found < 0) throw_unsupported(buffer_.source, "a record of 2 GiB and more at byte " + std::to_string(at), "write the file in version 2");
+    if (found < 0) throw_unsupported(buffer_.source, "a record of 2 GiB or more at byte " + std::to_string(at), "write the file in version 2");
     if (found != expected)
       throw_malformed(buffer_.source, "byte " + std::to_string(at),
                       "found " + std::to_string(found) + " as the length of a record, expected " + std::to_string(expected) + " (" + std::string(what) + ")");

@@ -48,7 +48,7 @@ PointField read_point_field(const std::filesystem::path& path, const std::string
     const std::size_t n = coordinates.size() / 3;
     if (n == 0) continue;
     if (!piece.values)
-      throw_malformed(buffer.source, where, "found no point data \"" + name + "\", there is " + (outline.names.empty() ? "none" : outline.names));
+      throw_malformed(buffer.source, where, "found no point data \"" + name + "\", available: " + (outline.names.empty() ? "none" : outline.names));
     const VtuValues values = decoder.decode(*piece.values);
     if (values.size() != n)
       throw_malformed(buffer.source, where, "found " + std::to_string(values.size()) + " values of \"" + name + "\" for " + std::to_string(n) + " points");

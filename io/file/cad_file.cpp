@@ -12,7 +12,7 @@ CadFile read_cad(const std::filesystem::path& path, const ReadCadOptions& option
   const FileBuffer file = load_file(path, context.part("load", 0.0, 0.05));
   std::optional<cad::CadFormat> format = cad::format_of_bytes(file.text());
   if (!format) format = cad::format_of_name(path.filename().string());
-  if (!format) throw_unsupported(file.source, "neither its contents nor its name are those of STEP, IGES or BREP");
+  if (!format) throw_unsupported(file.source, "neither the contents nor the name of the file are those of STEP, IGES or BREP");
   return cad::read_cad_bytes(file.text(), *format, file.source, options, context.part("read_cad", 0.05, 1.0));
 }
 
@@ -21,8 +21,8 @@ void write_cad(const Model& model, const std::filesystem::path& path, const Writ
   if (!format || path.extension() == ".gz")
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "writing " + path.string(),
-                 .problem = "the name's end is of no CAD format that is written",
-                 .hint = ".step, .iges or .brep"});
+                 .problem = "the file extension is not that of a CAD format that can be written",
+                 .hint = "use .step, .iges or .brep"});
   AtomicFile file(path);
   file.append(cad::cad_bytes(model, *format, path.filename().string(), options, context));
   file.commit();

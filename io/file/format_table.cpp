@@ -266,7 +266,7 @@ std::vector<const Format*> formats_of_name(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void throw_unknown_extension(std::string attempted, std::string hint) {
-  throw Error({.code = ErrorCode::unsupported_format, .attempted = std::move(attempted), .problem = "its extension is not known", .hint = std::move(hint)});
+  throw Error({.code = ErrorCode::unsupported_format, .attempted = std::move(attempted), .problem = "the file extension is unknown", .hint = std::move(hint)});
 }
 
 }  // namespace
@@ -291,13 +291,13 @@ const Format& format_of(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, ignored))
       throw Error({.code = ErrorCode::unsupported_format,
                    .attempted = attempted,
-                   .problem = "it is a folder",
-                   .hint = "name a file in it; of folders only OpenFOAM's cases and polyMesh are read"});
+                   .problem = "the path is a folder",
+                   .hint = "name a file in the folder; the only folders that are read are OpenFOAM cases and polyMesh"});
     if (path == "-" || path.string().starts_with("/dev/"))
       throw Error({.code = ErrorCode::unsupported_format,
                    .attempted = attempted,
-                   .problem = "formats are told by the extension, and files are read more than once",
-                   .hint = "write what comes through the pipe to a file such as wall.stl first"});
+                   .problem = "the format follows from the file extension, and files are read more than once",
+                   .hint = "write the piped data to a file such as wall.stl first"});
     throw_unknown_extension(attempted, "known extensions: " + known_extensions() + " (each also with .gz)");
   }
   const Format* const first = candidates.front();
@@ -331,7 +331,7 @@ const Format& format_to_write(const std::filesystem::path& path, FormatUse use, 
   const std::string attempted = "writing " + path.string();
   const std::string what = use == FormatUse::write_surface ? "surface" : "volume mesh";
   if (path.has_filename() && lower_case_name(path).size() != path.filename().string().size())
-    throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "files are not gzipped on writing"});
+    throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "gzip-compressed files cannot be written"});
   std::vector<const Format*> candidates;
   if (name.empty()) {
     candidates = formats_of_name(path);
@@ -342,11 +342,11 @@ const Format& format_to_write(const std::filesystem::path& path, FormatUse use, 
   }
   for (const Format* format : candidates)
     if (has_use(*format, use)) return *format;
-  throw Error({.code = ErrorCode::unsupported_format,
-               .attempted = attempted,
-               .problem = candidates.empty() ? "there is no format \"" + std::string(name) + "\""
-                                             : std::string(candidates.front()->name) + " is not written as a " + what,
-               .hint = "a " + what + " is written as " + list_formats_with(use)});
+  throw Error(
+      {.code = ErrorCode::unsupported_format,
+       .attempted = attempted,
+       .problem = candidates.empty() ? "unknown format \"" + std::string(name) + "\"" : std::string(candidates.front()->name) + " is not written as a " + what,
+       .hint = "a " + what + " is written as " + list_formats_with(use)});
 }
 
 std::string list_formats_with(FormatUse use) {

@@ -70,8 +70,8 @@ void warn_of_lost_patches(const TriMesh& mesh, const std::filesystem::path& path
       kinds += (kinds.empty() ? "\"" : ", \"") + patch.name + "\" (" + std::string(to_string(patch.kind)) + ")";
   if (n_kinds > k_named_patches) kinds += " and " + std::to_string(n_kinds - k_named_patches) + " more";
   std::string lost;
-  if (mesh.patches.size() > 1) lost = "the " + std::to_string(mesh.patches.size()) + " of the surface become one";
-  if (n_kinds > 0) lost += (lost.empty() ? "" : ", and ") + std::string("the kinds of ") + kinds + " are lost, because manifests hold kinds by name";
+  if (mesh.patches.size() > 1) lost = "the " + std::to_string(mesh.patches.size()) + " patches of the surface become one patch";
+  if (n_kinds > 0) lost += (lost.empty() ? "" : ", and ") + std::string("the kinds of ") + kinds + " are lost, because manifests store kinds by patch name";
   if (lost.empty()) return;
   std::string others;
   for (const Format& other : formats())

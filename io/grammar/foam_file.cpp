@@ -153,7 +153,7 @@ void FoamFile::begin_bytes(std::uint64_t n, std::size_t size, std::string_view e
 void FoamFile::end_bytes() {
   if (position_ >= text_.size() || text_[position_] != ')')
     throw_malformed(buffer_.source, "byte " + std::to_string(position_), "found no \")\" behind the list",
-                    "the size of labels or scalars may not be that of the header");
+                    "the size of labels or scalars may differ from the size in the header");
   ++position_;
 }
 
@@ -257,12 +257,12 @@ void FoamFile::compact_label_lists(std::string_view expected, std::uint64_t labe
                                    std::vector<std::uint64_t>& first) {
   constexpr std::uint64_t k_any = 0xffffffff;  // offsets of compact lists are labels
   const std::uint64_t limit = text_.size();    // an entry takes at least one byte
-  const std::vector<std::uint32_t> offsets = labels("the place of a face's first node", limit, k_any);
+  const std::vector<std::uint32_t> offsets = labels("the offset of the first node of a face", limit, k_any);
   values = labels(expected, limit, label_limit);
   first.assign(offsets.begin(), offsets.end());
   if (first.empty()) first.push_back(0);
   if (first.front() != 0 || first.back() != values.size() || !std::is_sorted(first.begin(), first.end()))
-    fail("the places of the faces' nodes do not ascend from 0 to " + std::to_string(values.size()) + ", the number of nodes");
+    fail("the offsets of the face nodes do not ascend from 0 to " + std::to_string(values.size()) + ", the number of nodes");
 }
 
 void FoamFile::fail(const std::string& problem) const {

@@ -136,9 +136,9 @@ class MshParser {
 
   void find_byte_order() {
     begin_bytes();
-    const std::int32_t one = bytes_->read<std::int32_t>("the number 1 that tells the byte order");
+    const std::int32_t one = bytes_->read<std::int32_t>("the number 1 that marks the byte order");
     constexpr std::int32_t k_swapped_one = 0x01000000;
-    if (one != 1 && one != k_swapped_one) bytes_->fail("found " + std::to_string(one) + " before this place, expected the number 1 that tells the byte order");
+    if (one != 1 && one != k_swapped_one) bytes_->fail("found " + std::to_string(one) + " before this byte, expected the number 1 that marks the byte order");
     if (one == k_swapped_one) order_ = std::endian::big;
     end_bytes();
   }
@@ -153,7 +153,7 @@ class MshParser {
   double real(std::string_view expected) {
     if (!bytes_) return scanner_.real(expected);
     const double value = bytes_->read<double>(expected);
-    if (!std::isfinite(value)) bytes_->fail("found a number that is not finite before this place, expected " + std::string(expected));
+    if (!std::isfinite(value)) bytes_->fail("found a number that is not finite before this byte, expected " + std::string(expected));
     return value;
   }
   double coordinate(std::string_view expected) { return bytes_ ? bytes_->read<double>(expected) : scanner_.coordinate(expected); }

@@ -62,7 +62,7 @@ std::uint64_t UgridSource::count(std::string_view expected) {
   const std::int64_t n = integer(expected);
   if (n < 0)
     fail("found the count " + std::to_string(n) + " as " + std::string(expected) + ", expected 0 or more",
-         text_ ? "" : "is the byte order of the file the one that its name says?");
+         text_ ? "" : "check that the byte order of the file is the one in its name");
   return static_cast<std::uint64_t>(n);
 }
 

@@ -172,7 +172,7 @@ VtuValues VtuDecoder::decode(const XmlTag& tag) const {
     encoded = decoded;
   }
   std::vector<char> bytes = decode_blocks(encoded, tag);
-  if (bytes.size() % VtuValues::size_of(type) != 0) fail(tag, "its " + std::to_string(bytes.size()) + " bytes are no whole number of values");
+  if (bytes.size() % VtuValues::size_of(type) != 0) fail(tag, "its " + std::to_string(bytes.size()) + " bytes are not a whole number of values");
   return {type, std::move(bytes)};
 }
 

@@ -82,7 +82,7 @@ std::vector<char> unpack(const std::vector<char>& packed, const std::string& sou
     const int state = inflate(&stream, Z_NO_FLUSH);
     bytes.resize(bytes.size() - stream.avail_out);
     if (bytes.size() > limit)
-      throw_malformed(source, where(), "the gzip data unpacks to more than " + std::to_string(limit) + " bytes, which no mesh file does");
+      throw_malformed(source, where(), "the gzip data unpacks to more than " + std::to_string(limit) + " bytes, too much for a mesh file");
     if (state == Z_STREAM_END) {
       // Another member may follow directly; padding with zeros (tapes, block devices) is ignored as in gzip.
       const auto rest = packed.begin() + static_cast<std::ptrdiff_t>(n_fed - stream.avail_in);

@@ -179,7 +179,7 @@ std::uint32_t TextScanner::index(std::string_view expected, std::int64_t base, s
   const std::int64_t value = integer(expected);
   if (value < base || static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(base) >= n)
     fail("found " + std::to_string(value) + " as " + std::string(expected) +
-         (n == 0 ? ", but there is nothing it could refer to"
+         (n == 0 ? ", but the file has no such items"
                  : ", expected " + std::to_string(base) + " to " + std::to_string(base + static_cast<std::int64_t>(n) - 1)));
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(base));
 }

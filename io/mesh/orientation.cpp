@@ -149,7 +149,7 @@ FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context) {
   at(CellKind::hexahedron) = flip_cells(mesh, mesh.hexahedra, context);
   counts.faces = turn_faces(mesh, context);
   for (const CellKind kind : {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron})
-    if (at(kind) > 0) context.info("cells in the wrong winding, flipped: " + std::to_string(at(kind)) + " of kind " + std::string(to_string(kind)));
+    if (at(kind) > 0) context.info("cells with wrong orientation, flipped: " + std::to_string(at(kind)) + " of kind " + std::string(to_string(kind)));
   if (counts.faces > 0) context.info("boundary faces turned outwards: " + std::to_string(counts.faces));
   return counts;
 }

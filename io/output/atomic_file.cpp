@@ -27,10 +27,10 @@ std::string hint_for(int error_number) {
   switch (error_number) {
     case ENOSPC:
     case EDQUOT:
-    case EFBIG: return "make room on the disk (or raise the limit), or write to another folder";
+    case EFBIG: return "free disk space (or raise the limit), or write to another folder";
     case EACCES:
     case EPERM:
-    case EROFS: return "write to a folder that you may write to";
+    case EROFS: return "write to a folder for which you have write permission";
     case ENOENT:
     case ENOTDIR: return "create the folder first";
     default: return {};
@@ -50,7 +50,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
   if (exists && !S_ISREG(old.st_mode))
     throw Error({.code = ErrorCode::write_failed,
                  .attempted = "writing " + path_.string(),
-                 .problem = "there is something of that name that is not a regular file",
+                 .problem = "the existing item of that name is not a regular file",
                  .hint = "choose another name"});
   remove_leftovers(target_.parent_path());
   for (int i = 0; descriptor_ < 0; ++i) {
@@ -63,9 +63,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
     fail(error_number, "creating a file");
   }
   hold(descriptor_);
-  if (exists && ::fchmod(descriptor_, old.st_mode & k_permission_bits) != 0) fail(errno, "keeping the permissions");
+  if (exists && ::fchmod(descriptor_, old.st_mode & k_permission_bits) != 0) fail(errno, "setting the permissions");
   struct stat created {};
-  if (::fstat(descriptor_, &created) != 0) fail(errno, "looking at the file");
+  if (::fstat(descriptor_, &created) != 0) fail(errno, "reading the file status");
   mode_ = created.st_mode & k_permission_bits;
 }
 
@@ -116,9 +116,9 @@ void AtomicFile::adopt() {
   descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0) fail(errno, "opening the file again");
   hold(descriptor_);
-  if (::fchmod(descriptor_, mode_) != 0) fail(errno, "keeping the permissions");
+  if (::fchmod(descriptor_, mode_) != 0) fail(errno, "setting the permissions");
   struct stat written {};
-  if (::fstat(descriptor_, &written) != 0) fail(errno, "looking at the file");
+  if (::fstat(descriptor_, &written) != 0) fail(errno, "reading the file status");
   size_ = static_cast<std::uint64_t>(written.st_size);
 }
 
@@ -152,7 +152,7 @@ void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
 void AtomicFile::fail(int error_number, std::string_view doing) {
   discard();
   std::string problem = std::string(doing) + " failed" + (size_ > 0 ? " after " + std::to_string(size_) + " bytes" : "") +
-                        (error_number != 0 ? ": " + reason(error_number) : ": the system gives no reason");
+                        (error_number != 0 ? ": " + reason(error_number) : ": the system reports no reason");
   throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path_.string(), .problem = std::move(problem), .hint = hint_for(error_number)});
 }
 

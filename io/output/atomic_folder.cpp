@@ -42,13 +42,13 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
       throw Error({.code = ErrorCode::write_failed,
                    .attempted = "writing " + path_.string(),
                    .problem = std::filesystem::is_directory(status)
-                                  ? "the folder of that name has no file \"" + std::string(proof) + "\", so it is something else"
-                                  : "there is something of that name that is not a folder",
-                   .hint = "choose another name, or remove it"});
+                                  ? "the existing folder of that name has no file \"" + std::string(proof) + "\", so it holds something else"
+                                  : "the existing item of that name is not a folder",
+                   .hint = "choose another name, or remove the existing item"});
   }
   if (target_.has_parent_path()) {
     std::filesystem::create_directories(target_.parent_path(), failure);
-    if (failure) fail(failure.value(), "creating the folder above");
+    if (failure) fail(failure.value(), "creating the parent folder");
   }
   remove_leftovers(target_.parent_path());
   for (int i = 0;; ++i) {
@@ -92,7 +92,7 @@ void AtomicFolder::fail(int error_number, std::string_view doing) {
   throw Error({.code = ErrorCode::write_failed,
                .attempted = "writing " + path_.string(),
                .problem = std::string(doing) + " failed: " + std::generic_category().message(error_number),
-               .hint = "write to a folder that you may write to"});
+               .hint = "write to a folder for which you have write permission"});
 }
 
 void AtomicFolder::discard() noexcept {

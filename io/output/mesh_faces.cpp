@@ -38,7 +38,7 @@ std::string place_of(const HybridMesh& mesh, const CellFace& face) {
   throw Error({.code = ErrorCode::mesh_invalid,
                .attempted = "finding the cells on both sides of the faces",
                .problem = problem,
-               .hint = "`sterna check` lists what is wrong with the mesh"});
+               .hint = "run `sterna check` to list the defects of the mesh"});
 }
 
 }  // namespace
@@ -241,9 +241,10 @@ void MeshFaces::match_loose_faces(const RunContext& context) {
   first_boundary_ = n_slots_;
   n_slots_ += mesh_->boundary_triangles.size() + mesh_->boundary_quads.size();
   if (n_slots_ > k_most_slots)
-    throw Error({.code = ErrorCode::overflow,
-                 .attempted = "finding the cells on both sides of the faces",
-                 .problem = std::to_string(n_slots_) + " faces of cells outside the columns, but they are numbered up to " + std::to_string(k_most_slots)});
+    throw Error(
+        {.code = ErrorCode::overflow,
+         .attempted = "finding the cells on both sides of the faces",
+         .problem = std::to_string(n_slots_) + " faces of cells outside the prism columns, but faces are numbered up to " + std::to_string(k_most_slots)});
 
   const std::size_t n_nodes = mesh_->points.size();
   std::vector<std::uint32_t> end_of(n_nodes + 1, 0);
@@ -300,7 +301,8 @@ void MeshFaces::require_all_matched() const {
     const std::string face = place_of(*mesh_, loose_face(slot));
     if (partner == k_matched_often) throw_invalid(face + " occurs more than twice among cells and boundary");
     if (partner == k_boundary) throw_invalid(face + " is twice in the boundary");
-    throw_invalid(slot < first_boundary_ ? face + " belongs to one cell only and is not in the boundary" : face + " is in the boundary, but no cell has it");
+    throw_invalid(slot < first_boundary_ ? face + " belongs to one cell only and is not in the boundary"
+                                         : face + " is in the boundary, but belongs to no cell");
   }
 }
 

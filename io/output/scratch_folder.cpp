@@ -19,7 +19,7 @@ ScratchFolder::ScratchFolder(std::string_view purpose) {
     throw Error({.code = ErrorCode::write_failed,
                  .attempted = "making a folder for temporary files",
                  .problem = problem,
-                 .hint = "the environment's TMPDIR names another place"});
+                 .hint = "set the environment variable TMPDIR to another folder"});
   };
   std::error_code failure;
   const std::filesystem::path above = std::filesystem::temp_directory_path(failure);

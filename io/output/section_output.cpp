@@ -40,7 +40,7 @@ void require_count(std::uint64_t n, std::uint64_t limit, const std::string& what
   if (n <= limit) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = "writing " + path,
-               .problem = std::to_string(n) + " " + what + ", but " + format + " counts no further than " + std::to_string(limit),
+               .problem = std::to_string(n) + " " + what + ", but " + format + " cannot count beyond " + std::to_string(limit),
                .hint = "use a coarser mesh or a format with 64-bit counts"});
 }
 

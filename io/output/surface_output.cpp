@@ -74,7 +74,7 @@ void require_single_precision(const TriMesh& mesh, std::string_view format, cons
       if (std::abs(p[axis]) > k_limit)
         throw Error({.code = ErrorCode::overflow,
                      .attempted = "writing " + path,
-                     .problem = "a coordinate of " + std::to_string(p[axis]) + ", but the 32-bit floats of " + std::string(format) + " end at 3.4e38"});
+                     .problem = "a coordinate of " + std::to_string(p[axis]) + ", but the 32-bit floats of " + std::string(format) + " cannot exceed 3.4e38"});
   double moved = 0.0;
   for (const Point& p : mesh.points)
     moved = std::max(moved, distance(p, Point{static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
@@ -97,7 +97,7 @@ void tell_numbered_patches(const TriMesh& mesh, std::string_view format, const R
   for (const PatchId patch : mesh.patches.ids())
     if (const std::string number = std::to_string(patch.value() + 1); mesh.patches[patch].name != "patch_" + number)
       text += (text.empty() ? "" : ", ") + number + " = \"" + mesh.patches[patch].name + "\"";
-  if (!text.empty()) context.warn(std::string(format) + " numbers patches and has no names: " + text);
+  if (!text.empty()) context.warn(std::string(format) + " stores patch numbers instead of names: " + text);
 }
 
 }  // namespace sterna::io

@@ -26,7 +26,7 @@ using wire::Trouble;
 class AdfNodes {
  public:
   AdfNodes(const char* path, const Limits& limits, Image& image) : limits_(limits), image_(image) {
-    if (cgio_open_file(path, CGIO_MODE_READ, CGIO_FILE_ADF, &file_) != 0) fail("the head of the file", "opening it");
+    if (cgio_open_file(path, CGIO_MODE_READ, CGIO_FILE_ADF, &file_) != 0) fail("the head of the file", "opening the file");
   }
 
   void add() {

@@ -212,7 +212,7 @@ class Hdf5Nodes {
   static std::string variable_text(hid_t attribute, hid_t type, Node& node, const std::string& where) {
     for (const std::uint64_t extent : node.extents) {
       if (extent == 1) continue;
-      node.give_up(Trouble::unsupported, "it is a list of texts");
+      node.give_up(Trouble::unsupported, "the attribute is a list of strings");
       return {};
     }
     char* text = nullptr;
@@ -270,7 +270,7 @@ class Hdf5Nodes {
       const haddr_t begin = H5Dget_offset(dataset);
       if (begin == HADDR_UNDEF) return node.give_up(Trouble::malformed, "its " + std::to_string(n_bytes) + " bytes were never written");
       if (begin > limits_.file_size - n_bytes)
-        node.give_up(Trouble::malformed, "its " + std::to_string(n_bytes) + " bytes from byte " + std::to_string(begin) + " leave the file of " +
+        node.give_up(Trouble::malformed, "its " + std::to_string(n_bytes) + " bytes from byte " + std::to_string(begin) + " exceed the file of " +
                                              std::to_string(limits_.file_size) + " bytes");
     }
     if (layout == H5D_CHUNKED) check_chunks(dataset, plist, space, node, path);
@@ -284,7 +284,7 @@ class Hdf5Nodes {
     bool is_sound = true;
     for (std::size_t k = 0; k < node.extents.size(); ++k) {
       const std::uint64_t along = k < static_cast<std::size_t>(rank) ? shape[k] : node.extents[k];  // beyond the rank: the string length
-      if (along == 0) return node.give_up(Trouble::malformed, "found chunks of no size");
+      if (along == 0) return node.give_up(Trouble::malformed, "found chunks of size zero");
       if (k < static_cast<std::size_t>(rank)) is_sound = is_sound && !__builtin_mul_overflow(n_expected, (node.extents[k] - 1) / along + 1, &n_expected);
       is_sound = is_sound && !__builtin_mul_overflow(n_bytes, along, &n_bytes);
     }
@@ -295,7 +295,7 @@ class Hdf5Nodes {
       std::size_t n_values = 0;
       const H5Z_filter_t filter = H5Pget_filter2(plist, static_cast<unsigned>(i), &flags, &n_values, nullptr, 0, nullptr, nullptr);
       if (H5Zfilter_avail(filter) <= 0)
-        return node.give_up(Trouble::unsupported, "it is packed by the filter " + std::to_string(filter) + "; h5repack -f NONE unpacks it");
+        return node.give_up(Trouble::unsupported, "the dataset is compressed by the filter " + std::to_string(filter) + "; h5repack -f NONE decompresses it");
     }
     hsize_t n_found = 0;
     if (H5Dget_num_chunks(dataset, space, &n_found) < 0) fail(path, "counting its chunks");

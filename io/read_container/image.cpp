@@ -67,8 +67,8 @@ std::uint64_t check_size(Node& node, std::uint64_t limit) {
     return 0;
   }
   if (n > limit) {
-    node.give_up(wire::Trouble::malformed,
-                 "its " + std::to_string(n) + " bytes are more than the " + std::to_string(limit) + " that the file can hold: it may have been cut short");
+    node.give_up(wire::Trouble::malformed, "its " + std::to_string(n) + " bytes are more than the " + std::to_string(limit) +
+                                               " that the file can hold: the file may have been cut short");
     return 0;
   }
   return n;
@@ -76,8 +76,10 @@ std::uint64_t check_size(Node& node, std::uint64_t limit) {
 
 std::uint32_t Image::add(Node node) {
   if (nodes_.size() > limits_.file_size / k_smallest_node + 1)
-    throw Failure{
-        .outcome = wire::Outcome::malformed, .where = "the file", .problem = "it leads to more groups and attributes than it has room for", .hint = {}};
+    throw Failure{.outcome = wire::Outcome::malformed,
+                  .where = "the file",
+                  .problem = "it refers to more groups and attributes than fit in a file of this size",
+                  .hint = {}};
   nodes_.push_back(std::move(node));
   return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
@@ -104,8 +106,8 @@ void Image::write() {
     if (record.n_bytes > limits_.unpacked() || (n_values += aligned(record.n_bytes)) > limits_.unpacked())
       throw Failure{.outcome = wire::Outcome::malformed,
                     .where = "the file",
-                    .problem = "its arrays unpack to more than " + std::to_string(limits_.unpacked()) + " bytes, which no mesh file of " +
-                               std::to_string(limits_.file_size) + " bytes does",
+                    .problem = "its arrays unpack to more than " + std::to_string(limits_.unpacked()) + " bytes, too much for a mesh file of " +
+                               std::to_string(limits_.file_size) + " bytes",
                     .hint = {}};
   }
   ImageHeader header{.n_nodes = static_cast<std::uint32_t>(nodes_.size()), .text_size = text.text().size()};

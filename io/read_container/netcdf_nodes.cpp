@@ -36,7 +36,7 @@ std::optional<NumberKind> kind_of(nc_type type) {
 void require(int status, const std::string& where) {
   if (status == NC_NOERR) return;
   if (status == NC_ENOMEM) throw std::bad_alloc();
-  const std::string problem = status == EPERM ? "the file ends before its values do"
+  const std::string problem = status == EPERM ? "the file ends before the end of its values"
                                               : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: file would have to grow
   throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = problem, .hint = "the file may have been cut short: copy or write it again"};
 }
@@ -109,7 +109,7 @@ class NetcdfNodes {
     if (kind) node.kind = *kind;
     const auto surveyed = survey_.find(name);
     if (!kind) node.give_up(Trouble::unsupported, "its values are neither numbers nor text");
-    else if (has_records) node.give_up(Trouble::unsupported, "it has an unlimited dimension, which no mesh has");
+    else if (has_records) node.give_up(Trouble::unsupported, "it has an unlimited dimension, which meshes do not have");
     else if (surveyed != survey_.end() && surveyed->second->trouble != Trouble::none) node.give_up(surveyed->second->trouble, surveyed->second->problem);
     else if (check_size(node, is_hdf5_ ? limits_.unpacked() : limits_.file_size) > 0)
       node.fill = [file = file_, variable, where = "variable \"" + node.name + "\""](char* at) { require(nc_get_var(file, variable, at), where); };

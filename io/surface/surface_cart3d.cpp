@@ -59,7 +59,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
     for (std::int64_t& component : components) component = scanner.integer("the component of a triangle");
   }
   if (!scanner.at_end() && !has_scalars)
-    context.warn(buffer.source + ": what follows the components of the last of " + std::to_string(n_triangles) + " triangles is ignored");
+    context.warn(buffer.source + ": the data after the components of the last of " + std::to_string(n_triangles) + " triangles are ignored");
   add_triangles(builder, triangles, components);
   SurfaceSoup soup = builder.finish(context);
   soup.has_names = !components.empty();
@@ -76,14 +76,14 @@ class RecordReader {
   ByteReader& begin(std::uint64_t n, std::string_view what) {
     const std::uint32_t size = reader_.read<std::uint32_t>("the size of a record");
     if (size != 4 * n)
-      reader_.fail("found a record of " + std::to_string(size) + " bytes before this place, expected " + std::to_string(4 * n) + ": " + std::string(what));
+      reader_.fail("found a record of " + std::to_string(size) + " bytes before this byte, expected " + std::to_string(4 * n) + ": " + std::string(what));
     reader_.require(n, 4, what);
     size_ = size;
     return reader_;
   }
   void end() {
     if (reader_.read<std::uint32_t>("the size of the record again") != size_)
-      reader_.fail("the record before this place does not end with its size " + std::to_string(size_));
+      reader_.fail("the record before this byte does not end with its size " + std::to_string(size_));
   }
 
  private:
@@ -105,7 +105,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
   const std::int32_t n_points = counts.take<std::int32_t>();
   const std::int32_t n_triangles = counts.take<std::int32_t>();
   if (n_points < 0 || n_triangles < 0)
-    counts.fail("found " + std::to_string(n_points) + " vertices and " + std::to_string(n_triangles) + " triangles before this place");
+    counts.fail("found " + std::to_string(n_points) + " vertices and " + std::to_string(n_triangles) + " triangles before this byte");
   records.end();
   SurfaceBuilder builder(buffer.source);
   ByteReader& coordinates = records.begin(3 * static_cast<std::uint64_t>(n_points), "coordinates of the vertices");
@@ -123,7 +123,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
     for (std::uint32_t& corner : triangle) {
       const std::int32_t number = corners.take<std::int32_t>();
       if (number < 1 || number > n_points)
-        corners.fail("found the corner " + std::to_string(number) + " before this place, expected 1 to " + std::to_string(n_points));
+        corners.fail("found the corner " + std::to_string(number) + " before this byte, expected 1 to " + std::to_string(n_points));
       corner = static_cast<std::uint32_t>(number - 1);
     }
   }

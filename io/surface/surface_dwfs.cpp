@@ -62,7 +62,7 @@ class DwfsReader {
     const auto corner = [&](std::size_t i) {
       if (corners[i] < 0 || static_cast<std::uint64_t>(corners[i]) >= n_points)
         fail(*part.faces,
-             "face " + std::to_string(i / 3) + " has the corner " + std::to_string(corners[i]) + ", expected 0 to " + std::to_string(n_points) + " less 1");
+             "face " + std::to_string(i / 3) + " has the corner " + std::to_string(corners[i]) + ", expected 0 to " + std::to_string(n_points) + " - 1");
       return static_cast<std::uint32_t>(first + static_cast<std::size_t>(corners[i]));
     };
     for (std::size_t i = 0; i < n_faces; ++i) {

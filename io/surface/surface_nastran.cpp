@@ -114,7 +114,7 @@ class BulkParser {
     if (has_begin && !has_end)
       throw_malformed(buffer_.source, "line " + std::to_string(line_number_), "found the end of the file, expected ENDDATA after BEGIN BULK",
                       "the file may have been cut short: copy or write it again");
-    if (!has_end) context_.warn(buffer_.source + ": there is no ENDDATA; whether the file is whole cannot be told");
+    if (!has_end) context_.warn(buffer_.source + ": there is no ENDDATA; the file may be incomplete");
     curved_.warn(buffer_.source, context_);
     elements_.warn(buffer_.source, context_);
     add_faces();
@@ -224,7 +224,7 @@ class BulkParser {
       if (!field(2).empty() && field(2) != "0")
         throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": GRDSET with a coordinate system", "write the points in the basic system");
     } else if (begins_with_word(name, "INCLUDE")) {
-      throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": INCLUDE", "join the files to one");
+      throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": INCLUDE", "join the files into one file");
     } else {
       const auto is_name = [&](const ElementCard& element) { return equal_ignoring_case(name, element.name); };
       const auto element = std::find_if(k_elements.begin(), k_elements.end(), is_name);

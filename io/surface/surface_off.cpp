@@ -62,7 +62,7 @@ Vec3 parse_vertex(TextScanner& scanner, const OffHeader& header) {
   std::size_t n_extras = 0;
   for (; !scanner.at_line_end(); ++n_extras) scanner.real("a colour or a component of a normal");
   if (!header.has_extras && !is_count_of_extras(n_extras))
-    scanner.fail("found " + std::to_string(n_extras) + " more numbers after a vertex, expected one vertex a line, perhaps with a colour or normal");
+    scanner.fail("found " + std::to_string(n_extras) + " more numbers after a vertex, expected one vertex per line, perhaps with a colour or normal");
   return p;
 }
 

@@ -120,7 +120,7 @@ class BinaryReader {
                    " blocks, expected the end of the file");
     if (n_blank_ > 0)
       context_.warn(buffer_.source + ": " + std::to_string(n_blank_) +
-                    " points are blanked (iblank = 0); their faces are read as all others, so that blanked holes are closed");
+                    " points are blanked (iblank = 0); their faces are read like all other faces, so that blanked holes are closed");
     SurfaceSoup soup = finished(builder, blocks_.size(), context_);
     soup.single_precision = precision_.real_bytes == sizeof(float);
     return soup;
@@ -136,7 +136,7 @@ class BinaryReader {
     if (has_records_) begin_record();
     const std::int32_t n_blocks = reader_.read<std::int32_t>("the number of blocks");
     if (has_records_) end_record();
-    if (n_blocks < 1) reader_.fail("found " + std::to_string(n_blocks) + " blocks before this place, expected 1 or more");
+    if (n_blocks < 1) reader_.fail("found " + std::to_string(n_blocks) + " blocks before this byte, expected 1 or more");
     if (has_records_) begin_record();
     reader_.require(static_cast<std::uint64_t>(n_blocks), 3 * sizeof(std::int32_t), "dimensions of the blocks");
     for (std::int32_t i = 0; i < n_blocks; ++i) {
@@ -144,7 +144,7 @@ class BinaryReader {
       for (std::uint64_t& dimension : n) {
         const std::int32_t value = reader_.take<std::int32_t>();
         if (value < 1)
-          reader_.fail("found the dimension " + std::to_string(value) + " of block " + std::to_string(i + 1) + " before this place, expected 1 or more");
+          reader_.fail("found the dimension " + std::to_string(value) + " of block " + std::to_string(i + 1) + " before this byte, expected 1 or more");
         dimension = static_cast<std::uint64_t>(value);
       }
       const std::optional<GridBlock> block = block_of(n);
@@ -176,7 +176,7 @@ class BinaryReader {
   }
   void end_record() {
     if (reader_.offset() != record_end_ || reader_.read<std::uint32_t>("the size of the record again") != record_bytes_)
-      reader_.fail("the record of " + std::to_string(record_bytes_) + " bytes before this place has another size");
+      reader_.fail("the record of " + std::to_string(record_bytes_) + " bytes before this byte has another size");
   }
 
   const FileBuffer& buffer_;

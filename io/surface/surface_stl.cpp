@@ -32,7 +32,7 @@ bool looks_like_text(const FileBuffer& buffer) {
 
 SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t n_facets, const RunContext& context) {
   ByteReader reader(buffer, std::endian::little, k_first_facet);
-  reader.require(n_facets, k_facet_bytes, "facets of the binary STL, as many as its header says");
+  reader.require(n_facets, k_facet_bytes, "facets of the binary STL, the number given in its header");
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(3 * n_facets);
   builder.reserve_polygons(n_facets);
@@ -101,7 +101,7 @@ SurfaceSoup read_text_solids(const FileBuffer& buffer, const RunContext& context
       scanner.rest_of_line();
     } else if (n_solids > 0 && !is_open) {
       // Complete solids followed by other data (Gmsh models were appended to STL files this way): the solids are read, the remainder is reported as ignored.
-      context.warn(buffer.source + ": line " + std::to_string(scanner.line()) + ": what follows the last \"endsolid\" is not STL and is ignored");
+      context.warn(buffer.source + ": line " + std::to_string(scanner.line()) + ": the data after the last \"endsolid\" are not STL and are ignored");
       break;
     } else {
       scanner.fail_expected("\"facet\", \"endsolid\" or \"solid\"");
@@ -179,7 +179,8 @@ void write_stl(const TriMesh& mesh, const std::filesystem::path& path, const Run
 void write_stl_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   require_count(mesh.n_triangles(), std::numeric_limits<std::uint32_t>::max(), "triangles", "binary STL", path.string());
   require_single_precision(mesh, "binary STL", path.string(), context);
-  if (mesh.patches.size() > 1) context.warn("binary STL has no patches: the " + std::to_string(mesh.patches.size()) + " of the surface become one");
+  if (mesh.patches.size() > 1)
+    context.warn("binary STL has no patches: the " + std::to_string(mesh.patches.size()) + " patches of the surface become one patch");
   std::string header = "binary STL, single precision";  // must not begin with "solid"
   header.resize(k_first_facet, ' ');
   put_bytes(header.data() + k_header_bytes, static_cast<std::uint32_t>(mesh.n_triangles()), std::endian::little);

@@ -136,9 +136,9 @@ class Su2SurfaceReader {
   }
 
   void tell_what_was_left_out() const {
-    if (zones_.size() > 1) context_.info("zones joined to one surface: " + std::to_string(zones_.size()));
+    if (zones_.size() > 1) context_.info("zones joined into one surface: " + std::to_string(zones_.size()));
     if (n_partition_markers_ > 0) context_.info("markers SEND_RECEIVE (boundaries of a partition) left out: " + std::to_string(n_partition_markers_));
-    if (n_lines_ > 0) context_.warn(source_ + ": " + std::to_string(n_lines_) + " lines (type 3) in markers, which are no faces, are left out");
+    if (n_lines_ > 0) context_.warn(source_ + ": " + std::to_string(n_lines_) + " lines (type 3) in markers, which are not faces, are left out");
   }
 
   // ---- second pass: the numbers

@@ -51,7 +51,7 @@ class WgsReader {
     if (n_objects_ == 0) scanner_.fail("found the end of the file, expected the name of an object after the title");
     for (std::size_t i = 1; i < k_mirrors.size(); ++i)
       if (!mirrored_[i].empty())
-        context_.warn(scanner_.source() + ": mirror images at " + std::string(k_mirrors[i]) + ", which the file implies, are not made: of " + mirrored_[i]);
+        context_.warn(scanner_.source() + ": mirror images at " + std::string(k_mirrors[i]) + ", which the file implies, are not made for " + mirrored_[i]);
     SurfaceSoup soup = builder_.finish(context_);
     soup.has_names = true;
     return soup;

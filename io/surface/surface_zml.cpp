@@ -80,7 +80,7 @@ class TreeReader {
     if (depth > k_max_depth) reader_.fail("found more than " + std::to_string(k_max_depth) + " levels of nodes");
     reader_.require(1, k_zml_header_bytes, "the header of a node");
     if (const auto magic = reader_.take<std::uint32_t>(); magic != k_node_magic)
-      reader_.fail("found no node before this place, expected one that begins with 8b 4f cf bf");
+      reader_.fail("found no node before this byte, expected one that begins with 8b 4f cf bf");
     const std::uint32_t n_children = reader_.take<std::uint32_t>();
     const std::uint32_t n_attributes = reader_.take<std::uint32_t>();
     Node node;
@@ -94,7 +94,8 @@ class TreeReader {
     node.n_bytes = n_data;
     reader_.skip(n_data);
     if (n_children == k_open_list)
-      throw_unsupported(buffer_.source, "node " + quoted_excerpt(node.name) + " has a list without end", "write the file with sumo's surface export as STL");
+      throw_unsupported(buffer_.source, "node " + quoted_excerpt(node.name) + " has a list of unknown length",
+                        "write the file with sumo's surface export as STL");
     for (std::uint32_t i = 0; i < n_children; ++i) node.children.push_back(read(depth + 1));
     return node;
   }
@@ -103,7 +104,7 @@ class TreeReader {
   void read_strings(Node& node, std::uint32_t n_attributes, std::size_t end) {
     const auto next = [&] {
       if (reader_.offset() >= end)
-        reader_.fail("the strings of a node end before this place, expected its name and " + std::to_string(n_attributes) + " attributes");
+        reader_.fail("the strings of a node end before this byte, expected its name and " + std::to_string(n_attributes) + " attributes");
       const std::int32_t n = reader_.read<std::int32_t>("the length of a string");
       if (n < 0 || reader_.offset() > end || static_cast<std::size_t>(n) > end - reader_.offset())
         reader_.fail("found a string of " + std::to_string(n) + " bytes, longer than its table");
@@ -216,7 +217,7 @@ class MeshReader {
       for (std::size_t i = 0; i < child.n_values(); ++i) {
         const std::int32_t element = reader.take<std::int32_t>();
         if (element < 0 || static_cast<std::uint64_t>(element) >= n_elements)
-          reader.fail("found the element " + std::to_string(element) + " before this place in " + quoted_excerpt(boco_names_.back()) + ", there are " +
+          reader.fail("found the element " + std::to_string(element) + " before this byte in " + quoted_excerpt(boco_names_.back()) + ", there are " +
                       std::to_string(n_elements));
         std::uint32_t& boco = boco_of_element_[static_cast<std::size_t>(element)];
         if (boco == 0) boco = static_cast<std::uint32_t>(boco_names_.size());
@@ -240,7 +241,7 @@ class MeshReader {
       for (std::size_t k = 0; k < type.n_nodes; ++k) {
         const std::int32_t node = reader.take<std::int32_t>();
         if (node < 0 || static_cast<std::size_t>(node) >= n_points_)
-          reader.fail("found the node " + std::to_string(node) + " before this place, there are " + std::to_string(n_points_));
+          reader.fail("found the node " + std::to_string(node) + " before this byte, there are " + std::to_string(n_points_));
         corners[k] = static_cast<std::uint32_t>(first_point_ + static_cast<std::size_t>(node));
       }
       builder_.add_polygon(std::span(corners).first(type.n_nodes));

@@ -12,11 +12,11 @@ HybridMesh read_volume_fluent(const std::filesystem::path& path, const RunContex
   context.progress(0.5);
   HybridMesh mesh;
   if (content.n_cell_zones > 1)
-    context.warn(buffer.source + ": the " + std::to_string(content.n_cell_zones) + " zones of cells become one; faces between them are inner faces");
+    context.warn(buffer.source + ": the " + std::to_string(content.n_cell_zones) + " cell zones become one zone; faces between them become interior faces");
   mesh.points.raw() = std::move(content.points);
   mesh.patches = std::move(content.patches);
   add_cells_and_boundary(content.faces, mesh, buffer.source, context);
-  if (content.n_inner_walls > 0) context.warn("faces of boundary zones between two cells, taken as inner faces: " + std::to_string(content.n_inner_walls));
+  if (content.n_inner_walls > 0) context.warn("faces of boundary zones between two cells, read as interior faces: " + std::to_string(content.n_inner_walls));
   context.progress(0.8);
   orient_mesh(mesh, context);
   return mesh;
@@ -31,7 +31,7 @@ SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunCont
   std::string left_out;
   for (const PatchId patch : content.patches.ids())
     if (has_walls && !is_wall(patch)) left_out += (left_out.empty() ? "\"" : ", \"") + content.patches[patch].name + "\"";
-  if (!left_out.empty()) context.info(buffer.source + ": zones that are no walls are left out: " + left_out);
+  if (!left_out.empty()) context.info(buffer.source + ": zones that are not walls are left out: " + left_out);
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(content.points.size());
   for (const Vec3& p : content.points) builder.add_point(p);

@@ -116,17 +116,17 @@ class MeditReader {
     bytes_.emplace(buffer_);
     const auto cookie = bytes_->read<std::int32_t>("the number 1");
     if (cookie == k_swapped_cookie) bytes_.emplace(buffer_, std::endian::big, sizeof(std::int32_t));
-    else if (cookie != k_cookie) bytes_->fail("found " + std::to_string(cookie) + " before this place, expected 1");
+    else if (cookie != k_cookie) bytes_->fail("found " + std::to_string(cookie) + " before this byte, expected 1");
     version_ = bytes_->read<std::int32_t>("the version");
     if (version_ < 1 || version_ > 4) bytes_->fail("found version " + std::to_string(version_) + ", expected 1 to 4");
     for (;;) {
       context_.check_stop();
       const auto code = bytes_->read<std::int32_t>("the code of a section");
       const std::uint64_t next =
-          version_ >= 3 ? bytes_->read<std::uint64_t>("the place of the next section") : bytes_->read<std::uint32_t>("the place of the next section");
+          version_ >= 3 ? bytes_->read<std::uint64_t>("the offset of the next section") : bytes_->read<std::uint32_t>("the offset of the next section");
       if (code == k_medit_end) return;
       if (next != 0 && (next < bytes_->offset() || next > buffer_.bytes.size()))
-        bytes_->fail("found " + std::to_string(next) + " as the place of the next section, expected " + std::to_string(bytes_->offset()) + " to " +
+        bytes_->fail("found " + std::to_string(next) + " as the offset of the next section, expected " + std::to_string(bytes_->offset()) + " to " +
                          std::to_string(buffer_.bytes.size()),
                      "the file may have been cut short: copy or write it again");
       if (code == k_medit_dimension) require_three(bytes_->read<std::int32_t>("3 dimensions"));

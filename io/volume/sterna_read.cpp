@@ -22,7 +22,7 @@ class PartReader {
     if (has(part::k_surface.points)) content.surface = surface(part::k_surface);
     if (has(part::k_farfield.points)) content.farfield = surface(part::k_farfield);
     if (has(part::k_direction)) {
-      if (!content.surface) fail(part::k_direction, "is there without a surface");
+      if (!content.surface) fail(part::k_direction, "exists without a surface");
       content.envelope = envelope(content.surface->n_vertices());
     }
     if (has(part::k_engine_tetrahedra)) content.tetrahedra = tetrahedra();
@@ -122,7 +122,7 @@ class PartReader {
 
   Column<PatchId, Patch> patches(std::string_view name) const {
     const std::vector<std::string> words = strings(name);
-    if (words.size() % 2 != 0) fail(name, "a patch has a kind and no name");
+    if (words.size() % 2 != 0) fail(name, "a patch has a kind but no name");
     Column<PatchId, Patch> result;
     for (std::size_t i = 0; i < words.size(); i += 2) {
       const auto kind = std::find_if(part::k_patch_kinds.begin(), part::k_patch_kinds.end(), [&](PatchKind k) { return to_string(k) == words[i]; });
@@ -169,7 +169,8 @@ class PartReader {
     result.moved_nodes = items<std::uint32_t>(part::k_moved_nodes, NumberType::u32, 1);
     result.moved_points = points(part::k_moved_points);
     if (result.moved_points.size() != result.moved_nodes.size())
-      fail(part::k_moved_points, "found " + std::to_string(result.moved_points.size()) + " places for " + std::to_string(result.moved_nodes.size()) + " nodes");
+      fail(part::k_moved_points,
+           "found " + std::to_string(result.moved_points.size()) + " locations for " + std::to_string(result.moved_nodes.size()) + " nodes");
     return result;
   }
 

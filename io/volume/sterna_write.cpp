@@ -69,7 +69,7 @@ class PartWriter {
     reals(part::k_new_points, 3, tetrahedra.new_points);
     ids(part::k_engine_tetrahedra, 4, tetrahedra.tetrahedra);
     if (tetrahedra.moved_nodes.empty()) return;
-    require_size(tetrahedra.moved_points.size(), tetrahedra.moved_nodes.size(), "places of moved nodes");
+    require_size(tetrahedra.moved_points.size(), tetrahedra.moved_nodes.size(), "locations of moved nodes");
     require_finite(tetrahedra.moved_points);
     ids(part::k_moved_nodes, 1, tetrahedra.moved_nodes);
     reals(part::k_moved_points, 3, tetrahedra.moved_points);

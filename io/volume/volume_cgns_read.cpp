@@ -59,10 +59,10 @@ class CgnsReader {
       ++n_zones;
     }
     if (n_zones == 0) tree_.fail(base, "found no zone");
-    if (n_zones > 1) context_.info("zones joined to one mesh: " + std::to_string(n_zones));
+    if (n_zones > 1) context_.info("zones joined into one mesh: " + std::to_string(n_zones));
     if (n_left_out_ > 0) context_.info("points and bars left out: " + std::to_string(n_left_out_));
     if (n_conditions_left_out_ > 0)
-      context_.info("boundary conditions of structured zones that are no walls, left out: " + std::to_string(n_conditions_left_out_));
+      context_.info("boundary conditions of structured zones that are not walls, left out: " + std::to_string(n_conditions_left_out_));
     drop_empty_patches();
     return std::move(mesh_);
   }
@@ -339,7 +339,7 @@ class CgnsReader {
     mesh_.patches[condition.patch].kind = kind_of(type, name);
     if (!type.starts_with("BC") && mesh_.patches[condition.patch].kind == PatchKind::wall)
       context_.warn(tree_.source() + ": patch \"" + name + "\" has no type of boundary condition (" + (type.empty() ? "none" : type) +
-                    "): it is taken as a wall");
+                    "): the kind wall is used");
     const CgnsNode* set = nullptr;
     for (const char* const spelling : {"PointRange", "PointList", "ElementRange", "ElementList"})
       if (!set) set = node.find(spelling);
@@ -382,7 +382,7 @@ class CgnsReader {
     const bool are_cells =
         !faces_.empty() && faces_.front().element > last_cell_ && highest <= last_cell_ && highest <= static_cast<std::int64_t>(faces_.size());
     const std::int64_t shift = are_cells ? last_cell_ : 0;
-    if (are_cells) context_.warn(tree_.source() + ": " + node.path + " lists volume cells; its numbers are taken as those of boundary faces");
+    if (are_cells) context_.warn(tree_.source() + ": " + node.path + " lists volume cells; its numbers are read as numbers of boundary faces");
     std::size_t n = 0;
     const auto name_range = [&](std::int64_t first, std::int64_t last) {
       auto face = std::lower_bound(faces_.begin(), faces_.end(), first, [](const Face& f, std::int64_t element) { return f.element < element; });
@@ -437,7 +437,7 @@ class CgnsReader {
         ++n_conditions_left_out_;
         return;
       }
-      if (!condition.is_range || rank != 3) throw_unsupported(tree_.source(), node.path + ": a structured condition that is no range of nodes");
+      if (!condition.is_range || rank != 3) throw_unsupported(tree_.source(), node.path + ": a structured condition that is not a range of nodes");
       condition.points.require_integers(6, "first and last node of a range");
       std::array<std::int64_t, 3> first, last;
       for (std::size_t k = 0; k < 3; ++k) {

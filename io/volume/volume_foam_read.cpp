@@ -92,10 +92,10 @@ std::vector<std::string> read_boundary(const std::filesystem::path& folder, std:
     if (patch.n_faces > 0 && patch.first_face != next)
       file.fail("patch " + quoted_excerpt(patch.patch.name) + " starts at face " + std::to_string(patch.first_face) + ", expected " + std::to_string(next));
     if (patch.n_faces > faces.n_faces() - next)
-      file.fail("patch " + quoted_excerpt(patch.patch.name) + " ends behind the last face, " + std::to_string(faces.n_faces() - 1));
+      file.fail("patch " + quoted_excerpt(patch.patch.name) + " ends after the last face, " + std::to_string(faces.n_faces() - 1));
     if (patch.is_guess && patch.n_faces > 0)
       context.warn((folder / "boundary").string() + ": patch " + quoted_excerpt(patch.patch.name) +
-                   " is of type patch, which does not say what it is: it is taken as a farfield");
+                   " has type patch, which does not define its kind: the kind farfield is used");
     const PatchId id = mesh.patches.push_back(patch.patch);
     neighbours.push_back(patch.neighbour);
     std::fill_n(faces.patch.begin() + static_cast<std::ptrdiff_t>(next), patch.n_faces, id);
@@ -118,7 +118,7 @@ void find_periodic(const std::vector<std::string>& neighbours, HybridMesh& mesh,
     } catch (const Error& error) {
       if (error.code() != ErrorCode::bad_argument) throw;
       context.warn("cyclic patches \"" + mesh.patches[patch].name + "\" and \"" + mesh.patches[second].name +
-                   "\" are taken as two patches: " + error.info().problem);
+                   "\" are read as two separate patches: " + error.info().problem);
     }
   }
 }
@@ -173,7 +173,7 @@ void warn_of_zones(const std::filesystem::path& folder, const RunContext& contex
     if (zones.size() > k_named_zones) text += " and " + std::to_string(zones.size() - k_named_zones) + " more";
     context.warn(path.string() + ": " + std::to_string(zones.size()) + (zones.size() == 1 ? " zone" : " zones") + " of " + items + " (" + text + ") " +
                  (zones.size() == 1 ? "is" : "are") +
-                 " left out: sterna stores no zones. Patches are kept; make the zones again with topoSet after writing OpenFOAM");
+                 " left out: sterna stores no zones. Patches are kept; create the zones again with topoSet after writing OpenFOAM");
   }
 }
 

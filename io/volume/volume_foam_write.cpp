@@ -368,9 +368,9 @@ void write_missing_settings(const std::filesystem::path& folder) {
        "startTime;\nstartTime 0;\nstopAt endTime;\nendTime 1;\ndeltaT 1;\nwriteControl timeStep;\nwriteInterval 1;\nwriteFormat binary;\nwritePrecision "
        "12;\n"},
       {"fvSchemes",
-       "// Gradients of least squares over point neighbours: with Gauss linear, or with neighbours by faces only, drag was 3 % off or the run diverged.\n"
-       "ddtSchemes { default steadyState; }\ngradSchemes { default pointCellsLeastSquares; }\ndivSchemes { default none; }\nlaplacianSchemes { default "
-       "Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }\n"},
+       "// Least-squares gradients over point neighbours: with Gauss linear, or with face neighbours only, the drag error was 3 % or the run "
+       "diverged.\nddtSchemes { default steadyState; }\ngradSchemes { default pointCellsLeastSquares; }\ndivSchemes { default none; }\nlaplacianSchemes { "
+       "default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }\n"},
       {"fvSolution", "solvers {}\n"},
   }};
   std::error_code status;  // if a path cannot be accessed; writing reports the error
@@ -392,10 +392,11 @@ void require_foam_output(const std::filesystem::path& path) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, status))
     if (entry.path().extension() == ".foam" && entry.is_regular_file(status)) others.push_back(entry.path().filename().string());
   if (others.empty()) return;
-  throw Error({.code = ErrorCode::write_failed,
-               .attempted = "writing " + path.string(),
-               .problem = "the mesh beside it, " + polymesh_folder(path).string() + ", is that of " + *std::min_element(others.begin(), others.end()),
-               .hint = "OpenFOAM has one mesh in a case: write to a folder for each, or to constant/polyMesh to replace that one"});
+  throw Error(
+      {.code = ErrorCode::write_failed,
+       .attempted = "writing " + path.string(),
+       .problem = "the existing mesh in this case, " + polymesh_folder(path).string() + ", belongs to " + *std::min_element(others.begin(), others.end()),
+       .hint = "an OpenFOAM case has only one mesh: write each mesh to its own folder, or write to constant/polyMesh to replace the existing mesh"});
 }
 
 void require_foam_place(const std::filesystem::path& path) {

@@ -246,7 +246,7 @@ HybridMesh read_volume_su2(const std::filesystem::path& path, const RunContext& 
   context.progress(0.3);
   HybridMesh mesh;
   for (const Zone& zone : zones) read_zone(zone, buffer.source, mesh, context);
-  if (zones.size() > 1) context.info("zones joined to one mesh: " + std::to_string(zones.size()));
+  if (zones.size() > 1) context.info("zones joined into one mesh: " + std::to_string(zones.size()));
   context.progress(0.8);
   orient_mesh(mesh, context);
   return mesh;

@@ -48,7 +48,7 @@ class TauReader {
     std::array<NumberArray, 3> values;
     constexpr std::array<const char*, 3> k_names = {"points_xc", "points_yc", "points_zc"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!has(k_names[axis])) throw_malformed(image_.source(), where_of(k_names[axis]), "there is none, so this is no primary grid of TAU");
+      if (!has(k_names[axis])) throw_malformed(image_.source(), where_of(k_names[axis]), "there is none, so this is not a primary grid of TAU");
       values[axis] = data(k_names[axis]);
       values[axis].require_reals(values[0].count(), "coordinates of the points");
     }
@@ -98,7 +98,7 @@ class TauReader {
     constexpr const char* k_markers = "boundarymarker_of_surfaces";
     NumberArray markers;
     if (n > 0) {
-      if (!has(k_markers)) throw_malformed(image_.source(), where_of(k_markers), "there is none, so the faces are of no patch");
+      if (!has(k_markers)) throw_malformed(image_.source(), where_of(k_markers), "there is none, so the faces belong to no patch");
       markers = data(k_markers);
       markers.require_integers(n, "markers of all triangles, then of all quads");
     }

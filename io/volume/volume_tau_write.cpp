@@ -36,7 +36,7 @@ class TauWriter {
                         std::any_of(contents_.dimensions.begin(), contents_.dimensions.end(),
                                     [](const NetcdfOutput::Dimension& dimension) { return dimension.length > k_max_number; });
     if (contents_.is_cdf5)
-      context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which not every TAU reads");
+      context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which some versions of TAU cannot read");
     contents_.is_cdf5 = contents_.is_cdf5 || kind == TauNetcdf::cdf5;
     contents_.attributes = {{"type", "Primary Grid: Tau Format"}};
     for (const TauMarker& marker : markers_) contents_.attributes.emplace_back("marker_" + std::to_string(marker.number), marker.name);

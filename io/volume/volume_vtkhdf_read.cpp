@@ -37,7 +37,7 @@ class VtkHdfReader {
     if (type->text() != "UnstructuredGrid") throw_unsupported(file_.source(), "the file holds " + quoted_excerpt(type->text()) + ", not an UnstructuredGrid");
     const std::vector<std::uint64_t> n_points = counts("NumberOfPoints"), n_cells = counts("NumberOfCells"), n_ids = counts("NumberOfConnectivityIds");
     if (n_cells.size() != n_points.size() || n_ids.size() != n_points.size())
-      throw_malformed(file_.source(), "/VTKHDF", "the numbers of points, cells and connectivity ids are not of the same partitions");
+      throw_malformed(file_.source(), "/VTKHDF", "the arrays NumberOfPoints, NumberOfCells and NumberOfConnectivityIds have different numbers of partitions");
     read_points(sum(n_points, "/VTKHDF/NumberOfPoints"));
     const std::uint64_t n_all_cells = sum(n_cells, "/VTKHDF/NumberOfCells");
     connectivity_ = integers("Connectivity", sum(n_ids, "/VTKHDF/NumberOfConnectivityIds"));
@@ -73,7 +73,7 @@ class VtkHdfReader {
     std::uint64_t total = 0;
     for (const std::uint64_t value : values)
       if (__builtin_add_overflow(total, value, &total)) throw_malformed(file_.source(), where, "the sum does not fit 64 bits");
-    if (total > std::uint64_t{1} << 60) throw_malformed(file_.source(), where, "found " + std::to_string(total) + " in all");
+    if (total > std::uint64_t{1} << 60) throw_malformed(file_.source(), where, "found " + std::to_string(total) + " in total");
     return total;
   }
 

@@ -66,7 +66,7 @@ TEST_F(CommandLine, MisspeltNamesGetASuggestion) {
     EXPECT_NE(result.errors.find(text), std::string::npos) << result.errors;
   }
   std::filesystem::create_directory(folder / "parts");
-  EXPECT_NE(sterna({"info", "parts"}).errors.find("it is a folder"), std::string::npos);
+  EXPECT_NE(sterna({"info", "parts"}).errors.find("the path is a folder"), std::string::npos);
 }
 
 TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
@@ -210,7 +210,7 @@ TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
   // A second mesh would replace the first; the program refuses this before any work.
   const ProcessResult refused = sterna({"mesh", "box.stl", "-o", "second.foam"});
   EXPECT_EQ(refused.status, k_exit_failed);
-  EXPECT_NE(refused.errors.find("is that of new.foam"), std::string::npos) << refused.errors;
+  EXPECT_NE(refused.errors.find("belongs to new.foam"), std::string::npos) << refused.errors;
 }
 
 TEST_F(CommandLine, ConvertWritesVolumesOrTheirBoundaryOnRequest) {

@@ -89,7 +89,7 @@ TEST_F(FirstMesh, TheNativeFileHoldsWhatIsKnown) {
 TEST_F(FirstMesh, PatchRulesOfCommandAndScriptReachManifest) {
   const ProcessResult result = mesh_box("box.su2", {"--split-angle", "60deg", "--patch", "*:blend=0.2", "--patch", "*_1:layers=10,first_height=2mm"});
   ASSERT_EQ(result.status, k_exit_success) << result.errors;
-  EXPECT_NE(result.errors.find("one number of layers: 10, the largest asked for"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("one number of layers: 10, the largest requested"), std::string::npos) << result.errors;
   const std::string manifest = contents(folder / "box.su2.json");
   for (const char* part : {"\"patch_rules\"", "\"names\": \"*_1\"", "\"first_height\": 0.002", "\"blend\": 0.2", "\"VALID\""})
     EXPECT_NE(manifest.find(part), std::string::npos) << part;
@@ -104,7 +104,7 @@ TEST_F(FirstMesh, PatchRulesOfCommandAndScriptReachManifest) {
   ASSERT_EQ(again.status, k_exit_success) << again.errors;
   EXPECT_EQ(contents(folder / "again.su2"), contents(folder / "box.su2"));
 
-  for (const auto& [rule, text] : std::vector<std::pair<std::string, std::string>>{{"fuselage*:layers=3", "no patch has a name like \"fuselage*\""},
+  for (const auto& [rule, text] : std::vector<std::pair<std::string, std::string>>{{"fuselage*:layers=3", "no patch name matches \"fuselage*\""},
                                                                                    {"*:layres=3", "did you mean \"layers\"?"},
                                                                                    {"*:layers=3.5", "layers"},
                                                                                    {"*:kind=slipp", "slip"},

@@ -151,7 +151,7 @@ TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
   EXPECT_THAT(
       message("volume_mesh{ half(surface_mesh{ wing{ trailing_edge = 0.01, tip = 'flat', sections = { {chord = 1, airfoil = 'naca0012'}, {z = 2} } }:model(), "
               "max_edge = 0.2, min_edge = 0.03, curvature_angle = 40*deg }), layers = 3, first_height = 1e-3, wakes = 'auto' }"),
-      testing::HasSubstr("all sheets would be in planes"));
+      testing::HasSubstr("all sheets would lie in planes"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = 'always' }"),
               testing::HasSubstr("wakes: expected \"auto\" or a list"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, wakes = { wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0}, length = 10, "
@@ -178,7 +178,7 @@ TEST(ScriptRun, OverridesOfTheCommandLineWin) {
 
 TEST(ScriptRun, HelpNamesEveryOptionWithItsRange) {
   const std::string text = run_text("help(volume_mesh) help() help 'mesh:check' help(read_surface) help(sphere)");
-  for (const char* part : {"layers = automatic (by max_growth and the edges of the walls)  (0 .. 1000, or automatic)", "first_height = required [m]",
+  for (const char* part : {"layers = automatic (from max_growth and the edge lengths of the walls)  (0 .. 1000, or automatic)", "first_height = required [m]",
                            "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(error_of("help(3)").code(), ErrorCode::bad_argument);

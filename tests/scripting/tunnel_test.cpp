@@ -79,7 +79,7 @@ TEST_F(TunnelScripts, WakeBehindModelEndsAtOutlet) {
   // A body that stands on the floor.
   EXPECT_EQ(run(parts + "show(wake{ surface_mesh{ box{ {-1, -0.2, -1}, {0, 0.2, -0.5}, name = 'house' }, t, max_edge = 0.2 }, length = 1 })"),
             "-0.500 0.200 1.500 0.500\n");
-  EXPECT_THAT(error(parts + "wake{ surface_mesh{ t }, length = 2 }"), HasSubstr("encloses its fluid, and no wall stands within it"));
+  EXPECT_THAT(error(parts + "wake{ surface_mesh{ t }, length = 2 }"), HasSubstr("encloses its fluid, and there is no wall inside it"));
 }
 
 TEST_F(TunnelScripts, StingModelIsCutOutAtAnyAttitude) {
@@ -136,7 +136,7 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   EXPECT_THAT(error(mesh + "{ 'tunnel_left', 'tunnel_rigth' } }"), HasSubstr("did you mean \"tunnel_right\"?"));
   EXPECT_THAT(error(mesh + "{ 'tunnel_left' } }"), HasSubstr("periodic, entry 1: expected the names of two patches"));
   EXPECT_THAT(error(mesh + "'tunnel_left' }"), HasSubstr("periodic: expected the names of two patches"));
-  EXPECT_THAT(error(mesh + "{ { 'tunnel_left', 'tunnel_floor' } } }"), HasSubstr("do not point against each other"));
+  EXPECT_THAT(error(mesh + "{ { 'tunnel_left', 'tunnel_floor' } } }"), HasSubstr("do not point in opposite directions"));
 }
 
 TEST_F(TunnelScripts, AWingThroughPeriodicSides) {

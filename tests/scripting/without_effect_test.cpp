@@ -86,7 +86,7 @@ TEST_F(WithoutEffect, RequestsWithoutEffectOnThisModelAreWarnings) {
                                            "--ends-growth", "1.4", "--patch", "*:blend=0.05", "--source", "sphere 300 0 0 radius=50 size=20"});
   EXPECT_EQ(made.status, k_exit_success) << made.errors;
   EXPECT_THAT(made.errors, AllOf(HasSubstr("ends_growth = 1.4 has no effect"), HasSubstr("blend = 0.05 m of patches[\"*\"] has no effect"),
-                                 HasSubstr("source 1 (sphere about (300, 0, 0), size 20 m) lies wholly outside of the fluid")));
+                                 HasSubstr("source 1 (sphere about (300, 0, 0), size 20 m) lies completely outside the fluid")));
 }
 
 TEST_F(WithoutEffect, BlendsBetweenDifferentLayersAreNotReported) {

@@ -23,9 +23,10 @@ bool names_node(std::string_view problem) {
     const char first = problem[begin.size()];
     return std::isdigit(static_cast<unsigned char>(first)) || (first == '"' && problem.find('"', begin.size() + 1) > begin.size() + 1);
   }
-  for (const std::string_view whole : {"the file is empty", "the file: reading it needs more memory than ", "the file: the HDF5 library ",
-                                       "the file: the NetCDF library ", "the file: the CGNS library ", "the file: sterna-read-container made no sense of it: ",
-                                       "the file: its arrays unpack to more than ", "the file: it leads to more groups and attributes than "})
+  for (const std::string_view whole :
+       {"the file is empty", "the file: reading it needs more memory than ", "the file: the HDF5 library ", "the file: the NetCDF library ",
+        "the file: the CGNS library ", "the file: sterna-read-container returned invalid data: ", "the file: its arrays unpack to more than ",
+        "the file: it refers to more groups and attributes than "})
     if (problem.starts_with(whole)) return true;
   return problem.starts_with('/') && problem.find(": ") != std::string_view::npos;
 }

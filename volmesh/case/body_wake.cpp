@@ -91,9 +91,9 @@ SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& di
     for (const VertexId v : wall.triangles[t]) box.add(wall.points[v]);
   }
   if (box.empty())
-    throw_bad_argument(attempted, is_domain ? "the surface encloses its fluid, and no wall stands within it" : "the surface has no walls", {},
+    throw_bad_argument(attempted, is_domain ? "the surface encloses its fluid, and there is no wall inside it" : "the surface has no walls", {},
                        "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }");
-  if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "its direction has no length"});
+  if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the direction has no length"});
   // Directions across the flow: sideways (along y if the flow is vertical) and upwards.
   const Vec3 along = normalized(direction), sideways = cross(Vec3{0.0, 0.0, 1.0}, along);
   const Vec3 across = norm(sideways) > 0.0 ? normalized(sideways) : Vec3{0.0, 1.0, 0.0}, up = cross(along, across);
@@ -126,8 +126,8 @@ MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunCon
   const SizeSource source = wake_behind(walls, wake, {1.0, 0.0, 0.0});
   const double f = options.family.refinement;
   context.info(
-      print_text("wake of a member of a family: edges of %.4g m, %.4g m at its end, %g body lengths behind the walls along x; sources of your own or "
-                 "family_wake = \"off\" replace it",
+      print_text("wake source of a mesh family member: edges of %.4g m, %.4g m at the far end, %g body lengths behind the walls along x; custom sources or "
+                 "family_wake = \"off\" replace this wake",
                  source.size / f, source.size_end / f, wake.length));
   options.sources.push_back(source);
   return options;

@@ -37,16 +37,20 @@ struct Schema<volmesh::BodyWake> {
   using O = volmesh::BodyWake;
   static constexpr std::string_view stage = "body_wake";
   static constexpr std::array fields = {
-      Field<O>{.name = "length", .member = &O::length, .min = 0.01, .max = 1000.0, .help = "behind a surface, in body lengths"},
+      Field<O>{.name = "length", .member = &O::length, .min = 0.01, .max = 1000.0, .help = "length of the wake behind a surface, in body lengths"},
       Field<O>{.name = "size",
                .member = &O::size,
                .unit = Unit::metre,
                .min = 1e-12,
                .help = "edge length behind the body",
-               .automatic = "an eighth of the body's height, at least a fiftieth of its length"},
-      Field<O>{
-          .name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 1e-12, .help = "edge length at its far end", .automatic = "twice the size"},
-      Field<O>{.name = "spread", .member = &O::spread, .min = 0.0, .max = 10.0, .help = "half its growth in height over the distance"},
+               .automatic = "1/8 of the body height, at least 1/50 of the body length"},
+      Field<O>{.name = "size_end",
+               .member = &O::size_end,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "edge length at the far end of the wake",
+               .automatic = "twice the size"},
+      Field<O>{.name = "spread", .member = &O::spread, .min = 0.0, .max = 10.0, .help = "half of the wake's growth in height per distance along the wake"},
   };
 };
 

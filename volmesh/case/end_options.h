@@ -28,10 +28,18 @@ struct Schema<volmesh::EndOptions> {
                .member = &O::size_growth,
                .min = 1.02,
                .max = 2.0,
-               .help = "ratio of the edges of neighbouring triangles on patches where layers end, away from the layers"},
-      Field<O>{
-          .name = "ends_min_angle", .member = &O::min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.55, .help = "goal for the angles of these triangles"},
-      Field<O>{.name = "ends_max_triangles", .member = &O::max_triangles, .min = 1, .max = 1e9, .help = "of one patch; beyond it is an error"},
+               .help = "edge length ratio of neighbouring triangles on adjacent patches (where layers end), with distance from the layers"},
+      Field<O>{.name = "ends_min_angle",
+               .member = &O::min_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 0.55,
+               .help = "target of the smallest angle of triangles on adjacent patches"},
+      Field<O>{.name = "ends_max_triangles",
+               .member = &O::max_triangles,
+               .min = 1,
+               .max = 1e9,
+               .help = "largest number of triangles of one adjacent patch; more triangles are an error"},
   };
 };
 

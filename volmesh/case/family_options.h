@@ -31,13 +31,13 @@ struct Schema<volmesh::FamilyOptions> {
                .member = &O::refinement,
                .min = 0.01,
                .max = 100.0,
-               .help = "member f of a mesh family: first heights, sizes of tetrahedra, sources and farfield divided by f, f times the layers, growth to the "
-                       "power 1/f; give the surface the same",
+               .help = "refinement factor f of a mesh family member: divides first heights and the sizes of tetrahedra, sources and farfield by f, multiplies "
+                       "the number of layers by f, and takes growth to the power 1/f; give the surface mesh the same refinement",
                .choices = volmesh::k_family_names},
       Field<O>{.name = "family_wake",
                .member = &O::family_wake,
-               .help = "wake{ wall } where no source is given, edges over f like all others, so that members differ by one factor there, too; automatic: where "
-                       "refinement is given",
+               .help = "adds the source wake{ wall } if no source is given; its edges are divided by f, so that the wakes of the members differ by the same "
+                       "factor; automatic: added if refinement is given",
                .choices = "automatic on off"},
   };
 };

@@ -31,7 +31,7 @@ SideRule parse_side(const std::string& entry) {
       rule.name = part.substr(5);
     } else if (part.starts_with("edge:")) {
       rule.edge = parse_number_with_unit(part.substr(5), Unit::metre, BareAngle::degrees);
-      if (!(rule.edge > 0.0)) refuse(entry, "an edge length is above zero");
+      if (!(rule.edge > 0.0)) refuse(entry, "the edge length must be above zero");
     } else {
       rule.kind = patch_kind_of(part, std::string(k_sides_attempt) + ": \"" + entry + "\"");
       rule.has_kind = true;
@@ -54,7 +54,8 @@ PatchKind patch_kind_of(const std::string& name, const std::string& attempted) {
     if (to_string(kind) == name) return kind;
     names += (names.empty() ? "" : ", ") + std::string(to_string(kind));
   }
-  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "\"" + name + "\" is no kind of a patch", .hint = "there are " + names});
+  throw Error(
+      {.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "\"" + name + "\" is not a patch kind", .hint = "the patch kinds are " + names});
 }
 
 std::vector<SideRule> parse_sides(const std::string& text) {

@@ -28,8 +28,8 @@ std::array<double, 3> weights_of(const std::array<Point, 3>& t, const Point& p) 
 FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, const RunContext& context) : surface_(surface), heights_(std::move(heights)) {
   if (heights_.size() != surface_.n_vertices() || heights_.empty())
     throw Error({.code = ErrorCode::internal,
-                 .attempted = "taking first heights by place",
-                 .problem = std::to_string(heights_.size()) + " heights of " + std::to_string(surface_.n_vertices()) + " vertices"});
+                 .attempted = "setting first heights by location",
+                 .problem = std::to_string(heights_.size()) + " heights for " + std::to_string(surface_.n_vertices()) + " vertices"});
   std::vector<ErrorPlace> wrong;
   for (const VertexId v : surface_.points.ids()) {
     const double height = heights_[v.index()];
@@ -38,10 +38,10 @@ FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, 
   }
   if (!wrong.empty())
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "taking first heights by place",
-                 .problem = "the function of first_height gives what is no height of " + in_metres(k_least_first_height, k_height_digits) + " at least",
+                 .attempted = "setting first heights by location",
+                 .problem = "the function first_height returns values that are not heights of " + in_metres(k_least_first_height, k_height_digits) + " or more",
                  .places = std::move(wrong),
-                 .hint = "it is asked at every vertex of the surface, also of patches that carry no layers"});
+                 .hint = "the function is called at every vertex of the surface, also on patches without layers"});
   const auto [least, greatest] = std::minmax_element(heights_.begin(), heights_.end());
   least_ = *least;
   greatest_ = *greatest;

@@ -91,7 +91,7 @@ void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<
     return false;
   };
   const bool has_layers = std::ranges::find(has_layer.raw(), 1) != has_layer.raw().end();
-  const std::string why = has_layers ? "the rules of patches give it for each patch with layers; leave one of them out" : "no patch carries layers";
+  const std::string why = has_layers ? "patch rules replace this value on each patch with layers; leave out the value or the rules" : "no patch carries layers";
   const auto warn_unless_used = [&](const char* name, double value, double PatchRule::*member) {
     if (!is_automatic(value) && !is_used(member)) context.warn(std::string(name) + " = " + number_text(value) + " of all walls has no effect: " + why);
   };
@@ -168,7 +168,7 @@ std::vector<Point> samples_of(const SizeSource& source) {
 std::string text_of(const SizeSource& source, std::size_t number) {
   const Vec3 at = source.kind == SourceKind::point || source.kind == SourceKind::sphere ? source.from : box_of(source).center();
   return "source " + std::to_string(number) + " (" + std::string(to_string(source.kind)) + " about " + format_point(at) + ", size " +
-         (source.kind == SourceKind::samples ? "by place" : in_metres(source.size, 4)) + ")";
+         (source.kind == SourceKind::samples ? "by location" : in_metres(source.size, 4)) + ")";
 }
 
 /// Longest edge at each vertex, m.
@@ -221,7 +221,7 @@ void require_used_farfield(const FarfieldOptions& options) {
   if (problems.empty()) return;
   const std::string made = shape == "automatic" ? "\"automatic\", a sphere," : "\"" + shape + "\"";
   throw_bad_argument("making the farfield", "the shape " + made + " does not have " + joined(problems, ", "), {},
-                     "leave these options out, or choose farfield_shape from these shapes");
+                     "leave these options out, or set farfield_shape to one of these shapes");
 }
 
 void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
@@ -247,10 +247,10 @@ void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, c
     }
     const Patch& patch = boundary.patches[boundary.triangle_patch[nearest.triangle]];
     if (meets || (refines && patch.kind == PatchKind::wall && overlap(box_of(source), domain))) continue;
-    context.warn(text_of(source, i + 1) + " lies wholly outside of the fluid" +
-                 (refines ? ": it refines at most the cells beside the boundary" : " and has no effect") + ". The nearest place of the boundary is " +
-                 in_metres(nearest.distance, 3) + " away, at " + format_point(nearest.point) + " on patch \"" + patch.name + "\"; the fluid reaches from " +
-                 format_point(domain.min) + " to " + format_point(domain.max) + ". Move the source (are its lengths in metres?), or leave it out");
+    context.warn(text_of(source, i + 1) + " lies completely outside the fluid" +
+                 (refines ? ": the source refines at most the cells at the boundary" : " and has no effect") + ". The nearest point of the boundary is " +
+                 in_metres(nearest.distance, 3) + " away, at " + format_point(nearest.point) + " on patch \"" + patch.name + "\"; the fluid extends from " +
+                 format_point(domain.min) + " to " + format_point(domain.max) + ". Move the source (are its lengths in metres?), or leave out the source");
   }
 }
 

@@ -30,24 +30,24 @@ struct Schema<volmesh::ImproveOptions> {
                .unit = Unit::radian,
                .min = 0.0,
                .max = 0.6,
-               .help = "tetrahedra with a smaller dihedral angle are worked on"},
+               .help = "tetrahedra with a smaller dihedral angle are improved"},
       Field<O>{.name = "improve_max_angle",
                .member = &O::improve_max_angle,
                .unit = Unit::radian,
                .min = 2.0,
                .max = 3.14,
-               .help = "tetrahedra with a larger dihedral angle are worked on"},
+               .help = "tetrahedra with a larger dihedral angle are improved"},
       Field<O>{.name = "improve_rounds",
                .member = &O::improve_rounds,
                .min = 0,
                .max = 1000,
-               .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
+               .help = "number of passes over the bad tetrahedra; 0: the mesh stays as the engine made it"},
       Field<O>{.name = "slide_share",
                .member = &O::slide_share,
                .min = 0.0,
                .max = 0.5,
-               .help = "of the layer's height: how much lower (half of it: higher) lines may end after improvement where last prisms and tetrahedra do not fit "
-                       "each other; from the second round on 2.5 times that where a hard limit is missed; 0: never"},
+               .help = "share of the layer height by which growth lines may become lower (or, by half of it, higher) after improvement where last prisms and "
+                       "tetrahedra do not match; from the second round on 2.5 times this share where a hard limit is violated; 0: never"},
   };
 };
 

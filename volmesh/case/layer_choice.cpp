@@ -48,7 +48,7 @@ void refine(double f, FarfieldOptions& farfield) {
 LayerChoice solve_layers(LayerChoice c, std::string_view solve_for, std::string_view where) {
   if (is_automatic(c.total_height) || is_automatic(c.first_height) || c.layers == 0) return c;
   const std::string heights = print_text("a total height of %.6g m with a first height of %.6g m", c.total_height, c.first_height);
-  if (c.total_height < c.first_height * (1.0 - k_rounding)) throw bad(where, heights + " has no room for one layer", "raise total_height");
+  if (c.total_height < c.first_height * (1.0 - k_rounding)) throw bad(where, heights + " leaves no room for one layer", "raise total_height");
   if (solve_for == "layers") {
     const int n = fewest_layers(c);
     if (n > k_most_layers)
@@ -59,7 +59,7 @@ LayerChoice solve_layers(LayerChoice c, std::string_view solve_for, std::string_
   const double growth = growth_for_height(c.first_height, c.total_height, c.layers);
   if (c.layers * c.first_height > c.total_height * (1.0 + k_rounding))
     throw bad(where, heights + print_text(" is below %d layers of the first height", c.layers),
-              print_text("at most %d layers have room", static_cast<int>(c.total_height / c.first_height)));
+              print_text("give at most %d layers", static_cast<int>(c.total_height / c.first_height)));
   if (solve_for == "max_growth") {
     if (growth > k_largest_growth)
       throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, at most %g", c.layers, growth, k_largest_growth), "give more layers");
@@ -68,7 +68,7 @@ LayerChoice solve_layers(LayerChoice c, std::string_view solve_for, std::string_
   }
   if (growth > c.max_growth * (1.0 + k_rounding))
     throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, but max_growth is %g", c.layers, growth, c.max_growth),
-              print_text("leave layers or max_growth out; %d layers would do", fewest_layers(c)));
+              print_text("leave out layers or max_growth; %d layers are enough", fewest_layers(c)));
   return c;
 }
 
@@ -77,9 +77,9 @@ std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::s
   if (has_layers != has_growth) return has_layers ? "max_growth" : "layers";
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = std::string(attempted),
-               .problem = has_layers ? "layers, max_growth and total_height are one too many: the third follows from the two others"
-                                     : "total_height needs layers or max_growth with it: the other one follows",
-               .hint = has_layers ? "leave one of them out" : "total_height = 0.02, max_growth = 1.2"});
+               .problem = has_layers ? "layers, max_growth and total_height cannot all be given: each follows from the other two"
+                                     : "total_height needs layers or max_growth: the other option follows",
+               .hint = has_layers ? "leave one of the three out" : "for example total_height = 0.02, max_growth = 1.2"});
 }
 
 MeshCase refined(MeshCase options) {
@@ -114,7 +114,7 @@ MeshCase effective_options(const MeshCase& user_options, const RunContext& conte
   EnvelopeOptions& e = options.envelope;
   if (const double f = user_options.family.refinement; f != 1.0)
     context.info(
-        print_text("refinement %.4g of a mesh family: %sgrowth %.4g instead of %.4g", f,
+        print_text("refinement %.4g in a mesh family: %sgrowth %.4g instead of %.4g", f,
                    is_automatic(e.layers) ? "" : print_text("%d layers instead of %d, ", e.layers, user_options.envelope.layers).c_str(), e.max_growth,
                    user_options.envelope.max_growth) +
         (is_automatic(e.first_height) ? "" : print_text(", first height %.4g m instead of %.4g m", e.first_height, user_options.envelope.first_height)));
@@ -124,7 +124,7 @@ MeshCase effective_options(const MeshCase& user_options, const RunContext& conte
   if (is_automatic(e.first_height)) return options;  // patches have their own first heights and are solved one by one
   if (is_automatic(e.layers)) {
     if (e.solve_for == "max_growth")
-      throw bad("all walls", "max_growth is to follow from total_height, and the number of layers is not given", "give layers, or solve_for = \"layers\"");
+      throw bad("all walls", "max_growth is to follow from total_height, but the number of layers is not given", "give layers, or solve_for = \"layers\"");
     e.solve_for = "layers";
   }
   const LayerChoice solved = solve_layers({e.layers, e.first_height, e.max_growth, e.total_height}, e.solve_for, "all walls");

@@ -25,9 +25,9 @@ struct Schema<volmesh::LimitOptions> {
                .member = &O::max_memory,
                .unit = Unit::byte,
                .min = 1e6,
-               .help = "a mesh that is expected to need more is an error before the work",
-               .automatic = "what the machine has free"},
-      Field<O>{.name = "force", .member = &O::force, .help = "goes on all the same, with a warning"},
+               .help = "largest memory; if the mesh is expected to need more, the run ends with an error before meshing",
+               .automatic = "free memory of the machine"},
+      Field<O>{.name = "force", .member = &O::force, .help = "continue with a warning if the mesh is expected to need more memory"},
   };
 };
 

@@ -29,19 +29,19 @@ struct Schema<volmesh::NeedleOptions> {
                .unit = Unit::radian,
                .min = 0.0,
                .max = 0.35,
-               .help = "triangles of walls with layers that have a smaller angle are flipped, and split where needle_budget says so, before the layer is made; "
-                       "0: never"},
+               .help = "sliver triangles: edges of wall triangles with a smaller angle are flipped, and split if needle_budget allows, before the layers are "
+                       "made; only walls with layers; 0: never"},
       Field<O>{.name = "needle_budget",
                .member = &O::needle_budget,
                .min = 0.0,
                .max = 100.0,
-               .help = "largest number of triangles that splitting adds, over those of the walls with layers; 0: edges are flipped only"},
+               .help = "largest number of triangles that splitting adds, relative to the triangles of walls with layers; 0: edges are only flipped"},
       Field<O>{.name = "flip_angle",
                .member = &O::flip_angle,
                .unit = Unit::radian,
                .min = 0.0,
                .max = 0.35,
-               .help = "edges at which the wall turns by less may be flipped for that; 0: none, and needles stay as they are"},
+               .help = "edges of sliver triangles may be flipped if the wall turns by less than this angle; 0: no edge is flipped, and sliver triangles stay"},
   };
 };
 

@@ -29,18 +29,18 @@ template <>
 struct Schema<volmesh::PatchRule> {
   using O = volmesh::PatchRule;
   static constexpr std::string_view stage = "patches";
-  static constexpr std::string_view as_all = "as of all walls";
+  static constexpr std::string_view as_all = "value for all walls";
   static constexpr std::array fields = {
       Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of patches"},
       Field<O>{.name = "kind",
                .member = &O::kind,
-               .help = "of these patches; only a wall carries layers",
+               .help = "kind of these patches; only walls carry layers",
                .choices = "as_read wall slip symmetry inflow outflow farfield interface"},
       Field<O>{.name = "layers",
                .member = &O::layers,
                .min = -1,
                .max = 1000,
-               .help = "number of prism layers: walls that are connected get the largest asked for; 0: none; -1: as of all walls"},
+               .help = "number of prism layers; connected walls get the largest requested number; 0: none; -1: value for all walls"},
       Field<O>{.name = "first_height",
                .member = &O::first_height,
                .unit = Unit::metre,
@@ -57,7 +57,7 @@ struct Schema<volmesh::PatchRule> {
                .member = &O::total_height,
                .unit = Unit::metre,
                .min = 1e-12,
-               .help = "height of all layers together; max_growth follows, or where max_growth is given here, layers",
+               .help = "total height of the layers; max_growth follows, or layers if max_growth is given here",
                .automatic = as_all},
       Field<O>{.name = "max_thickness",
                .member = &O::max_thickness,
@@ -69,15 +69,15 @@ struct Schema<volmesh::PatchRule> {
                .member = &O::blend,
                .unit = Unit::metre,
                .min = 1e-12,
-               .help = "so far from the border with walls that ask for something else it is blended with theirs",
-               .automatic = "3 times the taller layer there, at least 8 edges"},
+               .help = "blending distance from walls with other layer settings",
+               .automatic = "3 times the height of the taller layer, at least 8 edges"},
       Field<O>{.name = "open_ridges",
                .member = &O::open_ridges,
-               .help = "whether layers get several normals along sharp convex edges between such patches; as_all: as ridges says",
+               .help = "whether layers get several normals along sharp convex edges between such patches; as_all: value of the ridges options",
                .choices = "as_all never always"},
       Field<O>{.name = "truncate",
                .member = &O::truncate,
-               .help = "whether lines of less than their full height end with fewer layers; as_all: as prisms says",
+               .help = "whether growth lines below full height get fewer layers; as_all: value of the prisms options",
                .choices = "as_all never auto always"},
   };
 };

@@ -27,11 +27,12 @@ struct Schema<volmesh::PrismOptions> {
                .member = &O::wall_perpendicularity,
                .min = 0.0,
                .max = 1.0,
-               .help = "c_t of the layer curves: how far from the wall they stay normal to it; less where cells would suffer; 0 = straight"},
+               .help = "parameter c_t of the curved growth lines: distance from the wall up to which they stay wall-normal; reduced where cell quality would "
+                       "suffer; 0: straight lines"},
       Field<O>{.name = "truncate",
                .member = &O::truncate,
-               .help = "whether lines of less than their full height end with fewer layers; auto: where the last cell would be thinner than half a regular "
-                       "tetrahedron on it; always: wherever they are lower, so that heights grow as on full lines; never: compressed only",
+               .help = "whether growth lines below full height get fewer layers; auto: if the last cell would be thinner than half of a regular tetrahedron on "
+                       "it; always: on all lower lines, so that cells grow as on full lines; never: the layers are only compressed",
                .choices = "never auto always"},
   };
 };

@@ -35,13 +35,13 @@ struct Schema<volmesh::RidgeOptions> {
                .unit = Unit::radian,
                .min = 0.7,
                .max = 3.1,
-               .help = "convex edges at which the wall turns by more get several normals; a larger value opens fewer"},
+               .help = "convex edges at which the wall turns by more than this angle get several normals; a larger value opens fewer edges"},
       Field<O>{.name = "fan_angle",
                .member = &O::fan_angle,
                .unit = Unit::radian,
                .min = 0.15,
                .max = 1.1,
-               .help = "largest angle between two normals of one edge; a smaller value makes more cells around it"},
+               .help = "largest angle between two normals of one edge; a smaller value makes more cells around the edge"},
   };
 };
 

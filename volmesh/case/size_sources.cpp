@@ -66,7 +66,7 @@ std::string problem_of(const SizeSource& source, double growth) {
   if (!is_finite(source.from) || !is_finite(source.to) || !is_finite(source.direction)) return "coordinates must be finite";
   if (source.kind == SourceKind::samples) {
     if (source.points.empty()) return "there are no samples";
-    if (source.points.size() != source.sizes.size()) return "there must be one size for each sample";
+    if (source.points.size() != source.sizes.size()) return "each sample needs one size";
     if (!std::ranges::all_of(source.sizes, positive)) return "sizes of samples must be positive";
     if (!std::ranges::all_of(source.points, is_finite)) return "coordinates must be finite";
     return "";

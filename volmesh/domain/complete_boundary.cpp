@@ -72,8 +72,8 @@ bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const
   ErrorInfo info{.code = ErrorCode::bad_argument,
                  .attempted = k_completing_attempt,
                  .problem = "of the " + std::to_string(outer.size()) + " outermost parts " + std::to_string(n_domains) +
-                            " have their normals inwards, as the boundary of a domain, the others outwards, as bodies",
-                 .hint = "turn the triangles of the parts that are wrong"};
+                            " have normals that point inwards, as the boundary of a domain; the other parts have normals that point outwards, as bodies",
+                 .hint = "reverse the triangles of the wrong parts"};
   for (const TriangleId t : mesh.triangles.ids())
     if (std::find(outer.begin(), outer.end(), components.component[t]) != outer.end() && is_domain(components.component[t])) {
       info.places.push_back({corners(mesh, t)[0], "normals inwards"});
@@ -89,14 +89,14 @@ void check_encloses(const TriMesh& surface, const Topology& topology, std::span<
   std::vector<std::uint8_t> is_seen(components.count, 0);
   ErrorInfo info{.code = ErrorCode::bad_argument,
                  .attempted = k_completing_attempt,
-                 .problem = "the farfield's surface does not enclose the bodies",
-                 .hint = "it has to be around all of them; of half models, cut or uncut"};
+                 .problem = "the farfield surface does not enclose the bodies",
+                 .hint = "the farfield surface must enclose all bodies; for half models it may be cut at the symmetry plane or not"};
   for (const TriangleId t : surface.triangles.ids()) {
     if (is_seen[components.component[t]] != 0) continue;
     const Point p = corners(surface, t)[0];
     if (std::any_of(ends.begin(), ends.end(), [&](const EndPlane& end) { return p[end.axis] == end.at; })) continue;
     is_seen[components.component[t]] = 1;
-    if (std::abs(tree.winding_number(p)) < 0.5) info.places.push_back({p, "this part is outside"});
+    if (std::abs(tree.winding_number(p)) < 0.5) info.places.push_back({p, "this part is outside the farfield surface"});
   }
   if (!info.places.empty()) throw Error(std::move(info));
 }
@@ -111,8 +111,8 @@ TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const Ou
   if (!options.surface || options.surface->n_triangles() == 0)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_completing_attempt,
-                 .problem = "the farfield's shape is \"surface\", but there is no surface",
-                 .hint = "give farfield_surface, or farfield = a surface; .sterna files do not keep it"});
+                 .problem = "the farfield shape is \"surface\", but there is no surface",
+                 .hint = "give farfield_surface, or farfield = a surface; .sterna files do not store the farfield surface"});
   TriMesh shape = *options.surface;
   const Topology of_shape(shape, context);
   const bool is_closed = of_shape.n_boundary_halfedges() == 0;
@@ -124,7 +124,7 @@ TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const Ou
   const bool is_unknown = options.farfield.farfield_sides.empty() &&
                           std::all_of(shape.patches.begin(), shape.patches.end(), [](const Patch& patch) { return patch.kind == PatchKind::wall; });
   if (is_unknown) {
-    context.info("the farfield's surface has walls alone: taken as farfield; farfield_sides gives its patches other kinds");
+    context.info("the farfield surface has only patches of kind wall: they become farfield; farfield_sides sets other kinds");
     for (Patch& patch : shape.patches) patch.kind = PatchKind::farfield;
   }
   return shape;
@@ -194,7 +194,7 @@ std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const
       if (rule.side != planes[i].name) continue;
       const std::string side = side_of(ends[i]);
       if (std::ranges::find(rules, side, &SideRule::side) != rules.end())
-        throw_bad_argument("farfield_sides", "\"" + rule.side + "\" and \"" + side + "\" are the same plane", {}, "leave one of them out");
+        throw_bad_argument("farfield_sides", "\"" + rule.side + "\" and \"" + side + "\" are the same plane", {}, "leave one of the two rules out");
       rule.side = side;
       // Same default as for a plane of another shape: a plane of symmetry unless specified otherwise.
       if (!rule.has_kind) rule.kind = PatchKind::symmetry;
@@ -241,11 +241,11 @@ void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::spa
       for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
       const std::string nearest = nearest_name(rule.side, known);
       throw_bad_argument("farfield_sides", "there is no side \"" + rule.side + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"), {},
-                         names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "there are " + names);
+                         names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "the sides are " + names);
     }
     if (is_automatic(rule.edge) || has_own_edges || std::ranges::find(planes, rule.side, &Patch::name) != planes.end()) continue;
-    throw_bad_argument("farfield_sides", "the edge length of \"" + rule.side + "\" has no effect: the triangles of this farfield are not made by it", {},
-                       "give farfield_edge for a sphere; a surface of your own keeps its triangles");
+    throw_bad_argument("farfield_sides", "the edge length of \"" + rule.side + "\" has no effect on the triangles of this farfield", {},
+                       "give farfield_edge for a sphere; a farfield surface keeps its triangles");
   }
 }
 
@@ -273,8 +273,7 @@ void choose_box(const TriMesh& surface, std::span<const EndPlane> ends, Farfield
   farfield.farfield_radius = k_automatic;
   farfield.farfield_shape = "box";
   context.info("the farfield is a box, " + in_metres(reach) +
-               " around the middle of the walls: the planes are periodic sides, and of a sphere they would be no images of "
-               "each other");
+               " around the middle of the walls: the planes are periodic sides, and their borders on a sphere would not match");
 }
 
 TriMesh cut(TriMesh shape, std::span<const EndPlane> ends, const RunContext& context) {
@@ -304,13 +303,13 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
   if (is_enclosed && farfield.farfield_shape != "none" && is_changed(farfield))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_completing_attempt,
-                 .problem = "a farfield is given, but the surface encloses its fluid already: its outermost part has normals inwards",
-                 .hint = "leave the farfield out, or turn the surface if it is a body"});
+                 .problem = "a farfield is given, but the surface already encloses its fluid: the normals of its outermost part point inwards",
+                 .hint = "leave the farfield out, or reverse the normals of the surface if it is a body"});
   if (!is_enclosed && farfield.farfield_shape == "none")
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_completing_attempt,
-                 .problem = "no farfield is wanted, but the surface encloses no fluid: its outermost parts have normals outwards, as bodies",
-                 .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
+                 .problem = "farfield_shape is \"none\", but the surface encloses no fluid: the normals of its outermost parts point outwards, as on bodies",
+                 .hint = "give a farfield; if the surface is to enclose the fluid, its normals must point inwards"});
 }
 
 /// Returns the patch of a box's side: from the rules, otherwise farfield.

@@ -52,7 +52,7 @@ class Cutter {
         case Reach::outside: continue;
         case Reach::rim:
           ++n_at_rims;
-          if (at_rims.size() < k_max_places) at_rims.push_back({middle, "the disc's rim meets patch \"" + name(t) + "\""});
+          if (at_rims.size() < k_max_places) at_rims.push_back({middle, "the circle of the disc meets patch \"" + name(t) + "\""});
           [[fallthrough]];
         case Reach::inside: break;
       }
@@ -61,8 +61,9 @@ class Cutter {
     }
     if (!has_any || !is_layered) return false;
     if (n_at_rims > 0)
-      fail(std::to_string(n_at_rims) + " triangles of walls go through its rims", std::move(at_rims), n_at_rims,
-           "a rim of a disc lies in the fluid or inside of the body: choose radius and inner_radius so that they do not cross the wall");
+      fail(std::to_string(n_at_rims) + " wall triangles cross the outer or inner circle of the disc", std::move(at_rims), n_at_rims,
+           "each circle of the disc must be completely in the fluid or completely inside the body: choose radius and inner_radius so that the circles do not "
+           "cross the wall");
     return true;
   }
 
@@ -73,7 +74,9 @@ class Cutter {
       for (const VertexId v : mesh_.triangles[t]) {
         if (height_[v] != 0.0) continue;
         mesh_.points[v] = plane_.onto(mesh_.points[v]);
-        if (taken_by_[v] != 0) fail("its outline meets that of another disc", {{mesh_.points[v], "a vertex of both"}}, 1, "discs may not meet");
+        if (taken_by_[v] != 0)
+          fail("the outline of the disc meets the outline of another disc", {{mesh_.points[v], "a vertex of both outlines"}}, 1,
+               "move one of the discs: discs must not meet");
       }
     }
     struct Candidate {
@@ -165,7 +168,7 @@ class Cutter {
         if (height_[a] == 0.0) degree.try_emplace(a, 0);
         if (height_[a] != 0.0 || height_[b] != 0.0) continue;
         if (height_[c] == 0.0) {
-          if (k == 0) complain((mesh_.points[a] + mesh_.points[b] + mesh_.points[c]) / 3.0, "a triangle of the wall lies in the disc's plane");
+          if (k == 0) complain((mesh_.points[a] + mesh_.points[b] + mesh_.points[c]) / 3.0, "a triangle of the wall lies in the plane of the disc");
           continue;
         }
         Sides& sides = edges[{std::min(a, b), std::max(a, b)}];
@@ -176,7 +179,7 @@ class Cutter {
     CutDisc cut;
     for (const auto& [key, sides] : edges) {
       if (sides.upstream != 1 || sides.downstream != 1) {
-        complain(0.5 * (mesh_.points[key[0]] + mesh_.points[key[1]]), "an edge of the wall touches the disc's plane");
+        complain(0.5 * (mesh_.points[key[0]] + mesh_.points[key[1]]), "an edge of the wall touches the plane of the disc");
         continue;
       }
       cut.outline.push_back(sides.edge);
@@ -184,11 +187,11 @@ class Cutter {
       ++degree[key[1]];
     }
     for (const auto& [edge, point] : cut_points_)
-      if (point.n_uses != 2) complain(mesh_.points[point.vertex], "the disc's rim comes too near to the wall");
+      if (point.n_uses != 2) complain(mesh_.points[point.vertex], "the circle of the disc is too close to the wall");
     for (const auto& [v, n] : degree)
-      if (n != 2) complain(mesh_.points[v], n == 0 ? "the wall touches the disc's plane" : "outlines of the disc meet");
+      if (n != 2) complain(mesh_.points[v], n == 0 ? "the wall touches the plane of the disc" : "outlines of the disc meet");
     if (n_places > 0)
-      fail("the wall does not go through its plane at " + std::to_string(n_places) + " places, but touches it", std::move(places), n_places,
+      fail("the wall touches the plane of the disc at " + std::to_string(n_places) + " locations without crossing it", std::move(places), n_places,
            "move the disc along its axis, by some edge lengths of the wall");
     find_rims(cut);
     return cut;
@@ -245,7 +248,8 @@ class Cutter {
       return found->second.vertex;
     }
     if (taken_by_[a] != 0 && taken_by_[a] == taken_by_[b])
-      fail("its outline meets that of another disc", {{cut_place(a, b), "an edge of both"}}, 1, "discs may not meet");
+      fail("the outline of the disc meets the outline of another disc", {{cut_place(a, b), "an edge of both outlines"}}, 1,
+           "move one of the discs: discs must not meet");
     found->second = {mesh_.points.push_back(cut_place(a, b)), 1};
     height_.push_back(0.0);
     return found->second.vertex;

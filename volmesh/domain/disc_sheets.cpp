@@ -33,14 +33,14 @@ ErrorInfo problem_with(const ActuatorDisc& disc, ErrorCode code, std::string pro
 
 void require_sane(const ActuatorDisc& disc) {
   const auto fail = [&](std::string problem) { throw Error(problem_with(disc, ErrorCode::bad_argument, std::move(problem))); };
-  if (disc.name.empty()) fail("it has no name");
-  if (!is_finite(disc.center)) fail("its center is not finite");
-  if (!is_finite(disc.axis) || norm(disc.axis) == 0.0) fail("its axis has no direction");
-  if (!(disc.radius > 0.0) || !std::isfinite(disc.radius)) fail("its radius is " + in_metres(disc.radius) + ", and must be positive");
+  if (disc.name.empty()) fail("the disc has no name");
+  if (!is_finite(disc.center)) fail("the center is not finite");
+  if (!is_finite(disc.axis) || norm(disc.axis) == 0.0) fail("the axis has no direction");
+  if (!(disc.radius > 0.0) || !std::isfinite(disc.radius)) fail("the radius is " + in_metres(disc.radius) + " and must be positive");
   if (!(disc.inner_radius >= 0.0) || disc.inner_radius >= disc.radius)
-    fail("its inner radius is " + in_metres(disc.inner_radius) + ", and must be between 0 and the radius, " + in_metres(disc.radius));
+    fail("the inner radius is " + in_metres(disc.inner_radius) + " and must be between 0 and the radius, " + in_metres(disc.radius));
   if (!is_automatic(disc.edge) && !(disc.edge > k_shortest_edge * disc.radius))
-    fail("its edge is " + in_metres(disc.edge) + ", and must be more than " + in_metres(k_shortest_edge * disc.radius));
+    fail("the edge length is " + in_metres(disc.edge) + " and must be more than " + in_metres(k_shortest_edge * disc.radius));
 }
 
 namespace {
@@ -113,8 +113,8 @@ std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
   double reached = disc.radius;
   for (; reached > disc.inner_radius; reached -= steps.back()) {
     if (steps.size() == k_most_rings)
-      throw Error(problem_with(disc, ErrorCode::bad_argument, "it needs more than " + std::to_string(k_most_rings) + " rings of triangles",
-                               "raise its edge, or move it away from finely meshed walls"));
+      throw Error(problem_with(disc, ErrorCode::bad_argument, "the disc needs more than " + std::to_string(k_most_rings) + " rings of triangles",
+                               "raise the edge length of the disc, or move the disc away from finely meshed walls"));
     steps.push_back(k_row_height * size(reached));
   }
   // The last step overshoots: it is kept if more than half of it is needed.
@@ -218,7 +218,7 @@ void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<Patc
     require_sane(disc);
     for (const std::string& name : {disc.name, back_name(disc)}) {
       if (std::ranges::find(names, name) != names.end())
-        throw Error(problem_with(disc, ErrorCode::bad_argument, "there is a patch \"" + name + "\" already", "give the disc a name of its own"));
+        throw Error(problem_with(disc, ErrorCode::bad_argument, "there is a patch \"" + name + "\" already", "give the disc another name"));
       names.push_back(name);
     }
   }
@@ -226,14 +226,14 @@ void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<Patc
 
 void require_clear(const ActuatorDisc& disc, std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t n_own,
                    const std::function<const std::string&(std::size_t)>& patch_of, const std::string& apart_from, const RunContext& context) {
-  ErrorInfo error = problem_with(disc, ErrorCode::self_intersection, "", "a disc may end on walls with layers only: leave a gap to everything else");
+  ErrorInfo error = problem_with(disc, ErrorCode::self_intersection, "", "a disc may touch only walls with layers: leave a gap to all other patches");
   for (const auto& [a, b] : find_crossings(points, triangles, context).pairs) {
     if ((a < n_own) == (b < n_own)) continue;
     const auto& t = triangles[std::min(a, b)];
     error.add_place((points[t[0]] + points[t[1]] + points[t[2]]) / 3.0, "the disc meets patch \"" + patch_of(std::max(a, b) - n_own) + "\"");
   }
   if (error.n_places == 0) return;
-  error.problem = std::to_string(error.n_places) + " pairs of its triangles and others meet" + apart_from;
+  error.problem = std::to_string(error.n_places) + " pairs of a disc triangle and another triangle meet" + apart_from;
   throw Error(std::move(error));
 }
 

@@ -125,7 +125,7 @@ class DomainSplitter {
       if (sums[k].value() < sums[container].value()) container = k;
     if (sums[container].value() >= 0.0)
       throw Error(error(ErrorCode::not_orientable, "no part of the boundary encloses the fluid",
-                        "normals must point into the fluid: out of bodies, and inwards on what encloses them"));
+                        "normals must point into the fluid: outwards on bodies, inwards on the surfaces around the bodies"));
     domain_.bodies = part_of(surface_, [&](TriangleId t) { return parts.component[t] != container; }).mesh;
     for (std::size_t k = 0; k < sums.size(); ++k)
       if (k != container && sums[k].value() < 0.0) add_cavity(parts, k, -sums[k].value());
@@ -157,7 +157,7 @@ class DomainSplitter {
   /// Numbers of periodic sides and of their partners in both parts. \throws if a wall with layers ends on only one of two partner sides
   void keep_periodic() {
     ErrorInfo info = error(ErrorCode::bad_argument, "",
-                           "the same walls must end on both periodic sides, at the same places: give the patches there the same kind and layers");
+                           "the same walls must end at the same locations of both periodic sides: give the patches there the same kind and layers");
     for (const PeriodicPatches& sides : periodic_) {
       PeriodicEnds ends{outer_.patch2part[sides.first], outer_.patch2part[sides.second], sides.translation, {}};
       for (const auto& [a, b] : sides.vertices) {
@@ -167,12 +167,12 @@ class DomainSplitter {
         if (on_first.is_valid() == on_second.is_valid()) continue;
         ++info.n_places;
         if (info.places.size() < k_max_places)
-          info.places.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, none at its image"});
+          info.places.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, but not at the periodic image"});
       }
       domain_.periodic.push_back(std::move(ends));
     }
     if (info.n_places == 0) return;
-    info.problem = "at " + std::to_string(info.n_places) + " vertices a wall with layers ends on one periodic side and not on the other";
+    info.problem = "at " + std::to_string(info.n_places) + " vertices a wall with layers ends on one periodic side but not on the other";
     throw Error(std::move(info));
   }
 
@@ -202,9 +202,9 @@ class DomainSplitter {
       }
     }
     if (pinched.empty()) return;
-    ErrorInfo info = error(ErrorCode::non_manifold_surface,
-                           "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
-                           "give one of the patches around the place layers or take those of the walls away (patches = { name = { layers = 0 } })");
+    ErrorInfo info = error(
+        ErrorCode::non_manifold_surface, "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
+        "give layers to one of the patches around this location, or remove the layers of the walls there (patches = { name = { layers = 0 } })");
     for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i)
       info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
     throw Error(std::move(info));
@@ -259,8 +259,8 @@ class DomainSplitter {
     }
     if (n_fixed_rim > 0)
       context_.warn("no layer at " + std::to_string(n_fixed_rim) +
-                    " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that "
-                    "ends at an outer edge, as at a slip wall, or at a patch with a rule layers = 0); one is at " +
+                    " vertices of the layer boundary: more than two patches without layers meet the wall there, or the layer would leave the adjacent patch "
+                    "(the wall ends at an outer edge, as at a slip wall, or at a patch with a rule layers = 0); one vertex is at " +
                     format_point(fixed_rim));
     for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
     mark_near();
@@ -305,8 +305,8 @@ class DomainSplitter {
         snap(vertices.vertices(), *plane);
       } else if (patch.kind == PatchKind::symmetry) {
         char text[120];
-        std::snprintf(text, sizeof text, "%.3g m off its mean plane, limit %.3g m", flat.distance, tolerance_at(outer_.mesh.points[flat.farthest]));
-        ErrorInfo info = error(ErrorCode::bad_argument, "the symmetry patch \"" + patch.name + "\" is not plane: a vertex is " + text,
+        std::snprintf(text, sizeof text, "%.3g m from its mean plane, limit %.3g m", flat.distance, tolerance_at(outer_.mesh.points[flat.farthest]));
+        ErrorInfo info = error(ErrorCode::bad_argument, "the symmetry patch \"" + patch.name + "\" is not flat: a vertex is " + text,
                                "a symmetry patch must lie in one plane; make it a slip wall (patches = { [\"" + patch.name +
                                    "\"] = { kind = \"slip\" } }) if it is curved on purpose");
         info.places.push_back({outer_.mesh.points[flat.farthest], "farthest vertex of " + patch.name});

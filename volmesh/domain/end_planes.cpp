@@ -17,7 +17,7 @@ namespace {
 
 constexpr double k_line_growth = 1.3;  ///< growth ratio of the edges on a line between two planes, from either end
 constexpr std::size_t k_most_line_vertices = 100'000;
-constexpr const char* k_planes_attempt = "filling the planes that the surface ends on";
+constexpr const char* k_planes_attempt = "filling the planes at which the surface ends";
 
 using Edge = std::array<VertexId, 2>;  ///< directed
 
@@ -32,8 +32,9 @@ std::string name_of(const EndPlane& end) {
 std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const EndPlane> ends, const RunContext& context) {
   const Topology topology(mesh, context);
   std::vector<std::vector<Edge>> rims(ends.size());
-  ErrorInfo info{
-      .code = ErrorCode::open_surface, .attempted = k_planes_attempt, .hint = "close the surface beside its planes; the outer shape has to reach them"};
+  ErrorInfo info{.code = ErrorCode::open_surface,
+                 .attempted = k_planes_attempt,
+                 .hint = "close the surface away from these planes; the outer shape must reach the planes"};
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
@@ -97,11 +98,12 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const
   if (on_line.size() % 2 != 0) {
     ErrorInfo info{.code = ErrorCode::open_surface,
                    .attempted = k_planes_attempt,
-                   .problem = "rims meet the line of the planes " + name_of(ends[k]) + " and " + name_of(ends[l]) + " in " + std::to_string(on_line.size()) +
-                              " vertices; the fluid's part of it begins and ends at one each",
-                   .hint = "rims may cross this line, not touch it, nor may a third plane cut it"};
+                   .problem = "open boundaries meet the intersection line of the planes " + name_of(ends[k]) + " and " + name_of(ends[l]) + " in " +
+                              std::to_string(on_line.size()) +
+                              " vertices; an even number is needed, because each part of the line in the fluid begins and ends at a vertex",
+                   .hint = "open boundaries may cross this line but not touch it, and no third plane may cut the line"};
     for (const VertexId v : on_line)
-      if (info.places.size() < k_max_places) info.places.push_back({mesh.points[v], "a rim meets the line"});
+      if (info.places.size() < k_max_places) info.places.push_back({mesh.points[v], "an open boundary meets the line"});
     throw Error(std::move(info));
   }
   for (std::size_t i = 0; i < on_line.size(); i += 2) {
@@ -145,7 +147,7 @@ void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& ri
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = k_planes_attempt;
-    info.problem = "the rims in the plane " + name_of(end) + " cross: " + info.problem;
+    info.problem = "the open boundaries in the plane " + name_of(end) + " cross: " + info.problem;
     for (ErrorPlace& place : info.places) {
       Point p;
       p[end.axis] = end.at;
@@ -171,9 +173,9 @@ void require_closed(const TriMesh& mesh, const RunContext& context) {
   if (topology.n_boundary_halfedges() == 0) return;
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = k_planes_attempt,
-                 .problem = "the planes do not close the surface: " + std::to_string(topology.n_boundary_halfedges()) + " edges have one triangle still",
+                 .problem = "the planes do not close the surface: " + std::to_string(topology.n_boundary_halfedges()) + " edges still have only one triangle",
                  .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
-                 .hint = "rims may not touch each other, and every rim has to be a border between fluid and body"};
+                 .hint = "open boundaries must not touch each other, and each must separate fluid and body"};
   for (std::size_t i = 0; i < topology.n_halfedges() && info.places.size() < k_max_places; ++i)
     if (topology.is_boundary(HalfedgeId(i))) info.places.push_back({mesh.points[topology.from(HalfedgeId(i))], "an open edge starts here"});
   throw Error(std::move(info));
@@ -206,8 +208,8 @@ std::vector<double> volumes_of(const TriMesh& mesh, const Components& components
   if (axis == 3)
     throw Error({.code = ErrorCode::open_surface,
                  .attempted = k_planes_attempt,
-                 .problem = "the surface ends on two planes across each of the three axes",
-                 .hint = "give the surface with its sides"});
+                 .problem = "the surface ends at two planes normal to each of the three axes",
+                 .hint = "add at least one of these sides to the surface"});
   for (const EndPlane& end : ends)
     if (end.axis == axis) origin = end.at;
   std::vector<double> volumes(components.count, 0.0);

@@ -97,9 +97,9 @@ ErrorInfo bad(std::string problem, std::string hint) {
 std::uint32_t frequency(double radius, double edge) {
   const double f = std::max(1.0, std::round(k_edge_ratio * radius / edge));
   if (20.0 * f * f > static_cast<double>(k_most_triangles)) {
-    throw Error(
-        bad("an edge of " + in_metres(edge) + " on a radius of " + in_metres(radius) + " needs more than " + std::to_string(k_most_triangles) + " triangles",
-            "raise farfield.farfield_edge"));
+    throw Error(bad("an edge length of " + in_metres(edge) + " on a sphere of radius " + in_metres(radius) + " needs more than " +
+                        std::to_string(k_most_triangles) + " triangles",
+                    "raise farfield.farfield_edge"));
   }
   return static_cast<std::uint32_t>(f);
 }
@@ -138,7 +138,7 @@ void check_encloses(const TriMesh& wall, const Vec3& center, double inner, doubl
   }
   const double needed = distance(farthest, center) + k_margin * length;
   if (needed <= inner) return;
-  ErrorInfo error = bad("the sphere's flat triangles come within " + in_metres(inner) + " of its centre, but the wall and a margin of " +
+  ErrorInfo error = bad("the flat triangles of the sphere come within " + in_metres(inner) + " of its centre, but the wall and a margin of " +
                             std::to_string(k_margin) + " body lengths reach out to " + in_metres(needed),
                         "raise farfield.farfield_radius (default 50 body lengths, here " + in_metres(k_default_radius * length) + ")");
   error.places.push_back({farthest, "farthest point of the wall"});

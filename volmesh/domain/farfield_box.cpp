@@ -37,8 +37,8 @@ BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::sp
     if (!(size.box.max[k] > size.box.min[k]))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = k_box_attempt,
-                   .problem = std::string("it reaches from ") + "xyz"[k] + " = " + in_metres(size.box.min[k]) + " to " + in_metres(size.box.max[k]),
-                   .hint = "give the lower corner first"});
+                   .problem = std::string("the box extends from ") + "xyz"[k] + " = " + in_metres(size.box.min[k]) + " to " + in_metres(size.box.max[k]),
+                   .hint = "give the lower corner first (farfield_from), then the upper corner (farfield_to)"});
   }
   const double common = common_edge(options.farfield_edge, k_default_edge * 0.5 * size.box.longest_side());
   const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
@@ -59,8 +59,8 @@ void check_encloses(const TriMesh& wall, const Box& box, std::span<const EndPlan
       return end.axis == k && (end.inward > 0.0) != is_upper && beyond({end.at, end.at, end.at}) <= k_coincident * box.longest_side();
     });
     if (is_end || beyond(farthest) + margin <= 0.0) continue;
-    info.problem += (info.problem.empty() ? "" : "; ") + std::string("its side ") + k_box_sides[side] + " at " + in_metres(at) + " has the wall " +
-                    (beyond(farthest) > 0.0 ? "beyond it by " : "inside by ") + in_metres(std::abs(beyond(farthest))) + " only, needed are " +
+    info.problem += (info.problem.empty() ? "" : "; ") + std::string("side ") + k_box_sides[side] + " at " + in_metres(at) + ": the wall is " +
+                    (beyond(farthest) > 0.0 ? "outside by " : "inside by ") + in_metres(std::abs(beyond(farthest))) + " but must be inside by " +
                     in_metres(margin);
     info.places.push_back({farthest, std::string("farthest point of the wall towards ") + k_box_sides[side]});
   }

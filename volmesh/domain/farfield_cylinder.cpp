@@ -46,8 +46,8 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
   if (!(size.length > 0.0))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_cylinder_attempt,
-                 .problem = "both ends are at " + format_point(to),
-                 .hint = "give farfield_from and farfield_to"});
+                 .problem = "both ends of the cylinder are at " + format_point(to),
+                 .hint = "give different farfield_from and farfield_to"});
   size.axis = (to - size.from) / size.length;
   // Take the coordinate axis that cyclically follows the steepest: y for a cylinder along x.
   std::size_t steepest = 0;
@@ -76,16 +76,16 @@ void check_encloses(const TriMesh& wall, const CylinderSize& size) {
   const auto require = [&](const std::string& what, const auto& needed, double given) {
     const Point farthest = *std::max_element(wall.points.begin(), wall.points.end(), [&](const Point& p, const Point& q) { return needed(p) < needed(q); });
     if (needed(farthest) + margin <= given) return;
-    info.problem += (info.problem.empty() ? "" : "; ") + what + " are " + in_metres(given) + ", the wall and a margin of 0.02 body lengths need " +
+    info.problem += (info.problem.empty() ? "" : "; ") + what + " is " + in_metres(given) + ", but the wall and a margin of 0.02 body lengths need " +
                     in_metres(needed(farthest) + margin);
     info.places.push_back({farthest, "farthest point of the wall"});
   };
   require(
-      "inside the flat triangles of its side", [&](const Point& p) { return norm((p - size.from) - dot(p - size.from, size.axis) * size.axis); }, inner);
+      "radius inside the flat triangles of the side", [&](const Point& p) { return norm((p - size.from) - dot(p - size.from, size.axis) * size.axis); }, inner);
   require(
-      "before its start", [&](const Point& p) { return -dot(p - size.from, size.axis); }, 0.0);
+      "length before the start of the cylinder", [&](const Point& p) { return -dot(p - size.from, size.axis); }, 0.0);
   require(
-      "from its start to its end", [&](const Point& p) { return dot(p - size.from, size.axis); }, size.length);
+      "length from start to end of the cylinder", [&](const Point& p) { return dot(p - size.from, size.axis); }, size.length);
   if (!info.places.empty()) throw Error(std::move(info));
 }
 

@@ -122,9 +122,9 @@ void flatten_rims(const Topology& topology, TriMesh& mesh, const RunContext& con
     }
     if (turns_over(beside[r], moved, rim, mesh)) continue;
     for (std::size_t i = 0; i < rim.size(); ++i) mesh.points[rim[i]] = moved[i];
-    context.warn("a rim of " + std::to_string(rim.size()) + " vertices lies in no plane, but near to " + "xyz"[*axis] + " = " + number_text(at) + ": " +
-                 std::to_string(n_off) + " of them were moved into it, by up to " + number_text(farthest, 3) + " m (" + number_text(farthest / length, 2) +
-                 " of the length)");
+    context.warn("an open boundary of " + std::to_string(rim.size()) + " vertices lies near, but not in, the plane " + "xyz"[*axis] + " = " + number_text(at) +
+                 ": " + std::to_string(n_off) + " vertices were moved into the plane, by up to " + number_text(farthest, 3) + " m (" +
+                 number_text(farthest / length, 2) + " of the length)");
   }
 }
 

@@ -43,11 +43,11 @@ std::vector<std::uint8_t> require_sheet(const TriMesh& mesh, const Topology& top
     std::string names;
     for (const Patch& patch : mesh.patches) names += (names.empty() ? "\"" : ", \"") + patch.name + "\"";
     throw_bad_argument(k_floor_attempt, "the surface has no patch \"" + floor + "\"", {},
-                       "give farfield_floor the name of the open sheet; the patches are " + names);
+                       "set farfield_floor to the name of the open floor surface; the patches are " + names);
   }
   ErrorInfo closed{.code = ErrorCode::bad_argument,
                    .attempted = k_floor_attempt,
-                   .problem = "patch \"" + floor + "\" belongs to no open sheet: its surface is closed",
+                   .problem = "patch \"" + floor + "\" is not part of an open floor surface: its surface is closed",
                    .hint = "leave the floor out: a closed surface needs no sides (fluid = \"inside\" for a domain, a farfield around bodies)"};
   ErrorInfo other{
       .code = ErrorCode::open_surface, .attempted = k_floor_attempt, .hint = "close this part, or add its patches to the pattern of farfield_floor"};
@@ -81,7 +81,7 @@ std::size_t up_of(const TriMesh& mesh, const Components& components, const std::
                  .attempted = k_floor_attempt,
                  .problem = std::string("the normals of the floor point downwards, along -") + "xyz"[up] + ", away from the fluid above it",
                  .places = {{corners(mesh, first)[0], "a triangle of the floor"}},
-                 .hint = "turn the triangles of the sheet; volume_mesh does so by itself"});
+                 .hint = "reverse the triangles of the floor; volume_mesh does this automatically"});
   return up;
 }
 
@@ -117,7 +117,7 @@ Box box_above(const TriMesh& mesh, const std::vector<std::array<VertexId, 2>>& r
                  .problem = std::string("the box begins at ") + "xyz"[up] + " = " + in_metres(from[up]) + ", above the lowest point of the floor at " +
                             in_metres(all.min[up]),
                  .places = {{lowest, "the lowest point"}},
-                 .hint = "lower that corner of the box: the fluid begins at the floor, wherever the corner is below it"});
+                 .hint = "lower the corner farfield_from: the fluid begins at the floor, also where the corner is lower"});
   }
   if (box.max[up] >= all.max[up] + margin) return box;
   const Point highest = *std::ranges::max_element(mesh.points, {}, [&](const Point& p) { return p[up]; });
@@ -140,15 +140,15 @@ ErrorPlace place_off(const TriMesh& mesh, const std::array<VertexId, 2>& edge, c
   Point worst = mesh.points[edge[0]];
   if (const Point& other = mesh.points[edge[1]]; off(other, nearest(other)) > off(worst, nearest(worst))) worst = other;
   const EndPlane side = nearest(worst);
-  return {worst,
-          "the rim is " + in_metres(off(worst, side)) + " from the nearest side, " + side_name(side) + " at " + "xyz"[side.axis] + " = " + in_metres(side.at)};
+  return {worst, "the border of the floor is " + in_metres(off(worst, side)) + " from the nearest side, " + side_name(side) + " at " + "xyz"[side.axis] +
+                     " = " + in_metres(side.at)};
 }
 
 void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<EndPlane, 4>& sides, const std::string& floor, TriMesh& mesh) {
   const double tolerance = k_flat_rim * body_length(mesh);
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = k_floor_attempt,
-                 .hint = "cut the sheet along the sides of the box, or give the box the corners of the sheet; close the holes of the sheet"};
+                 .hint = "cut the floor along the sides of the box, or place the box corners at the corners of the floor; close holes of the floor"};
   for (const std::array<VertexId, 2>& edge : rim) {
     const bool is_in_side = std::ranges::any_of(
         sides, [&](const EndPlane& side) { return off(mesh.points[edge[0]], side) <= tolerance && off(mesh.points[edge[1]], side) <= tolerance; });
@@ -156,8 +156,8 @@ void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<
     ++info.n_places;
     if (info.places.size() < k_max_places) info.places.push_back(place_off(mesh, edge, sides));
   }
-  info.problem = std::to_string(info.n_places) + " of " + std::to_string(rim.size()) + " rim edges of the floor \"" + floor +
-                 "\" lie in none of the box's vertical sides; the limit is " + in_metres(tolerance);
+  info.problem = std::to_string(info.n_places) + " of " + std::to_string(rim.size()) + " border edges of the floor \"" + floor +
+                 "\" lie in none of the vertical sides of the box; the limit is " + in_metres(tolerance);
   if (info.n_places > 0) throw Error(std::move(info));
   const Column<VertexId, Point> before = mesh.points;
   for (const std::array<VertexId, 2>& edge : rim)
@@ -173,7 +173,8 @@ void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<
     if (info.places.size() < k_max_places) info.places.push_back({a, "this triangle"});
   }
   if (info.n_places == 0) return;
-  info.problem = std::to_string(info.n_places) + " triangles at the rim of the floor \"" + floor + "\" turn over when the rim is moved into the box's sides";
+  info.problem = std::to_string(info.n_places) + " triangles at the border of the floor \"" + floor +
+                 "\" would be inverted by moving the border into the sides of the box";
   throw Error(std::move(info));
 }
 
@@ -181,7 +182,7 @@ void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<
 
 FloorBox fit_floor(const Topology& topology, const FarfieldOptions& options, TriMesh& mesh) {
   if (options.farfield_shape != "box")
-    throw_bad_argument(k_floor_attempt, "the farfield's shape is \"" + options.farfield_shape + "\"", {}, "a floor needs farfield = box{ floor = ... }");
+    throw_bad_argument(k_floor_attempt, "the farfield shape is \"" + options.farfield_shape + "\"", {}, "a floor needs farfield = box{ floor = ... }");
   require_used_farfield(options);
   const Components components = connected_components(mesh, topology);
   const std::vector<std::uint8_t> is_open = require_sheet(mesh, topology, components, options.farfield_floor);
@@ -214,7 +215,7 @@ void check_bodies_above(const FloorBox& floor, const TriMesh& boundary, const Ru
   const TriangleTree tree(shell, context);
   ErrorInfo info{.code = ErrorCode::bad_argument,
                  .attempted = k_floor_attempt,
-                 .hint = "move the bodies into the box and above the floor, unite them with the sheet, or leave them out"};
+                 .hint = "move the bodies into the box and above the floor, unite them with the floor, or leave them out"};
   for (const TriangleId t : boundary.triangles.ids()) {
     if (t.index() >= floor.is_body.size() || floor.is_body[t.index()] == 0) continue;
     const Point p = corners(boundary, t)[0];

@@ -278,7 +278,9 @@ class RidgeOpener {
     }
     for (const VertexId v : closed) {
       if (v.index() >= wall_.n_vertices())
-        throw_bad_argument("opening ridges", "vertex " + std::to_string(v.value()) + " is to stay closed, the wall has " + std::to_string(wall_.n_vertices()),
+        throw_bad_argument("opening ridges",
+                           "vertex " + std::to_string(v.value()) + " is marked as closed ridge vertex, but the number of wall vertices is " +
+                               std::to_string(wall_.n_vertices()),
                            {}, "surface and envelope must come from one run");
       inner_[v].reset();
       corners_.erase(v);
@@ -622,7 +624,7 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
   if (raise < k_least_raise * largest)
     throw_bad_argument("opening ridges",
                        "the first height of " + number_text(first_height, 3) + " m is too small for coordinates of " + number_text(largest, 3) + " m", {},
-                       "move the surface to the origin, or open_ridges = \"never\"");
+                       "move the surface to the origin, or set open_ridges = \"never\"");
   std::vector<VertexId> shut(closed.begin(), closed.end());
   for (;;) {
     Domain opened = domain;
@@ -633,7 +635,8 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
       domain = std::move(opened);
       break;
     }
-    context.warn("ridges stay closed at " + std::to_string(crossing.size()) + " vertices of the wall: lines of several normals would cross it, the first at " +
+    context.warn("ridges stay closed at " + std::to_string(crossing.size()) +
+                 " vertices of the wall: the growth lines of several normals would cross the wall, the first at " +
                  format_point(domain.wall.points[crossing.front()]));
     shut.insert(shut.end(), crossing.begin(), crossing.end());
   }
@@ -641,7 +644,7 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
   const std::size_t n_corners = count_corners(ridges);
   context.info("ridges: " + std::to_string(ridges.feet.size()) + " vertices of the wall have several normals, " +
                (n_corners == 0 ? "" : std::to_string(n_corners) + " of them corners, ") + std::to_string(domain.wall.n_vertices() - ridges.n_given_vertices) +
-               " more lines");
+               " additional growth lines");
 }
 
 }  // namespace sterna::volmesh

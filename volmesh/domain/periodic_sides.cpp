@@ -31,17 +31,17 @@ class Joiner {
     error_.attempted = "making \"" + names.first + "\" and \"" + names.second + "\" periodic";
     error_.hint =
         "periodic sides must be flat, face each other, and have the same border vertices, moved by one translation: surface_mesh{ ..., periodic = { { \"" +
-        names.first + "\", \"" + names.second + "\" } } } cuts the borders of a model's faces alike (sterna surface --periodic \"" + names.first + "," +
-        names.second + "\"); of given triangles make one side and copy it";
+        names.first + "\", \"" + names.second + "\" } } } meshes the borders of both model faces alike (sterna surface --periodic \"" + names.first + "," +
+        names.second + "\"); for triangulated surfaces, make one side and copy it";
     result_.first = find_patch(names.first);
     result_.second = find_patch(names.second);
-    if (result_.first == result_.second) fail("a patch cannot be its own image");
+    if (result_.first == result_.second) fail("a patch cannot be periodic with itself");
   }
 
   PeriodicPatches join(const RunContext& context) {
     for (const PatchId side : {result_.first, result_.second}) mesh_.patches[side].kind = PatchKind::interface;
     const Vec3 first_normal = flatten(result_.first), second_normal = flatten(result_.second);
-    if (dot(first_normal, second_normal) > k_facing_cosine) fail("their normals do not point against each other");
+    if (dot(first_normal, second_normal) > k_facing_cosine) fail("the normals of the two sides do not point in opposite directions");
     const std::vector<Edge> first = border_of(result_.first), second = border_of(result_.second);
     find_translation(vertices_of(first), vertices_of(second));
     if (!match(vertices_of(first), vertices_of(second), partner_, false) && !slide(first, second, context)) {
@@ -76,7 +76,7 @@ class Joiner {
     std::string all;
     for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
     const std::string nearest = nearest_name(name, known);
-    error_.hint = "there are " + all;
+    error_.hint = "the patches are " + all;
     fail("there is no patch \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
   }
 
@@ -86,8 +86,9 @@ class Joiner {
     if (vertices.vertices().empty()) fail("patch \"" + mesh_.patches[side].name + "\" has no triangles");
     const FlatFit flat = vertices.fit([&](const Point&) { return tolerance_; });
     if (!flat.is_flat) {
-      if (flat.farthest.is_valid()) note(mesh_.points[flat.farthest], "off the plane by " + metres(flat.distance));
-      fail("patch \"" + mesh_.patches[side].name + "\" is not flat: a vertex is " + metres(flat.distance) + " off its mean plane, limit " + metres(tolerance_));
+      if (flat.farthest.is_valid()) note(mesh_.points[flat.farthest], "distance from the plane " + metres(flat.distance));
+      fail("patch \"" + mesh_.patches[side].name + "\" is not flat: a vertex is " + metres(flat.distance) + " from its mean plane, limit " +
+           metres(tolerance_));
     }
     if (side == result_.second) return flat.normal;  // moved later to the first side's image
     for (const VertexId v : vertices.vertices()) {
@@ -161,16 +162,18 @@ class Joiner {
         continue;
       }
       is_matched = false;
-      if (must) note(mesh_.points[v], "no vertex at its image, the nearest is " + metres(distance_to(second, image)) + " off");
+      if (must) note(mesh_.points[v], "no vertex at the periodic image; the nearest vertex is " + metres(distance_to(second, image)) + " away");
     }
     is_matched = is_matched && first.size() == second.size();
     if (!must) return is_matched;
     for (const VertexId v : second)
       if (!is_taken.contains(v))
-        note(mesh_.points[v], "is the image of no vertex, the nearest image is " + metres(distance_to(first, mesh_.points[v] - result_.translation)) + " off");
+        note(mesh_.points[v],
+             "not the periodic image of a vertex; the nearest image is " + metres(distance_to(first, mesh_.points[v] - result_.translation)) + " away");
     if (error_.n_places > 0)
       fail(std::to_string(error_.n_places) + " border vertices have no partner within " + metres(tolerance_) + " (" + std::to_string(first.size()) + " on \"" +
-           names_.first + "\", " + std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) + " m apart)");
+           names_.first + "\", " + std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) +
+           " m between the sides)");
     return true;
   }
   /// Matches borders along the same lines with equally many edges but different vertex locations, as from a mesher whose sizes on the two sides differ a
@@ -212,8 +215,8 @@ class Joiner {
       partner[v] = nearest;
     }
     partner_ = std::move(partner);
-    context.info("border vertices of periodic side \"" + names_.second + "\" are moved along it to the images of those of \"" + names_.first + "\", by " +
-                 metres(farthest) + " at most");
+    context.info("border vertices of periodic side \"" + names_.second + "\" are moved along the border to the images of the border vertices of \"" +
+                 names_.first + "\", by " + metres(farthest) + " at most");
     return true;
   }
 
@@ -227,7 +230,7 @@ class Joiner {
     const std::set<Edge> others(second.begin(), second.end());
     for (const Edge& edge : first)
       if (!others.contains({partner_.at(edge[1]), partner_.at(edge[0])}))
-        note(0.5 * (mesh_.points[edge[0]] + mesh_.points[edge[1]]), "no border edge at its image");
+        note(0.5 * (mesh_.points[edge[0]] + mesh_.points[edge[1]]), "no border edge at the periodic image");
     if (error_.n_places > 0) fail("the borders have the same vertices, but " + std::to_string(error_.n_places) + " edges differ");
   }
 
@@ -315,7 +318,7 @@ void require_one_pair_each(std::span<const PeriodicNames> names) {
         throw Error({.code = ErrorCode::bad_argument,
                      .attempted = "making sides periodic",
                      .problem = "patch \"" + name + "\" is in two pairs",
-                     .hint = "each side has one partner"});
+                     .hint = "give each side one partner"});
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ void require_affordable(double n_triangles, const std::string& attempted) {
   if (n_triangles <= k_most) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = attempted,
-               .problem = "its edge lengths ask for " + std::to_string(n_triangles / 1e6) + " million triangles, at most 20 are made",
-               .hint = "raise farfield_edge, and edges in farfield_sides"});
+               .problem = "the edge lengths require " + std::to_string(n_triangles / 1e6) + " million triangles, the limit is 20 million",
+               .hint = "raise farfield_edge, and the edge lengths in farfield_sides"});
 }
 
 double edge_of_side(std::span<const SideRule> rules, const std::string& side, double common) {

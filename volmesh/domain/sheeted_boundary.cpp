@@ -57,7 +57,7 @@ UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSpl
       const std::optional<LeftOut> plane = in_plane(complete, side);
       if (!plane)
         throw_bad_argument("making wake sheets", "the periodic side \"" + complete.patches[side].name + "\" is in no plane x, y or z = constant", {},
-                           "leave the wakes out, or turn the model");
+                           "leave the wakes out, or rotate the model");
       part.left_out.push_back(*plane);
     }
   Column<VertexId, Point> points = complete.points;
@@ -166,7 +166,8 @@ void hold_sheets(const SheetedBoundary& sheeted, Domain& domain) {
   }
   const std::size_t n_added = sheeted.boundary.n_vertices() - sheeted.sheets.n_given_vertices;
   if (n_sheet_triangles != sheeted.boundary.n_triangles() - sheeted.sheets.n_given_triangles)
-    throw_bad_argument("making wake sheets", "a trailing edge is on a wall without layers", {}, "leave its patch out of the wake, or give it layers");
+    throw_bad_argument("making wake sheets", "a trailing edge is on a wall without layers", {},
+                       "leave the patch of this wall out of the wake, or give the patch layers");
   domain.sheets = sheeted.sheets;
   domain.sheets.n_given_vertices = domain.wall.n_vertices() - n_added;
   domain.sheets.n_given_triangles = domain.wall.n_triangles() - n_sheet_triangles;

@@ -423,8 +423,8 @@ bool crosses_itself(const TriMesh& mesh, const RunContext& context) {
 }  // namespace
 
 std::string describe(const NeedleReport& report) {
-  return std::to_string(report.n_needles) + " needles, " + std::to_string(report.n_flips) + " edges flipped: " + std::to_string(report.n_given) + " -> " +
-         std::to_string(report.n_triangles) + " triangles; " + std::to_string(report.n_left) + " needles left";
+  return std::to_string(report.n_needles) + " sliver triangles, " + std::to_string(report.n_flips) + " edges flipped: " + std::to_string(report.n_given) +
+         " -> " + std::to_string(report.n_triangles) + " triangles; " + std::to_string(report.n_left) + " sliver triangles left";
 }
 
 NeedleSplits split_needles(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const NeedleOptions& options, const RunContext& context) {
@@ -459,7 +459,7 @@ NeedleSplits split_needles(TriMesh& boundary, const Column<PatchId, std::uint8_t
   }
   if (!result.report.has_changed()) return unchanged;
   if (crosses_itself(split, context)) {
-    context.info("needles: left as they are, because flipped edges would cross the wall");
+    context.info("sliver triangles: left unchanged, because flipped edges would cross the wall");
     return unchanged;
   }
   const NeedleCount after = count_needles(split, has_layer, options.split_needles);

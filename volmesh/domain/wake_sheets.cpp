@@ -139,8 +139,8 @@ class SheetMaker {
     if (ends.empty()) return std::nullopt;
     for (std::size_t k = 0; k < 3; ++k)
       if (std::ranges::all_of(ends, [&](const Point& p) { return p[k] == wall_.points[v][k]; })) return k;
-    fail("a trailing edge ends at a border of the wall that is in no plane x, y or z = constant", "close the wall, or leave its patch out of the wake",
-         wall_.points[v]);
+    fail("a trailing edge ends at a border of the wall that is in no plane x, y or z = constant",
+         "close the wall, or leave the patch of this wall out of the wake", wall_.points[v]);
   }
 
   template <class T, class Mean>
@@ -188,7 +188,8 @@ class SheetMaker {
     const VertexId first = edge_vertex(0), last = edge_vertex(n_cells_);
     for (const auto& [end, other] : {std::array{first, last}, std::array{last, first}})
       if (partner_of(end).is_valid() && partner_of(end) != other)
-        fail("a trailing edge ends at a periodic side, and its other end is not the image there", "leave its patch out of the wake", wall_.points[end]);
+        fail("a trailing edge ends at a periodic side, but its other end is not the periodic image of this end", "leave the patch of this wall out of the wake",
+             wall_.points[end]);
     return partner_of(first).is_valid();
   }
   VertexId partner_of(VertexId v) const { return v.index() < partner_.size() ? partner_[v] : VertexId(); }
@@ -263,9 +264,9 @@ class SheetMaker {
     for (double step = mean(first); at.back() < length; step = std::min(step * wake_.growth, longest)) {
       at.push_back(at.back() + step);
       if (at.size() > k_most_stations)
-        fail("a sheet of " + number_text(length, 3) + " m takes more than " + std::to_string(k_most_stations) + " rows of cells, the first " +
+        fail("a sheet of " + number_text(length, 3) + " m needs more than " + std::to_string(k_most_stations) + " rows of cells, the first " +
                  number_text(mean(first), 3) + " m long",
-             "a shorter length, or a larger growth", wall_.points[edge_vertex(0)]);
+             "give a shorter length or a larger growth", wall_.points[edge_vertex(0)]);
     }
     const double end = at.back();
     for (double& s : at) s /= end;
@@ -299,8 +300,8 @@ class SheetMaker {
       const auto n = std::ranges::count_if(
           points_, [&](const std::vector<Point>& of_line) { return std::ranges::any_of(of_line, [&](const Point& p) { return plane.is_beyond(p); }); });
       if (2 * static_cast<std::size_t>(n) <= n_lines()) continue;
-      context_.warn("no wake sheet behind the trailing edge at " + format_point(point(n_lines() / 2, 0)) + ": it would be in the plane " + "xyz"[plane.axis] +
-                    std::string(" = ") + number_text(plane.at, 6) + ", in which the wall ends");
+      context_.warn("no wake sheet behind the trailing edge at " + format_point(point(n_lines() / 2, 0)) + ": the sheet would lie in the plane " +
+                    "xyz"[plane.axis] + std::string(" = ") + number_text(plane.at, 6) + ", in which the wall ends");
       return true;
     }
     return false;
@@ -352,8 +353,8 @@ class SheetMaker {
         }
     }
     if (std::ranges::all_of(kept_, [](std::size_t n) { return n == 0; }))
-      fail("there is no room for a sheet of two cells by two", "a wall is in the way: leave its patch out of the wake, or make the edges of the wing shorter",
-           point(n_cells_ / 2, 0));
+      fail("there is no room for a sheet of 2 x 2 cells",
+           "a wall is in the way: leave the patch of this trailing edge out of the wake, or mesh the wing with shorter edges", point(n_cells_ / 2, 0));
   }
 
   /// Returns true if a vertex of the grid has a base vertex with two growth lines: inside the sheet, or on the wall's border.
@@ -539,7 +540,7 @@ void require_patches(const TriMesh& wall, const WakeSheet& wake) {
   std::vector<std::string> names;
   for (const Patch& patch : wall.patches) names.push_back(patch.name);
   if (std::ranges::any_of(names, [&](const std::string& name) { return matches_glob(name, wake.wing); })) return;
-  throw_bad_argument(k_wake_attempt, "no patch is named like \"" + wake.wing + "\"", {}, names_hint(names, wake.wing));
+  throw_bad_argument(k_wake_attempt, "no patch name matches \"" + wake.wing + "\"", {}, names_hint(names, wake.wing));
 }
 
 double raise_for(double first_height, const TriMesh& wall) {
@@ -581,13 +582,13 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
   for (const WakeSheet& wake : wakes) {
     require_patches(wall, wake);
     const Vec3 stream = normalized(wake.direction.value_or(of_domain));
-    if (!(norm2(stream) > 0.0)) throw_bad_argument(k_wake_attempt, "the direction of the free stream is zero", {}, "direction = {1, 0, 0}");
+    if (!(norm2(stream) > 0.0)) throw_bad_argument(k_wake_attempt, "the direction of the free stream is zero", {}, "give for example direction = {1, 0, 0}");
     const Topology topology(wall, context);
     std::vector<TrailingEdge> chains = find_trailing_edges(wall, topology, {wake.wing, made.sheets.n_given_triangles}, stream);
     if (chains.empty())
       throw_bad_argument(k_wake_attempt,
-                         "the patches named like \"" + wake.wing +
-                             "\" have no trailing edge: no three edges in a row at which the wall turns by more than 120 degrees and looks downstream, or "
+                         "the patches whose names match \"" + wake.wing +
+                             "\" have no trailing edge: no three edges in a row at which the wall turns by more than 120 degrees and faces downstream, or "
                              "above a base narrower than a tenth of the chord",
                          {}, "check the direction of the free stream");
     // Before the wall is changed: makers double its vertices, but half-edges stay valid.
@@ -595,7 +596,8 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
     for (const TrailingEdge& chain : chains) n_chains += SheetMaker(wake, stream, raise, chain, partner, made, wall, context).make() ? 1 : 0;
   }
   if (n_chains == 0)
-    throw_bad_argument(k_wake_attempt, "all sheets would be in planes in which the wall ends", {}, "leave wakes out, or ask for them behind the wing only");
+    throw_bad_argument(k_wake_attempt, "all sheets would lie in planes in which the wall ends", {},
+                       "leave the wakes out, or request them behind the wing only");
   std::ranges::sort(made.sheets.feet, {}, [](const DoubledSheets::Foot& foot) { return foot.sides[0]; });
   sort_unique(made.sheets.rims);
   context.info("wake sheets behind " + std::to_string(n_chains) + " trailing edges: " + std::to_string(made.sources.size() / 2) + " triangles");

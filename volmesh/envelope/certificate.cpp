@@ -100,8 +100,8 @@ std::int64_t require_clear_input(Collider& collider, const RunContext& context) 
                  .attempted = "checking wall and outer boundary before the layer grows",
                  .problem = std::to_string(crossings.size()) + " pairs of triangles intersect",
                  .n_places = static_cast<std::int64_t>(crossings.size()),
-                 .hint = is_outer ? "the outer boundary must enclose the wall with room to spare: give it a larger radius"
-                                  : "the wall must be free of self-intersection: `sterna info` and the stitching options tell and repair more"};
+                 .hint = is_outer ? "the outer boundary must enclose the wall with a margin: make the outer boundary larger"
+                                  : "the wall must be free of self-intersections: use `sterna info` and the stitching options to find and repair them"};
   for (std::size_t i = 0; i < std::min(crossings.size(), k_max_places); ++i)
     info.places.push_back({centre(collider.corners_of(crossings[i][0])), describe(crossings[i])});
   for (const BoundaryCrossing& pair : crossings) {

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double k_parallel_sine = 1e-6;  ///< planes at a smaller angle have no computable line of intersection
 constexpr std::string_view k_hint =
-    "a wall may end only in planes, as a half model at its symmetry plane x, y or z = constant; close the other rims, or move their vertices into the plane";
+    "a wall may end only in planes, as a half model at its symmetry plane x, y or z = constant; close the other open boundaries, or move their vertices into "
+    "the plane";
 
 struct BorderEdge {
   HalfedgeId halfedge;
@@ -48,8 +49,8 @@ std::size_t count_rims(const TriMesh& wall, const std::vector<BorderEdge>& edges
 [[noreturn]] void reject(const TriMesh& wall, const std::vector<BorderEdge>& edges, std::string problem, const std::vector<VertexId>& where,
                          const std::string& what) {
   ErrorInfo info{.code = ErrorCode::open_surface,
-                 .attempted = "constraining the rims of the wall",
-                 .problem = std::to_string(count_rims(wall, edges)) + " rims with " + std::to_string(edges.size()) + " edges: " + std::move(problem),
+                 .attempted = "constraining the open boundaries of the wall",
+                 .problem = std::to_string(count_rims(wall, edges)) + " open boundaries with " + std::to_string(edges.size()) + " edges: " + std::move(problem),
                  .n_places = static_cast<std::int64_t>(where.size()),
                  .hint = std::string(k_hint)};
   for (std::size_t i = 0; i < std::min(where.size(), k_max_places); ++i)
@@ -144,7 +145,8 @@ std::vector<std::shared_ptr<const ConstraintSurface>> facing_wall(const TriMesh&
     }
     const std::vector<VertexId>& fewer = above.size() < below.size() ? above : below;
     if (!fewer.empty())
-      reject(wall, edges, "the wall ends on a plane and goes on beyond it, with " + std::to_string(fewer.size()) + " vertices", fewer, "is on the other side");
+      reject(wall, edges, "the wall ends at a plane and continues beyond the plane, with " + std::to_string(fewer.size()) + " vertices", fewer,
+             "is on the other side");
     const Vec3 normal = plane.normal({});
     const Point on_plane = plane.closest({});
     surfaces.push_back(std::make_shared<ConstraintPlane>(on_plane, above.empty() ? -normal : normal));

@@ -22,7 +22,7 @@ constexpr double k_least_optimised_height = 0.8;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
   if (report.history.empty()) {  // no vertex may move, or none of the points tried was feasible
-    context.info("optimised (" + std::string(optimiser) + "): the envelope stays as it is, " + std::string(report.stopped));
+    context.info("optimised (" + std::string(optimiser) + "): the envelope is unchanged, " + std::string(report.stopped));
     return;
   }
   const ObjectiveValue &a = report.history.front(), &b = report.history.back();
@@ -52,7 +52,7 @@ Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const En
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "optimising the envelope",
                  .problem = "unknown optimiser \"" + options.optimiser + "\"",
-                 .hint = "one of none, descent, lbfgs, mma, ccsaq"});
+                 .hint = "use one of none, descent, lbfgs, mma, ccsaq"});
   NloptSettings settings;
   settings.method = options.optimiser == "mma" ? NloptMethod::mma : NloptMethod::ccsaq;
   settings.max_evaluations = options.optimiser_evaluations;

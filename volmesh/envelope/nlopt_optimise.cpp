@@ -197,7 +197,7 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
   report.n_variables = problem.n_unknowns();
   report.run.n_moving = problem.n_vertices();
   if (problem.n_unknowns() == 0) {
-    report.run.stopped = "nothing moves";
+    report.run.stopped = "no vertex can move";
     return start;
   }
   std::vector<double> z = problem.unknowns(start);

@@ -53,7 +53,7 @@ PatchKind kind_of(std::string_view name) {
   for (const PatchKind kind :
        {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
     if (to_string(kind) == name) return kind;
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "there is no kind \"" + std::string(name) + "\""});
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "unknown patch kind \"" + std::string(name) + "\""});
 }
 
 /// Returns the number of the connected part of each vertex: its lowest vertex. Vertices that must grow alike are connected, too.
@@ -80,7 +80,7 @@ void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>&
   std::string text;
   for (const auto& [n, patches] : asked)
     text += (text.empty() ? "" : "; ") + std::to_string(n) + " by " + list(patches, [&](std::uint32_t p) { return wall.patches[PatchId(p)].name; });
-  context.info("walls that are connected have one number of layers: " + std::to_string(asked.rbegin()->first) + ", the largest asked for (" + text + ")");
+  context.info("connected walls have one number of layers: " + std::to_string(asked.rbegin()->first) + ", the largest requested (" + text + ")");
 }
 
 /// Returns per vertex the largest number of layers requested by a patch of its connected part.
@@ -181,8 +181,8 @@ class Blender {
       std::string names;
       for (const PatchId patch : base_.wall.patches.ids())
         if (group_of_patch_[patch.index()] == static_cast<int>(g)) names += (names.empty() ? "" : ", ") + base_.wall.patches[patch].name;
-      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_length_digits)) +
-                    (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_length_digits) : ""));
+      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by location" : in_metres(groups_[g].first_height, k_length_digits)) +
+                    (groups_[g].blend > 0.0 ? ", blended with neighbouring patches over " + in_metres(groups_[g].blend, k_length_digits) : ""));
     }
   }
 
@@ -283,8 +283,8 @@ void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules) {
     }
     if (!is_used)
       throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "setting what is asked of patches",
-                   .problem = "no patch has a name like \"" + rule.names + "\"",
+                   .attempted = "applying patch rules",
+                   .problem = "no patch name matches \"" + rule.names + "\"",
                    .hint = names_hint(names_of(surface.patches), rule.names)});
   }
 }
@@ -328,9 +328,9 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   }
   if (!without.empty())
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "finding what is asked of the layer",
+                 .attempted = "setting the layer options",
                  .problem = "first_height is not given for " + without,
-                 .hint = "give it for all walls, or for each of their patches"});
+                 .hint = "give first_height for all walls, or for each wall patch"});
   return result;
 }
 
@@ -408,7 +408,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
     }
     if (is_used || names.empty()) continue;  // a rule without layers is an error already (ignored_requests.h)
     context.warn("blend = " + in_metres(rule.blend, k_length_digits) + " of patches[\"" + rule.names + "\"] has no effect: no wall that meets " + names +
-                 " has layers of another first height, growth, height or thickness. Leave blend out, or give the neighbours other layers");
+                 " has layers with another first height, growth, height or thickness. Leave blend out, or give the neighbouring walls other layers");
   }
 }
 

@@ -108,7 +108,7 @@ bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, C
       around = retracted;
     } else {
       // From max_retract_sweeps on each sweep collapses a vertex, so the loop terminates.
-      context.debug("layers collide in " + std::to_string(pairs.size() + swallowings.size()) + " places");
+      context.debug("layers collide at " + std::to_string(pairs.size() + swallowings.size()) + " locations");
       const bool must_collapse = sweep >= options.max_retract_sweeps;
       around = lower_pairs(collider, pairs, must_collapse, scale, envelope, context);
       for (const Swallowing& found : swallowings) {

@@ -26,7 +26,7 @@ std::string_view to_string(EnvelopeStep step) { return k_names[static_cast<std::
 EnvelopeStep envelope_step_of(std::string_view text) {
   const auto found = std::find(k_names.begin(), k_names.end(), text);
   if (found == k_names.end())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading an envelope", .problem = "\"" + std::string(text) + "\" is no step of it"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading an envelope", .problem = "\"" + std::string(text) + "\" is not an envelope step"});
   return static_cast<EnvelopeStep>(found - k_names.begin());
 }
 

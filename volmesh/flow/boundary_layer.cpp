@@ -28,17 +28,17 @@ const FrictionLaw& law_of(const std::string& name) {
   for (const FrictionLaw& law : k_laws)
     if (law.name == name) return law;
   std::string names;
-  for (const FrictionLaw& law : k_laws) names += (names.empty() ? "one of " : ", ") + std::string(law.name);
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "finding the skin friction", .problem = "there is no law \"" + name + "\"", .hint = names});
+  for (const FrictionLaw& law : k_laws) names += (names.empty() ? "use one of " : ", ") + std::string(law.name);
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "computing the skin friction", .problem = "unknown friction law \"" + name + "\"", .hint = names});
 }
 
 void require_turbulent(double reynolds) {
   if (reynolds >= k_least_reynolds && reynolds <= k_largest_reynolds) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "estimating the boundary layer",
-               .problem = print_text("Reynolds number %g is outside of %g .. %g, where laws of the turbulent flat plate mean something", reynolds,
-                                     k_least_reynolds, k_largest_reynolds),
-               .hint = "check the length and its unit; or give the height in metres"});
+               .problem = print_text("Reynolds number %g is outside %g .. %g, the range of the laws for the turbulent flat plate", reynolds, k_least_reynolds,
+                                     k_largest_reynolds),
+               .hint = "check the length and its unit, or give the first height in metres"});
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ std::string describe(const FirstHeight& first) {
 
 std::string describe_thickness(const ThicknessOptions& options, const FlowState& flow) {
   return print_text("turbulent boundary layer: %.4g m (", layer_thickness(options, flow)) +
-         (options.factor == 1.0 ? "" : print_text("%g times its thickness by ", options.factor)) + options.thickness_law + "; " + describe(flow) + ")";
+         (options.factor == 1.0 ? "" : print_text("%g times the thickness by ", options.factor)) + options.thickness_law + "; " + describe(flow) + ")";
 }
 
 }  // namespace sterna::volmesh

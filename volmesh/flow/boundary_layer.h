@@ -71,15 +71,15 @@ struct Schema<volmesh::FirstHeightOptions> {
                .member = &O::y_plus,
                .min = 1e-6,
                .max = 1e5,
-               .help = "wanted dimensionless wall distance; the same as the first entry",
+               .help = "target y+ (dimensionless wall distance); the same as the first entry",
                .automatic = "the first entry"},
       Field<O>{.name = "at",
                .member = &O::at,
-               .help = "where the solver measures it: node-centred ones at the first node, cell-centred ones in the middle of the first cell",
+               .help = "location of y+: node for node-centred solvers (first node), cell_centre for cell-centred solvers (middle of the first cell)",
                .choices = "node cell_centre"},
       Field<O>{.name = "law",
                .member = &O::law,
-               .help = "of skin friction on a flat plate: local at the length, or (the last two) mean over it",
+               .help = "law of skin friction on a flat plate: local value at the length, or (the last two) mean over the length",
                .choices = "schlichting seventh_root kays_crawford prandtl prandtl_schlichting ittc57"},
   };
 };
@@ -93,8 +93,11 @@ struct Schema<volmesh::ThicknessOptions> {
                .member = &O::factor,
                .min = 0.01,
                .max = 100.0,
-               .help = "times the thickness: 1.2 to 1.5 leaves the edge of the boundary layer inside"},
-      Field<O>{.name = "thickness_law", .member = &O::thickness_law, .help = "0.37 L Re^-0.2 or 0.16 L Re^(-1/7)", .choices = "fifth_root seventh_root"},
+               .help = "factor on the thickness: with 1.2 to 1.5 the edge of the boundary layer lies inside the prism layers"},
+      Field<O>{.name = "thickness_law",
+               .member = &O::thickness_law,
+               .help = "law of the thickness: 0.37 L Re^-0.2 or 0.16 L Re^(-1/7)",
+               .choices = "fifth_root seventh_root"},
   };
 };
 

@@ -28,15 +28,16 @@ class Problems {
 
 void refuse_contradictions(const FlowConditions& given, Problems& problems) {
   if (!has(given.length)) problems.add("length is missing");
-  if (has(given.mach) && has(given.speed)) problems.add("mach and speed say the same twice");
+  if (has(given.mach) && has(given.speed)) problems.add("mach and speed cannot both be given");
   if (has(given.altitude)) {
-    if (has(given.temperature)) problems.add("altitude and temperature say the same twice (temperature_offset makes the air of an altitude warmer)");
-    if (has(given.pressure)) problems.add("altitude and pressure say the same twice");
-    if (has(given.density)) problems.add("altitude and density say the same twice");
+    if (has(given.temperature)) problems.add("altitude and temperature cannot both be given (temperature_offset makes the air at an altitude warmer)");
+    if (has(given.pressure)) problems.add("altitude and pressure cannot both be given");
+    if (has(given.density)) problems.add("altitude and density cannot both be given");
   } else if (given.temperature_offset != 0.0) {
     problems.add("temperature_offset needs an altitude");
   }
-  if (has(given.temperature) && has(given.pressure) && has(given.density)) problems.add("of temperature, pressure and density two are enough");
+  if (has(given.temperature) && has(given.pressure) && has(given.density))
+    problems.add("temperature, pressure and density cannot all be given: two of them are enough");
 }
 
 /// Determines temperature, pressure, density and viscosity, as far as they are given or follow from each other.
@@ -80,14 +81,14 @@ void find_reynolds(const FlowConditions& given, FlowState& flow, Problems& probl
     }
     std::string missing;
     const auto need = [&](bool is_there, const char* what) { missing += is_there ? "" : (missing.empty() ? "" : ", ") + std::string(what); };
-    need(has(flow.speed), has(flow.mach) ? "the temperature that makes the Mach number a speed" : "mach or speed");
+    need(has(flow.speed), has(flow.mach) ? "temperature (to compute the speed from the Mach number)" : "mach or speed");
     need(has(flow.density), "density (altitude, or temperature and pressure)");
     need(has(flow.viscosity), "viscosity (or the temperature, for air)");
-    problems.add("the Reynolds number cannot be found without " + missing);
+    problems.add("the Reynolds number cannot be computed without " + missing);
     return;
   }
   if (is_known) {
-    problems.add("reynolds is given and follows from speed, density and viscosity, too: leave one out");
+    problems.add("reynolds is given, but also follows from speed, density and viscosity: leave one of them out");
     return;
   }
   flow.reynolds = given.reynolds;

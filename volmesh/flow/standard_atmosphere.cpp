@@ -33,7 +33,7 @@ double pressure_above(double p, double t, double lapse, double dh) {
 AirState standard_atmosphere(double altitude, double temperature_offset) {
   if (!(altitude >= k_lowest_altitude && altitude <= k_highest_altitude))
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "finding the state of the air",
+                 .attempted = "computing the state of the air",
                  .problem = print_text("altitude %g m is outside of the standard atmosphere, %g .. %.6g m", altitude, k_lowest_altitude, k_highest_altitude),
                  .hint = "give pressure and temperature, or density and viscosity, instead"});
   AirState air{.temperature = k_sea_level_temperature, .pressure = k_sea_level_pressure};
@@ -47,9 +47,9 @@ AirState standard_atmosphere(double altitude, double temperature_offset) {
   air.temperature += temperature_offset;
   if (!(air.temperature >= k_least_temperature))
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "finding the state of the air",
-                 .problem = print_text("with an offset of %g K the air at %g m has %g K, expected at least %g", temperature_offset, altitude, air.temperature,
-                                       k_least_temperature)});
+                 .attempted = "computing the state of the air",
+                 .problem = print_text("with a temperature_offset of %g K the air at %g m has %g K, expected at least %g", temperature_offset, altitude,
+                                       air.temperature, k_least_temperature)});
   air.density = air.pressure / (k_gas_constant * air.temperature);
   return air;
 }

@@ -191,7 +191,7 @@ bool Improver::is_dear(std::span<const std::uint64_t> left_after, std::span<cons
     const double mended = bad_after[n - 1 - n_passes] - bad_after[n - 1];
     const auto effort = static_cast<double>(left_after[n - 1 - n_passes] - left_after[n - 1]);
     context_.debug("improvement, last " + std::to_string(n_passes) + " passes: " + std::to_string(bad_after.back()) + " bad, " + std::to_string(mended) +
-                   " mended with " + std::to_string(effort) + " tries");
+                   " repaired with " + std::to_string(effort) + " tries");
     return effort > std::max(tries * mended, static_cast<double>(least));
   };
   return is_above(1, k_hopeless_factor * k_dear_mend, k_free_effort + k_free_effort_of_tet * n_about_) || is_above(k_judged_passes, k_dear_mend, 0);
@@ -212,16 +212,16 @@ int Improver::run(int max_passes) {
     n_done += static_cast<double>(jobs.size());
     if (left == 0) {
       context_.log(LogLevel::warning, "improvement of tetrahedra ends with " + std::to_string(jobs.size()) +
-                                          " places left: strips and fans of needles take more than " + std::to_string(k_effort_of_tet) +
-                                          " tries a tetrahedron");
+                                          " locations left: strips and fans of slivers need more than " + std::to_string(k_effort_of_tet) +
+                                          " tries per tetrahedron");
       break;
     }
     left_after.push_back(left);
     bad_after.push_back(amount_of_bad());
     if (left < free_until && is_dear(left_after, bad_after)) {
       context_.log(LogLevel::debug, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
-                                        " below what is wished: the last ones took more than " + std::to_string(k_dear_mend) +
-                                        " tries for each that they mended");
+                                        " bad tetrahedra left: the last passes needed more than " + std::to_string(k_dear_mend) +
+                                        " tries for each repaired tetrahedron");
       break;
     }
     const std::uint64_t share = std::max(left / jobs.size(), k_effort_of_job);

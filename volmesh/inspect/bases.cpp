@@ -114,11 +114,11 @@ class BaseSurvey {
     }
     const Base worst_base = of(listed.front().id);
     finding.value = listed.front().badness;
-    finding.text = "a blunt base is thinner than its layer is high by up to " + number_text(finding.value, k_text_digits) + " times, along " +
-                   count_of(finding.count, "edge", "edges") + ": " + in_metres(worst_base.thickness, k_text_digits) + " under " +
-                   in_metres(worst_base.height, k_text_digits) + "; sides of prisms behind it lean beyond what solvers with values in cells bear";
-    finding.advice = "in the CAD model a base at least " + in_metres(k_enough * worst_base.height, k_advice_digits) +
-                     " thick, or a sharp edge; a lower layer changes little";
+    finding.text = "the layer on a blunt base is up to " + number_text(finding.value, k_text_digits) + " times as high as the base is thick, along " +
+                   count_of(finding.count, "edge", "edges") + ": " + in_metres(worst_base.thickness, k_text_digits) + " thick under a layer of " +
+                   in_metres(worst_base.height, k_text_digits) + "; prism sides behind the base are too skewed for cell-centred solvers";
+    finding.advice = "in the CAD model, make the base at least " + in_metres(k_enough * worst_base.height, k_advice_digits) +
+                     " thick, or make the edge sharp; a lower layer changes little";
     add_finding(survey_.report, std::move(finding), where);
   }
 

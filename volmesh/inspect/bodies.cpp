@@ -59,14 +59,14 @@ void survey_bodies(const Survey& survey, const Topology& topology) {
   if (n_cavities > 0) {
     cavities.count = n_cavities;
     cavities.text =
-        count_of(n_cavities, "part lies", "parts lie") + " within the solid of another one: the space inside is a cavity that the outer flow does not reach";
-    cavities.advice = "leave the inner part out of the file; where two bodies stick in each other, unite them with `sterna union`";
+        count_of(n_cavities, "part lies", "parts lie") + " inside another solid part: the space inside is a cavity that the outer flow does not reach";
+    cavities.advice = "leave the inner part out of the file; unite overlapping bodies with `sterna union`";
     add_finding(survey.report, std::move(cavities), triangles_of(components, parts, is_cavity));
   }
   if (parts.size() < 2) return;
   bodies.unit = "m^3";
   bodies.text = "the surface has " + std::to_string(parts.size()) + " parts that are not connected";
-  bodies.advice = "nothing, if they are meant to be apart; parts that touch or cross are united with `sterna union`";
+  bodies.advice = "no action if the parts are meant to be separate; unite parts that touch or cross with `sterna union`";
   add_finding(survey.report, std::move(bodies), {});
 }
 

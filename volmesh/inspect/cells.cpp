@@ -76,7 +76,7 @@ class CellSurvey {
       else if (r * ratio < 1.0) note(thin, 1.0 / r);
     }
     for (Misfit* misfit : {&thin, &thick, &tall}) misfit->area /= all;
-    survey_.add_field("top_ratio", "last layer over 0.816 edges, as asked for", "", true, map_.field(top));
+    survey_.add_field("top_ratio", "requested height of the last layer over 0.816 edge lengths", "", true, map_.field(top));
     if (!tall.places.empty()) add_tall(tall);
     if (thin.area > k_noticed_area) add_thin(thin);
     if (thick.area > k_noticed_area) add_thick(thick);
@@ -104,8 +104,8 @@ class CellSurvey {
 
   void add_tall(const Misfit& tall) const {
     Finding finding{.kind = FindingKind::tall_first, .severity = Severity::warn, .value = worst(tall.places, 1).front().badness, .limit = 1.0};
-    finding.text = "the first cell is taller than the edges of the wall on " + percent(tall.area) + " of its area, up to " +
-                   number_text(finding.value, k_text_digits) + " times: first_height and the surface are hardly in the same unit";
+    finding.text = "the first cell is taller than the edges of the wall on " + percent(tall.area) + " of the wall area, up to " +
+                   number_text(finding.value, k_text_digits) + " times: first_height and the surface are probably not in the same unit";
     const VertexId v = worst(tall.places, 1).front().id;
     finding.advice = "first_height = " + number_text(0.1 * base_.mean_edge[v], k_advice_digits) + " or less, or another unit of the surface (unit = mm)";
     add(std::move(finding), tall, false);
@@ -120,9 +120,9 @@ class CellSurvey {
                    " of the tetrahedra above it (" + number_text(finding.value, k_text_digits) + " at the worst): a jump of cell sizes at the top of the layer";
     const VertexId v = typical(thin);
     if (const int n = enough_layers(v, 1.0 / finding.limit); n > 0)
-      finding.advice = "layers = " + std::to_string(n) + " reach it with max_growth = " + number_text(scale_.max_growth(v), k_text_digits);
+      finding.advice = "layers = " + std::to_string(n) + " is enough with max_growth = " + number_text(scale_.max_growth(v), k_text_digits);
     else
-      finding.advice = "shorter edges on the wall (max_edge = " + number_text(cells_at(base_, scale_, v).last / k_regular_height, k_advice_digits) +
+      finding.advice = "use shorter edges on the wall (max_edge = " + number_text(cells_at(base_, scale_, v).last / k_regular_height, k_advice_digits) +
                        "), or a taller layer (total_height, max_thickness)";
     const double rise = std::log(k_regular_height * base_.mean_edge[v] / scale_.h0(v)), growth = std::exp(rise / std::max(scale_.n(v) - 1, 1)) + k_growth_step;
     if (is_automatic(scale_.total_height(v)) && growth < k_steep_growth && layer_height(scale_.h0(v), growth, scale_.n(v)) < scale_.max_thickness(v))
@@ -151,7 +151,7 @@ class CellSurvey {
         number_text(
             layer_height(scale_.h0(v), growth_for_edge(scale_.h0(v), k_regular_height * base_.mean_edge[v], scale_.max_growth(v), scale_.n(v)), scale_.n(v)),
             k_advice_digits) +
-        " or left out, or more layers";
+        " or no total_height, or more layers";
     add(std::move(finding), thick, false);
   }
 
@@ -176,7 +176,7 @@ void survey_y_plus(const Survey& survey) {
   if (y_plus <= k_y_plus_factor * wanted && y_plus * k_y_plus_factor >= wanted) return;
   Finding finding{.kind = FindingKind::y_plus, .severity = y_plus > wanted ? Severity::warn : Severity::note, .count = 1, .value = y_plus, .limit = wanted};
   finding.text = "first_height = " + in_metres(h0, k_text_digits) + " is y+ " + number_text(y_plus, k_text_digits) +
-                 " on a flat plate in this flow, wanted is " + number_text(wanted, k_text_digits);
+                 " on a flat plate in this flow, the target is " + number_text(wanted, k_text_digits);
   finding.advice = "first_height = " + number_text(first.height, k_text_digits) + " (" + describe(first) + ")";
   add_finding(survey.report, std::move(finding), {});
 }

@@ -97,10 +97,10 @@ void survey_contacts(const Survey& survey, const LayerBase& base, const Collider
                               "vertex " + std::to_string(contact.vertex.value()) + ", " + in_metres(gap, k_text_digits) + " from triangle " +
                                   std::to_string(opposite.value()) + " (" + survey.patch_of(opposite) + ")"});
   }
-  finding.text = count_of(finding.count, "vertex nearly touches", "vertices nearly touch") + " a wall across the fluid, nearer than " +
-                 number_text(limit, k_text_digits) + " edges (" + number_text(finding.value, k_text_digits) +
-                 " at the nearest): the layer collapses there, and engines of tetrahedra fail";
-  finding.advice = "move the bodies apart by an edge or more, or push them into each other and unite them with `sterna union`";
+  finding.text = count_of(finding.count, "vertex nearly touches", "vertices nearly touch") + " the opposite wall, closer than " +
+                 number_text(limit, k_text_digits) + " edge lengths (" + number_text(finding.value, k_text_digits) +
+                 " at the closest): the layer collapses there, and tetrahedra engines fail";
+  finding.advice = "move the bodies apart by at least one edge length, or make them overlap and unite them with `sterna union`";
   add_finding(survey.report, std::move(finding), where);
 }
 

@@ -38,7 +38,7 @@ bool survey_crossings(const Survey& survey) {
          "triangles " + std::to_string(a) + " (" + survey.patch_of(first) + ") and " + std::to_string(b) + " (" + survey.patch_of(second) + ")"});
   }
   finding.text = count_of(crossings.total, "pair of triangles crosses or touches", "pairs of triangles cross or touch");
-  finding.advice = "unite bodies that stick in each other with `sterna union` (union{...} in a script); `sterna repair` cuts crossings of all kinds";
+  finding.advice = "unite overlapping bodies with `sterna union` (union{...} in a script); `sterna repair` repairs crossings of all kinds";
   add_finding(survey.report, std::move(finding), where);
   return false;
 }

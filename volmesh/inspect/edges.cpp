@@ -101,18 +101,18 @@ void add_folds(const Survey& survey, const Topology& topology, const Column<Tria
       folded, [&](const auto& s) { return is_concave(survey.mesh, topology, s.id, normals[triangle_of(s.id)], normals[triangle_of(topology.twin(s.id))]); });
   finding.text = count_of(static_cast<std::int64_t>(folded.size()), "pair of neighbours is", "pairs of neighbours are") +
                  " folded onto each other, with less than " + number_text(finding.limit, k_text_digits) + " deg between them (" + std::to_string(n_concave) +
-                 " of them with the fluid inside): no layer fits, engines of tetrahedra fail there";
-  finding.advice =
-      n_concave > 0 ? "open the slit in the CAD model, or fill it" : "make the edge blunt in the CAD model: a trailing edge a few first heights thick at least";
+                 " of them with fluid in between): no layer fits there, and tetrahedra engines fail";
+  finding.advice = n_concave > 0 ? "open the gap in the CAD model, or fill the gap"
+                                 : "make the edge blunt in the CAD model: a trailing edge should be at least a few first heights thick";
   add_edges(survey, topology, std::move(finding), folded, -1.0 / k_degree);
 }
 
 void add_jumps(const Survey& survey, const Topology& topology, const std::vector<Suspect<HalfedgeId>>& jumps) {
   Finding finding{
       .kind = FindingKind::size_jump, .severity = Severity::warn, .value = worst(jumps, 1).front().badness, .limit = survey.request.limits.size_jump};
-  finding.text = count_of(static_cast<std::int64_t>(jumps.size()), "edge parts", "edges part") + " triangles of very different size, up to " +
+  finding.text = count_of(static_cast<std::int64_t>(jumps.size()), "edge separates", "edges separate") + " triangles of very different size, up to " +
                  number_text(finding.value, k_text_digits) + " times: the last layer and the tetrahedra above it cannot match both";
-  finding.advice = "mesh the surface anew with growth = 1.2 to 1.5 from triangle to triangle";
+  finding.advice = "re-mesh the surface with growth = 1.2 to 1.5 from triangle to triangle";
   add_edges(survey, topology, std::move(finding), jumps, 1.0);
 }
 
@@ -124,8 +124,8 @@ void add_shorts(const Survey& survey, const Topology& topology, const std::vecto
                   .limit = share * survey.report.length,
                   .unit = "m"};
   finding.text = count_of(static_cast<std::int64_t>(shorts.size()), "edge is", "edges are") + " shorter than " + number_text(share, k_text_digits) +
-                 " body lengths, the shortest " + in_metres(finding.value, k_text_digits) + ": two points that were meant to be one";
-  finding.advice = "weld_tolerance = " + number_text(1.5 * finding.limit, k_advice_digits) + " on reading joins their ends";
+                 " body lengths, the shortest " + in_metres(finding.value, k_text_digits) + ": two points that were probably meant to be one";
+  finding.advice = "weld_tolerance = " + number_text(1.5 * finding.limit, k_advice_digits) + " when reading the file joins the ends of these edges";
   add_edges(survey, topology, std::move(finding), shorts, -1.0);
 }
 
@@ -138,7 +138,7 @@ void add_coarse(const Survey& survey, const Topology& topology, double feature_a
   finding.text = count_of(static_cast<std::int64_t>(coarse.size()), "edge of the smooth surface bends", "edges of the smooth surface bend") + " by more than " +
                  number_text(finding.limit, k_text_digits) + " deg, up to " + number_text(finding.value, k_text_digits) + " deg (edges count as sharp above " +
                  number_text(feature_angle / k_degree, k_text_digits) + " deg): curvature is not resolved";
-  finding.advice = "mesh the surface anew with curvature_angle = 12*deg; or, if these edges are meant to be sharp, feature_angle = " +
+  finding.advice = "re-mesh the surface with curvature_angle = 12*deg; or, if these edges are meant to be sharp, feature_angle = " +
                    number_text(std::floor(finding.limit), k_advice_digits) + "*deg";
   add_edges(survey, topology, std::move(finding), coarse, 1.0 / k_degree);
 }

@@ -29,10 +29,10 @@ void survey_needles(const Survey& survey) {
   finding.value = -worst(needles, 1).front().badness / k_degree;
   finding.text = count_of(static_cast<std::int64_t>(needles.size()), "triangle has", "triangles have") + " an angle below " +
                  number_text(finding.limit, k_text_digits) + " deg, the smallest " + number_text(finding.value, k_text_digits) +
-                 " deg: cells there are bad, and the layer gets low";
+                 " deg: cells there have a low quality, and the layer becomes low";
   finding.advice =
-      "give the surface new triangles (`sterna remesh`, or surface_mesh of the CAD model), or move the short edges' ends together: weld_tolerance a little "
-      "above their length";
+      "re-mesh the surface (`sterna remesh`, or surface_mesh of the CAD model), or weld the ends of the short edges: weld_tolerance slightly above their "
+      "length";
   survey.add(std::move(finding), needles, [&](const Suspect<TriangleId>& s) {
     return FindingPlace{survey.middle(s.id), survey.patch_of(s.id), -s.badness / k_degree, "triangle " + std::to_string(s.id.value())};
   });

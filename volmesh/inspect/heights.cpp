@@ -130,7 +130,7 @@ class HeightSurvey {
     for (const WallGap& hit : gaps_) gap[hit.vertex.index()] = hit.gap;
     survey_.add_field("height_share", "predicted height of the layer over its target", "", true, map_.field(share));
     survey_.add_field("target_height", "target height of the layer", "m", true, map_.field(target));
-    survey_.add_field("gap", "distance to the opposite wall, where both layers do not fit", "m", true, map_.field(gap));
+    survey_.add_field("gap", "distance to the opposite wall where the two layers do not fit", "m", true, map_.field(gap));
   }
 
   void add_findings() const {
@@ -198,12 +198,12 @@ class HeightSurvey {
                    " of the walls' area: " + percent(area[0] / all_) + " in gaps between walls, " + percent(area[1] / all_) +
                    " in corners and where the surface turns within the layer's height";
     if (area[0] >= area[1] && least > 0.0)
-      finding.advice = "nothing, if lower layers will do in the gaps; else ask for less there, as patches = { [\"" + patch +
+      finding.advice = "no action if lower layers are acceptable in the gaps; otherwise limit the height there: patches = { [\"" + patch +
                        "\"] = { max_thickness = " + number_text(least, k_advice_digits) + " } }";
     else
       finding.advice =
-          "nothing, if lower layers will do there; else ask for lower layers (total_height, or fewer layers), round concave corners, or refine where the "
-          "surface turns";
+          "no action if lower layers are acceptable there; otherwise request lower layers (total_height, or fewer layers), round concave corners, or refine "
+          "the wall where it turns";
     add(std::move(finding), lowered, -1.0);
   }
 
@@ -215,15 +215,15 @@ class HeightSurvey {
     finding.value = h / room(v);
     const std::string area = percent(area_of(compressed));
     finding.text = h < scale_.compressed(v)
-                       ? "the layer will be lower than its first cells alone (" + std::to_string(all) + " of " + in_metres(scale_.h0(v), k_text_digits) +
-                             ") on about " + area + " of the walls' area: first_height is not met there"
+                       ? "the layer will be lower than its cells at constant first height (" + std::to_string(all) + " of " +
+                             in_metres(scale_.h0(v), k_text_digits) + ") on about " + area + " of the walls' area: first_height is not met there"
                        : "first_height is not met on about " + area + " of the walls' area: the layer will be lower there than " + std::to_string(all) +
-                             " layers of uniform growth need for it";
+                             " layers of uniform growth require";
     int layers = all - 1;
     while (layers > 1 && scale_.room_for_first_cell(v, layers) > h) --layers;
     const std::string first = "first_height = " + number_text(scale_.h0(v) * finding.value, k_advice_digits);
-    finding.advice = layers > 1 ? "layers = " + std::to_string(layers) + ", or " + first + ", would fit at the worst place"
-                                : first + " would fit at the worst place; is it in the unit of the surface?";
+    finding.advice = layers > 1 ? "layers = " + std::to_string(layers) + ", or " + first + ", would fit at the worst location"
+                                : first + " would fit at the worst location; is first_height in the unit of the surface?";
     add(std::move(finding), compressed, -1.0);
   }
 
@@ -231,10 +231,10 @@ class HeightSurvey {
     const double share = area_of(collapsed);
     Finding finding{.kind = FindingKind::collapsed, .severity = Severity::warn, .value = 0.0, .limit = 0.2};
     std::string patch = patch_of(collapsed.front().id);
-    finding.text =
-        "no layer will stand on about " + percent(share) + " of the walls' area: there is less room than a fifth of its first cells, or no direction to grow";
-    finding.advice = "layers need " + in_metres(0.2 * scale_.compressed(collapsed.front().id), k_advice_digits) +
-                     " to stand: open the gap, lower first_height, or leave walls without them, as patches = { [\"" + patch + "\"] = { layers = 0 } }";
+    finding.text = "there will be no layer on about " + percent(share) +
+                   " of the walls' area: the free height is less than 1/5 of its cells at constant first height, or there is no growth direction";
+    finding.advice = "layers need a height of " + in_metres(0.2 * scale_.compressed(collapsed.front().id), k_advice_digits) +
+                     ": open the gap, lower first_height, or remove the layers there: patches = { [\"" + patch + "\"] = { layers = 0 } }";
     add(std::move(finding), collapsed, 0.0);
   }
 

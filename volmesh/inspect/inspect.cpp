@@ -28,7 +28,7 @@ InspectReport start(const TriMesh& surface) {
 
 void leave_out(const Survey& survey, const std::string& what, const std::string& why, const std::string& advice) {
   add_finding(survey.report,
-              {.kind = FindingKind::not_looked_at, .severity = Severity::note, .text = "not looked at: " + what + ", because " + why, .advice = advice}, {});
+              {.kind = FindingKind::not_looked_at, .severity = Severity::note, .text = "not checked: " + what + ", because " + why, .advice = advice}, {});
 }
 
 bool has_first_height(const MeshCase& options) {
@@ -50,7 +50,7 @@ void add_refusal(const Survey& survey, const Error& error) {
   Finding finding{.kind = FindingKind::refused,
                   .severity = Severity::error,
                   .count = error.n_places(),
-                  .text = "volume_mesh refuses it: " + info.problem,
+                  .text = "volume_mesh rejects the surface: " + info.problem,
                   .advice = info.hint};
   std::vector<TriangleId> where;
   if (info.code == ErrorCode::open_surface) {
@@ -65,7 +65,8 @@ void add_refusal(const Survey& survey, const Error& error) {
 
 std::string first_height_advice(const Survey& survey) {
   if (!survey.request.flow)
-    return "first_height = " + number_text(k_stand_in_height * survey.report.length, 1) + " or so (--first-height); y_plus{} finds one from the flow";
+    return "first_height = " + number_text(k_stand_in_height * survey.report.length, 1) +
+           " or similar (--first-height); y_plus{} computes first_height from the flow";
   const FirstHeight first = first_height({.y_plus = survey.request.limits.wanted_y_plus}, *survey.request.flow);
   return "first_height = " + number_text(first.height, k_advice_digits) + " (" + describe(first) + ")";
 }
@@ -103,8 +104,8 @@ InspectReport inspect_triangles(const TriMesh& triangles, const InspectRequest& 
   const Survey survey{report.mesh, request, context, report};
   survey_unit(survey);
   survey_needles(survey);
-  leave_out(survey, "crossings, folds, visibility, gaps, heights of the layer", "the triangles could not be joined to a surface",
-            "repair what is an error first");
+  leave_out(survey, "crossings, folds, visibility, gaps, heights of the layer", "the triangles could not be joined into a surface",
+            "repair the findings of severity error first");
   return report;
 }
 
@@ -129,7 +130,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   if (!site) {
     if (report.find(FindingKind::open)) survey_crossings(survey);
     survey_shape(survey);
-    leave_out(survey, "gaps and heights of the layer", "volume_mesh refuses the surface", "repair what is an error first");
+    leave_out(survey, "gaps and heights of the layer", "volume_mesh rejects the surface", "repair the findings of severity error first");
     return report;
   }
   const WallMap map(mesh, site->domain);
@@ -138,7 +139,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   survey_contacts(survey, site->base, site->collider, map);
   context.progress(0.7);
   if (!is_known) {
-    leave_out(survey, "heights of the layer and what limits them", "no first_height was given", first_height_advice(survey));
+    leave_out(survey, "layer heights and their limits", "no first_height was given", first_height_advice(survey));
     return report;
   }
   survey_cells(survey, *site);

@@ -20,8 +20,8 @@ void survey_unit(const Survey& survey) {
                   .unit = "m"};
   finding.text = "the body is " + in_metres(length, k_text_digits) + " long, " + (is_long ? "more than " : "less than ") +
                  in_metres(finding.limit, k_text_digits) + ": is the file in metres?";
-  finding.advice = is_long ? "unit = mm on reading (--unit mm) makes it " + in_metres(1e-3 * length, k_text_digits) + " long"
-                           : "read it with its own unit (--unit); a length of 1 in the file is taken for 1 m unless unit says otherwise";
+  finding.advice = is_long ? "unit = mm when reading the file (--unit mm) makes the body " + in_metres(1e-3 * length, k_text_digits) + " long"
+                           : "give the unit of the file (--unit); without it, a length of 1 in the file means 1 m";
   Box box = bounding_box(survey.mesh);
   if (survey.n_places() > 0) finding.places.push_back({box.center(), {}, length, "middle of the body"});
   add_finding(survey.report, std::move(finding), {});

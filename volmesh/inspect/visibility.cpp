@@ -21,9 +21,9 @@ void add_vertices(const Survey& survey, const LayerBase& base, const WallMap& ma
   for (const double a : base.vertex_area) all += a;
   finding.share = area / all;
   for (const auto& s : worst(suspects, survey.n_places()))
-    finding.places.push_back(
-        {base.wall.points[s.id], survey.patch_of(map.triangle(triangle_of(base.topology.outgoing(s.id).front()))), s.badness / k_degree,
-         "vertex " + std::to_string(s.id.value()) + ", its facets are seen at " + number_text(s.badness / k_degree, k_text_digits) + " deg at best"});
+    finding.places.push_back({base.wall.points[s.id], survey.patch_of(map.triangle(triangle_of(base.topology.outgoing(s.id).front()))), s.badness / k_degree,
+                              "vertex " + std::to_string(s.id.value()) + ", best growth direction " + number_text(s.badness / k_degree, k_text_digits) +
+                                  " deg from a facet normal"});
   add_finding(survey.report, std::move(finding), where);
 }
 
@@ -40,13 +40,13 @@ void survey_visibility(const Survey& survey, const LayerBase& base, const WallMa
     if (base.visibility[v] <= k_visible) hidden.push_back({v, angle});
     else if (angle > limit) hard.push_back({v, angle});
   }
-  survey.add_field("visibility_angle", "angle at which the best direction sees the worst facet", "deg", true, map.field(degrees));
+  survey.add_field("visibility_angle", "largest angle between the best growth direction and a facet normal", "deg", true, map.field(degrees));
   if (!hidden.empty()) {
     Finding finding{
         .kind = FindingKind::hidden, .severity = Severity::warn, .value = worst(hidden, 1).front().badness / k_degree, .limit = 90.0, .unit = "deg"};
-    finding.text = "at " + count_of(static_cast<std::int64_t>(hidden.size()), "vertex", "vertices") + " no direction sees all facets (" +
-                   number_text(finding.value, k_text_digits) + " deg at the worst): no layer grows there, and a low one around it";
-    finding.advice = "blunt the corner or round it in the CAD model; where a few facets stand against their neighbours, mesh the surface anew there";
+    finding.text = "at " + count_of(static_cast<std::int64_t>(hidden.size()), "vertex", "vertices") + " no growth direction points out of all facets (" +
+                   number_text(finding.value, k_text_digits) + " deg at the worst): no layer grows there, and only a low layer around it";
+    finding.advice = "blunt or round the corner in the CAD model; if a few facets point against their neighbours, re-mesh the surface there";
     add_vertices(survey, base, map, std::move(finding), hidden);
   }
   if (!hard.empty()) {
@@ -55,15 +55,15 @@ void survey_visibility(const Survey& survey, const LayerBase& base, const WallMa
                     .value = worst(hard, 1).front().badness / k_degree,
                     .limit = limit / k_degree,
                     .unit = "deg"};
-    finding.text = "at " + count_of(static_cast<std::int64_t>(hard.size()), "vertex", "vertices") + " the best direction sees a facet at more than " +
-                   number_text(finding.limit, k_text_digits) + " deg (" + number_text(finding.value, k_text_digits) +
-                   " deg at the worst): the layer is skewed and gets thin there";
+    finding.text = "at " + count_of(static_cast<std::int64_t>(hard.size()), "vertex", "vertices") +
+                   " the best growth direction is off a facet normal by more than " + number_text(finding.limit, k_text_digits) + " deg (" +
+                   number_text(finding.value, k_text_digits) + " deg at the worst): the layer is skewed and becomes thin there";
     finding.advice =
         "make sharp edges blunt (a trailing edge a few first heights thick), or refine along the edge so that the turn is spread over several facets";
     if (base.ridges == nullptr)
       finding.advice +=
-          "; or several lines on each vertex there (open_ridges = \"always\", --open-ridges always), or layers that go on behind trailing edges (wakes = "
-          "\"auto\", --wake-sheet auto): docs/ridges.md and docs/wake_sheets.md tell what each is good for";
+          "; or use several growth lines on each vertex there (open_ridges = \"always\", --open-ridges always), or layers that continue behind trailing edges "
+          "(wakes = \"auto\", --wake-sheet auto): see docs/ridges.md and docs/wake_sheets.md";
     add_vertices(survey, base, map, std::move(finding), hard);
   }
 }

@@ -6,12 +6,13 @@ namespace sterna::volmesh {
 
 void survey_wake(const Survey& survey) {
   if (!has_bare_wake(survey.mesh, survey.request.volume)) return;
-  add_finding(survey.report,
-              {.kind = FindingKind::wake,
-               .severity = Severity::note,
-               .text = "no source keeps edges short behind the body: its wake is resolved by the growth of tetrahedra alone, and drag depends on that",
-               .advice = "sources = { wake{ wall, length = 2 } }, or --wake length=2 of `sterna mesh`"},
-              {});
+  add_finding(
+      survey.report,
+      {.kind = FindingKind::wake,
+       .severity = Severity::note,
+       .text = "no source refines the mesh behind the body: only the growth of tetrahedra determines the resolution of the wake, and drag depends on it",
+       .advice = "sources = { wake{ wall, length = 2 } }, or --wake length=2 of `sterna mesh`"},
+      {});
 }
 
 }  // namespace sterna::volmesh

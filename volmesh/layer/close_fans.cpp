@@ -81,7 +81,7 @@ class FanCloser {
     for (const VertexId v : ridges_.foot.ids())
       if (is_added(v.value()) || ridges_.foot[v] != v || is_end_[v.index()]) look_at(v);
     for (const OpenedRidges::Foot& f : ridges_.feet) look_at(f.vertex);
-    if (!feet.empty()) fail(std::move(info), "fans have lines without at least three layers", std::move(feet));
+    if (!feet.empty()) fail(std::move(info), "multi-normal fans have growth lines with fewer than three layers", std::move(feet));
   }
 
   /// Returns the ridge base vertices of the multi-normal fans that contain a growth line or end at it.
@@ -98,7 +98,7 @@ class FanCloser {
     info.code = ErrorCode::envelope_failed;
     info.attempted = "making the cells of opened ridges";
     info.problem = std::move(problem);
-    info.hint = "open_ridges = \"never\", or a larger open_angle";
+    info.hint = "set open_ridges = \"never\", or a larger open_angle";
     throw FanError(std::move(info), std::move(feet));
   }
 
@@ -205,7 +205,7 @@ class FanCloser {
     ErrorInfo info = cells_.find_invalid([&](Line line) {
       for (const VertexId foot : feet_at(line)) feet.push_back(foot);
     });
-    if (!feet.empty()) fail(std::move(info), "cells of fans are inverted", std::move(feet));
+    if (!feet.empty()) fail(std::move(info), "cells of multi-normal fans are inverted", std::move(feet));
   }
 
   const OpenedRidges& ridges_;

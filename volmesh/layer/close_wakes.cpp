@@ -92,7 +92,7 @@ class WakeCloser {
     info.code = ErrorCode::envelope_failed;
     info.attempted = "making the cells of wake sheets";
     info.problem = std::to_string(info.n_places) + " cells are inverted";
-    info.hint = "leave the wakes out, or give them another direction or length";
+    info.hint = "leave the wakes out, or give another direction or length";
     throw Error(std::move(info));
   }
 

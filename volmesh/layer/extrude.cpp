@@ -424,7 +424,7 @@ void Extruder::extrude(Envelope& envelope) {
       const auto place = base_.wall.points[base_.wall.triangles[TriangleId(bad.front())][0]];
       throw Error({.code = ErrorCode::envelope_failed,
                    .attempted = "extruding prisms",
-                   .problem = std::to_string(bad.size()) + " columns stay invalid after " + std::to_string(round) + " repairs",
+                   .problem = std::to_string(bad.size()) + " prism columns are still invalid after " + std::to_string(round) + " repairs",
                    .places = {{place, "column " + std::to_string(bad.front())}},
                    .n_places = static_cast<std::int64_t>(bad.size()),
                    .hint = "report this surface"});
@@ -438,7 +438,7 @@ void Extruder::extrude(Envelope& envelope) {
         for (const VertexId v : base_.wall.triangles[TriangleId(c)]) curving_.limit(v, 0.0);
     }
     context_.debug("extrusion: " + std::to_string(bad.size()) + " invalid columns in round " + std::to_string(round) + ", " + std::to_string(hopeless.size()) +
-                   " of them with straight lines too");
+                   " of them also with straight growth lines");
     if (is_truncating()) hopeless = with_more_layers(hopeless);
     if (!hopeless.empty()) lower_heights(hopeless, envelope);
     curving_.smooth(context_);

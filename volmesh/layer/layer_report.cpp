@@ -23,7 +23,7 @@ constexpr std::size_t k_lean = k_height_limits;
 using LostArea = std::array<double, k_height_limits + 1>;
 
 std::string_view reason_text(std::size_t reason) {
-  return reason == k_lean ? "growth lines lean from the normal" : to_string(static_cast<HeightLimit>(reason));
+  return reason == k_lean ? "growth lines lean away from the wall normal" : to_string(static_cast<HeightLimit>(reason));
 }
 
 /// Areas by state, m^2.
@@ -176,8 +176,8 @@ void warn(const Envelope& envelope, const Classifier& classifier, double thin_ar
   if (!is_target_low && thin_area <= k_suspicious_share) {
     if (report.compressed_area > k_suspicious_share)
       report.warnings.push_back(
-          print_text("first cells are lower than first_height on %.0f %% of the wall: the layer is lower there than layers of uniform growth need for "
-                     "it; give fewer layers, or growth = \"local\"",
+          print_text("first cells are lower than first_height on %.0f %% of the wall: the layer is lower there than layers of uniform growth require; give "
+                     "fewer layers, or growth = \"local\"",
                      100.0 * report.compressed_area));
     return;
   }
@@ -185,7 +185,7 @@ void warn(const Envelope& envelope, const Classifier& classifier, double thin_ar
   std::snprintf(share, sizeof share, "%.0f %%", 100.0 * thin_area);
   report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(scale.n(v)) + " layers of first_height " +
                             in_metres(scale.h0(v), k_report_digits) + " are " + in_metres(scale.compressed(v), k_report_digits) + " tall" +
-                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_report_digits) : "") + " (body length " +
+                            (is_target_low ? ", more than the largest target height of " + in_metres(tallest, k_report_digits) : "") + " (body length " +
                             in_metres(report.body_length, k_report_digits) + "); are first_height and the surface in the same unit?");
 }
 

@@ -108,7 +108,7 @@ bool is_proven(const FillBoundary& boundary, const TetraResult& tets, const RunC
     return true;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::tetra_result_invalid) throw;
-    context.info("boundary splits: the layer is lower where its columns were split, so the tetrahedra are made anew (" + error.info().problem + ")");
+    context.info("boundary splits: the layer is lower where its prism columns were split, so the tetrahedra are made again (" + error.info().problem + ")");
     return false;
   }
 }

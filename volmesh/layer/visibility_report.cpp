@@ -28,8 +28,8 @@ VisibilityReport report_visibility(const LayerBase& base) {
   std::stable_sort(hard.begin(), hard.end(), [&](VertexId a, VertexId b) { return report.angle[a] > report.angle[b]; });
   hard.resize(std::min(hard.size(), k_max_places));
   for (const VertexId v : hard)
-    report.hardest.push_back({base.wall.points[v], "vertex " + std::to_string(v.value()) + ": its faces are seen at " +
-                                                       std::to_string(std::lround(report.angle[v] / k_degree)) + " degrees at best"});
+    report.hardest.push_back({base.wall.points[v], "vertex " + std::to_string(v.value()) + ": best growth direction " +
+                                                       std::to_string(std::lround(report.angle[v] / k_degree)) + " degrees from a face normal"});
   return report;
 }
 

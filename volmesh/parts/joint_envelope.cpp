@@ -23,21 +23,21 @@ TriangleVertices shifted(TriangleVertices v, std::size_t by) {
 /// Returns the reason why the envelope of the part cannot be made separately; empty if it can.
 std::string objection(const Domain& domain, const PlacedPart& part, const Column<TriangleId, TriangleId>& surface2wall, WholePart& whole) {
   const std::size_t n = part.own->n_triangles();
-  if (n == 0 || part.first_triangle + n > surface2wall.size()) return "it is not on the surface any more";
+  if (n == 0 || part.first_triangle + n > surface2wall.size()) return "the surface no longer contains all of the part";
   const TriangleId first = surface2wall[TriangleId(part.first_triangle)];
   for (std::size_t t = 0; t < n; ++t)
     if (const TriangleId on_wall = surface2wall[TriangleId(part.first_triangle + t)];
         !first.is_valid() || on_wall != TriangleId(static_cast<std::uint64_t>(first.index() + t)))
-      return "not all of it carries layers";
+      return "some triangles of the part carry no layers";
   whole.first_triangle = first.index();
   whole.first_vertex = domain.wall.triangles[first][0].index() - part.own->triangles[TriangleId(0)][0].index();
   for (std::size_t t = 0; t < n; ++t)
     if (!(domain.wall.triangles[TriangleId(static_cast<std::uint64_t>(whole.first_triangle + t))] ==
           shifted(part.own->triangles[TriangleId(t)], whole.first_vertex)))
-      return "its triangles have other vertices";
+      return "the triangles of the part have other vertices";
   for (const VertexId v : part.own->points.ids())
     if (!(domain.wall.points[VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index()))] == placed(part, v)))
-      return "its points are not where they were moved to";
+      return "the points of the part are not at the locations they were moved to";
   return {};
 }
 
@@ -156,7 +156,7 @@ std::vector<WholePart> whole_parts(const Domain& domain, std::span<const PlacedP
     WholePart part{.part = i};
     const std::string reason = objection(domain, parts[i], surface2wall, part);
     if (reason.empty()) whole.push_back(part);
-    else context.info("part " + std::to_string(i + 1) + " of the surface has its layer made where it is: " + reason);
+    else context.info("part " + std::to_string(i + 1) + " of the surface: its layer is not made separately and then moved, because " + reason);
   }
   return whole;
 }
@@ -175,7 +175,8 @@ Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, con
   add_rest(site, group, envelope, context);
   const std::vector<VertexId> lowered = clear_of_each_other(site, group, envelope, context);
   if (!lowered.empty()) {
-    context.info("layers of parts are lower than alone at " + std::to_string(lowered.size()) + " vertices, where other parts or the outer boundary are near");
+    context.info("layers of parts are lower than separately made layers at " + std::to_string(lowered.size()) +
+                 " vertices, where other parts or the outer boundary are near");
     regrow_clear(site.base, site.collider, envelope, context, &lowered);
   }
   seat_on_surfaces(site.base, site.options.envelope, &site.collider, envelope, context);

@@ -147,17 +147,17 @@ WarmStart warm_start(const LayerBase& base, const EnvelopeOptions& options, cons
   const auto refuse = [](std::string objection, const Point& place = {}) { return WarmStart{{}, std::move(objection), place}; };
   const std::size_t n = base.wall.n_vertices();
   if (start.points.size() != n || start.envelope.height.size() != n)
-    return refuse("it has " + std::to_string(n) + " vertices, the start " + std::to_string(start.points.size()));
-  if (!base.groups.empty()) return refuse("vertices on periodic sides must grow alike");
+    return refuse("the wall has " + std::to_string(n) + " vertices, but the starting envelope has " + std::to_string(start.points.size()));
+  if (!base.groups.empty()) return refuse("the layers on periodic sides must match each other");
   Envelope envelope = carried_envelope(base, options, start, context);
   make_valid(base, options, collider, envelope, context);
   if (const Loss loss = lost_coverage(base, start.envelope, envelope); loss.share > k_lost_coverage)
-    return refuse("full height would be lost on " + number_text(100.0 * loss.share, 3) + " % of the area, where " + number_text(100.0 * k_lost_coverage, 3) +
-                      " % are allowed",
+    return refuse("full height would be lost on " + number_text(100.0 * loss.share, 3) + " % of the area, but at most " +
+                      number_text(100.0 * k_lost_coverage, 3) + " % are allowed",
                   base.wall.points[loss.worst]);
   if (const EnvelopeCertificate proof = certify_envelope(base, collider, envelope, context); !proof.is_proved())
     return refuse(std::to_string(proof.n_invalid_macro_elements) + " elements would be invalid and " + std::to_string(proof.n_crossings + proof.n_swallowings) +
-                      " surfaces would meet",
+                      " surfaces would intersect",
                   proof.worst_macro_element.place);
   return {std::move(envelope), {}, {}};
 }

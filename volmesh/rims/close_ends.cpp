@@ -138,7 +138,7 @@ class Closer {
     throw Error({.code = ErrorCode::internal,
                  .attempted = "ending the layer on periodic sides",
                  .problem = "a common edge of patches on one side has no partner on the other",
-                 .places = {{domain_.outer.points[chain.outer.front()], "it starts here"}}});
+                 .places = {{domain_.outer.points[chain.outer.front()], "the edge starts here"}}});
   }
 
   bool is_end(PatchId patch) const {
@@ -195,11 +195,12 @@ class Closer {
     const VertexId last = chain.ends_on_wall ? domain_.links.line[chain.outer.back()] : VertexId{};
     const double s0 = height(first), s1 = line.length() - (last.is_valid() ? height(last) : 0.0);
     if (!(s1 - s0 > k_least_chain * line.length())) {
-      throw Error({.code = ErrorCode::envelope_failed,
-                   .attempted = "ending the layer on patches without layers",
-                   .problem = "the layer reaches over all of the common edge of patches \"" + name(chain.left) + "\" and \"" + name(chain.right) + "\"",
-                   .places = {{domain_.outer.points[chain.outer.front()], "the edge starts here"}, {domain_.outer.points[chain.outer.back()], "and ends here"}},
-                   .hint = "make the layer thinner (max_thickness) or the patches larger"});
+      throw Error(
+          {.code = ErrorCode::envelope_failed,
+           .attempted = "ending the layer on patches without layers",
+           .problem = "the layer covers the whole common edge of patches \"" + name(chain.left) + "\" and \"" + name(chain.right) + "\"",
+           .places = {{domain_.outer.points[chain.outer.front()], "the edge starts here"}, {domain_.outer.points[chain.outer.back()], "the edge ends here"}},
+           .hint = "make the layer thinner (max_thickness) or the patches larger"});
     }
     const double from_start = std::min(base_.mean_edge[first], line.first_edge());
     const double from_end = last.is_valid() ? std::min(base_.mean_edge[last], line.last_edge()) : line.last_edge();

@@ -66,7 +66,7 @@ int sense_of(const EndRegion& from, const EndRegion& to, const std::vector<std::
   if (same == edges) return 1;
   if (opposite == edges) return -1;
   ErrorInfo info =
-      end_error(to, ErrorCode::bad_argument, "the loops' edges are not those of the periodic partner \"" + from.name + "\", in one sense or the other");
+      end_error(to, ErrorCode::bad_argument, "the loop edges differ from the edges of the periodic partner \"" + from.name + "\", in both senses of rotation");
   const auto note = [&](const std::vector<EndEdge>& a, const std::vector<EndEdge>& b, const char* what) {
     std::vector<EndEdge> only;
     std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
@@ -91,12 +91,12 @@ EndTriangles copy_translated(const EndRegion& from, const EndTriangles& triangle
       end_error(to, ErrorCode::bad_argument, "loops do not match the periodic partner \"" + from.name + "\" within " + in_metres(tolerance, k_end_digits));
   for (const std::uint32_t i : loop_indices(from)) {
     partner[i] = partners.find(from.points[i] + translation);
-    if (partner[i] == Partners::k_none) info.add_place(from.points[i] + translation, "a point of the partner is here, none of this patch");
-    else if (is_taken[partner[i]]++ != 0) info.add_place(to.points[partner[i]], "two points of the partner for one of this patch");
+    if (partner[i] == Partners::k_none) info.add_place(from.points[i] + translation, "point of the partner without a point of this patch");
+    else if (is_taken[partner[i]]++ != 0) info.add_place(to.points[partner[i]], "two points of the partner match one point of this patch");
   }
   for (const std::uint32_t i : loop_indices(to))
-    if (is_taken[i] == 0) info.add_place(to.points[i], "a point of this patch is here, none of the partner");
-  info.hint = "periodic sides need the same layers and the same points where other patches meet them";
+    if (is_taken[i] == 0) info.add_place(to.points[i], "point of this patch without a point of the partner");
+  info.hint = "give periodic sides the same layers and the same points along the adjacent patches";
   if (info.n_places > 0) throw Error(std::move(info));
   const int sense = sense_of(from, to, partner);
 

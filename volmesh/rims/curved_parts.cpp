@@ -180,7 +180,7 @@ void CurvedEndSplitter::find_pieces() {
 }
 
 void CurvedEndSplitter::check_normals() const {
-  ErrorInfo info = end_error(region_, ErrorCode::bad_argument, "triangles of the patch look against the surface's normals");
+  ErrorInfo info = end_error(region_, ErrorCode::bad_argument, "triangles of the patch are oriented against the normals of the surface");
   for (std::uint32_t t = 0; t < n_; ++t)
     if (is_touched_[piece_[t]] != 0 && dot(normal(t), region_.surface->normal(centre(t))) < 0.0) info.add_place(centre(t), "centre of a triangle");
   if (info.n_places > 0) throw Error(std::move(info));
@@ -245,16 +245,15 @@ void CurvedEndSplitter::choose_cut(std::uint32_t piece) {
       for (std::vector<TriangleId>& cut : connected(triangles, State::cut)) cuts_.push_back(std::move(cut));
       return;
     }
-  ErrorInfo info =
-      end_error(region_, ErrorCode::geometry_failed,
-                "the surface turns by more than 70 degrees from its mean around the footprint of the layers, which has no projection without folds");
+  ErrorInfo info = end_error(region_, ErrorCode::geometry_failed,
+                             "around the footprint of the layers the surface normal is more than 70 degrees from its mean: a projection would have folds");
   for (std::size_t e = 0; e < footprints_.size(); ++e)
     if (footprint_piece_[e] == piece) {
       info.add_place(middle(footprints_[e]), "edge of the footprint");
       break;
     }
   info.hint =
-      "give the sides of this patch names of their own (each with less curvature), make its triangles smaller around the body, or lower max_thickness of the "
+      "split this patch into several named patches (each with less curvature), make its triangles smaller around the body, or lower max_thickness of the "
       "layers";
   throw Error(std::move(info));
 }

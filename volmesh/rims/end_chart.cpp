@@ -191,7 +191,7 @@ std::optional<EndFrame> plane_of(const EndRegion& region) {
     return frame;
   }
   const EndFrame frame = frame_through(region.surface->normal(points.front()), points);
-  ErrorInfo info = end_error(region, ErrorCode::bad_argument, "points of loops are off the plane");
+  ErrorInfo info = end_error(region, ErrorCode::bad_argument, "points of the loops are not in the plane");
   for (const Point& p : points)
     if (const double off = region.surface->inside_distance(p); std::abs(off) > k_on_plane * box.longest_side())
       info.add_place(p, in_metres(off, k_end_digits) + " from the plane; at most " + in_metres(k_on_plane * box.longest_side(), k_end_digits) + " are allowed");

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double k_size_tolerance = 0.02;  ///< share of a size at the centre of a circular loop, whose points are all at the same distance
 constexpr const char* k_crossing_hint =
-    "footprints of layers may not overlap, nor leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
+    "footprints of layers must not overlap or leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
     "larger";
 
 /// Returns the points that edges use, once each, ascending.
@@ -40,7 +40,7 @@ void check_places(const EndRegion& region, const EndTriangles& result, std::span
     const Point &a = at(i), &b = at(j);
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z != b.z ? a.z < b.z : i < j;
   });
-  ErrorInfo info = end_error(region, ErrorCode::self_intersection, "loops touch in points that they do not share");
+  ErrorInfo info = end_error(region, ErrorCode::self_intersection, "loops touch at points that they do not share");
   for (std::size_t i = 1; i < used.size(); ++i)
     if (at(used[i - 1]) == at(used[i])) info.add_place(at(used[i]), "points " + std::to_string(used[i - 1]) + " and " + std::to_string(used[i]));
   info.hint = k_crossing_hint;
@@ -106,20 +106,19 @@ void prove(const EndRegion& region, const EndPart& part, const EndTriangles& res
   const EndCheck check = check_end(part.edges, triangles);
   if (!check.reversed.empty() && check.reversed.size() == part.edges.size()) {
     ErrorInfo info = end_error(region, ErrorCode::bad_argument,
-                               "all edges run the wrong way: the region has to be to their left, seen against the surface's normal into the domain");
+                               "all edges have the wrong sense: the region must be on their left, seen against the surface normal that points into the domain");
     info.add_place(place(check.reversed.front()), "for example this edge");
     throw Error(std::move(info));
   }
   if (!check.missing.empty() || !check.open.empty()) {
-    ErrorInfo info =
-        end_error(region, ErrorCode::self_intersection, "loops lie on the wrong side of each other: a hole within a hole, or outside of the outer border");
-    for (const EndEdge& edge : check.missing) info.add_place(place(edge), "the region is not to the left of this edge");
+    ErrorInfo info = end_error(region, ErrorCode::self_intersection, "loops are nested wrongly: a hole within a hole, or outside the outer border");
+    for (const EndEdge& edge : check.missing) info.add_place(place(edge), "the region is not on the left of this edge");
     for (const EndEdge& edge : check.open) info.add_place(place(edge), "the region would end here");
     info.hint = k_crossing_hint;
     throw Error(std::move(info));
   }
   ErrorInfo info = end_error(region, ErrorCode::internal,
-                             "the triangulation is not one: Euler number " + std::to_string(check.euler_number) + " of " + std::to_string(check.n_components) +
+                             "the triangulation is invalid: Euler number " + std::to_string(check.euler_number) + " of " + std::to_string(check.n_components) +
                                  " parts with " + std::to_string(check.n_loops) + " borders");
   for (const EndEdge& edge : check.repeated) info.add_place(place(edge), "edge of more than two triangles");
   for (const TriangleVertices& t : mesh.triangles) {
@@ -182,7 +181,7 @@ std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> ed
 void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& options, EndTriangles& result, const RunContext& context) {
   if (!part.triangles.empty()) {
     ErrorInfo info = end_error(region, ErrorCode::geometry_failed,
-                               "the footprint of the layers crosses a sharp edge of the patch, or leaves the part of it that is meshed anew");
+                               "the footprint of the layers crosses a sharp edge of the patch, or leaves the re-meshed part of the patch");
     info.hint = k_crossing_hint;
     check_closed(region, result, part.edges, std::move(info));
   }

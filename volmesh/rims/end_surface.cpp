@@ -15,7 +15,7 @@ namespace {
 void check_input(const EndRegion& region) {
   if (region.surface == nullptr) throw Error(end_error(region, ErrorCode::bad_argument, "the surface is missing"));
   if (region.edges.empty()) throw Error(end_error(region, ErrorCode::bad_argument, "there are no loops"));
-  ErrorInfo info = end_error(region, ErrorCode::bad_argument, "edges of loops are not usable");
+  ErrorInfo info = end_error(region, ErrorCode::bad_argument, "edges of the loops are invalid");
   for (const EndEdge& edge : region.edges) {
     if (edge[0] >= region.points.size() || edge[1] >= region.points.size()) {
       info.add_place(Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + ", of " + std::to_string(region.points.size()) +
@@ -34,7 +34,7 @@ void check_input(const EndRegion& region) {
 void prove_whole(const EndRegion& region, const EndTriangles& result) {
   const EndCheck check = check_end(region.edges, result.triangles);
   if (check.missing.empty() && check.open.empty() && check.repeated.empty()) return;
-  ErrorInfo info = end_error(region, ErrorCode::geometry_failed, "what stays of the patch and what is new around the layers do not fit together");
+  ErrorInfo info = end_error(region, ErrorCode::geometry_failed, "the retained triangles of the patch and the new triangles around the layers do not match");
   const auto add = [&](const std::vector<EndEdge>& edges, const char* what) {
     for (const EndEdge& edge : edges) info.add_place(0.5 * (point_of(region, result, edge[0]) + point_of(region, result, edge[1])), what);
   };
@@ -42,7 +42,8 @@ void prove_whole(const EndRegion& region, const EndTriangles& result) {
   add(check.open, "edge where triangles end");
   add(check.repeated, "edge of more than two triangles");
   info.hint =
-      "footprints may not cross sharp edges of the patch or leave it: give its sides names of their own, or lower max_thickness of the layers that end here";
+      "footprints of layers must not cross sharp edges of the patch or leave the patch: split the patch at its sharp edges into several named patches, or "
+      "lower max_thickness of the layers that end here";
   throw Error(std::move(info));
 }
 

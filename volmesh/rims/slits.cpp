@@ -118,7 +118,7 @@ void require_sheet_clear(const ActuatorDisc& disc, const Sheet& sheet, const Dom
     return i < n_of_wall ? domain.wall.patches[domain.wall.triangle_patch[TriangleId(i)]].name
                          : domain.outer.patches[domain.outer.triangle_patch[TriangleId(i - n_of_wall)]].name;
   };
-  require_clear(disc, points, triangles, sheet.triangles.size(), patch_of, " away from where walls with layers go through it", context);
+  require_clear(disc, points, triangles, sheet.triangles.size(), patch_of, " away from the walls with layers that cross the disc", context);
 }
 
 /// Constrains the outlines, and marks the adjacent vertices that stay on their side of the plane.

@@ -44,8 +44,9 @@ bool opens_ridges(const MeshCase& options) {
 void require_no_others(const MeshCase& options) {
   if (options.wakes.empty()) return;
   const auto refuse = [](std::string what, std::string hint) { throw_bad_argument("making wake sheets", std::move(what), {}, std::move(hint)); };
-  if (opens_ridges(options)) refuse("layers cannot have several normals at ridges, too", "leave wakes out, or open_ridges = \"never\"");
-  if (!options.discs.empty()) refuse("there are actuator discs, too", "leave one of them out");
+  if (opens_ridges(options))
+    refuse("wake sheets cannot be combined with several normals at ridges (open_ridges)", "leave wakes out, or set open_ridges = \"never\"");
+  if (!options.discs.empty()) refuse("wake sheets cannot be combined with actuator discs", "leave the wakes or the discs out");
 }
 
 /// Checks rules for exactly these patches; a rule for "*" is meant for other patches.
@@ -54,7 +55,8 @@ void require_no_layers_on_periodic_sides(const MeshCase& options) {
     for (const PeriodicNames& pair : options.periodic)
       if ((rule.names == pair.first || rule.names == pair.second) && (rule.layers > 0 || rule.kind == "wall"))
         throw_bad_argument("making \"" + pair.first + "\" and \"" + pair.second + "\" periodic",
-                           "patches asks for a wall, or for layers, on \"" + rule.names + "\"", {}, "periodic sides carry no layers: leave one of them out");
+                           "patches requests kind wall or layers on \"" + rule.names + "\"", {},
+                           "periodic sides carry no layers: leave out the rule or the periodic pair");
 }
 
 }  // namespace
@@ -106,9 +108,9 @@ void go_on_beyond_open_rims(const TriMesh& boundary, const MeshCase& options, co
     const PatchLayers asked = request_of({patch.name, PatchKind::wall}, options.envelope, options.patches);
     if (!asked.carries_layers() || (is_automatic(asked.first_height) && !options.first_heights)) continue;
     has_layer[p] = 1;
-    context.info("the layer of the walls goes on over the " + std::string(to_string(patch.kind)) + " patch \"" + patch.name +
+    context.info("the layer of the walls continues over the " + std::string(to_string(patch.kind)) + " patch \"" + patch.name +
                  "\", which begins at an outer edge of a wall, where no layer can end; patches = { [\"" + patch.name +
-                 "\"] = { layers = 0 } } ends it at that edge without a height");
+                 "\"] = { layers = 0 } } ends the layer with zero height at that edge");
   }
 }
 
@@ -131,10 +133,10 @@ void require_no_layers(const TriMesh& boundary, const MeshCase& options, const R
     throw Error({.code = ErrorCode::empty_surface,
                  .attempted = "volume_mesh",
                  .problem = "no patch carries a layer: none is of kind wall",
-                 .hint = "give a patch the kind wall, or layers = 0 for a mesh of tetrahedra alone"});
-  const std::string text = "no patch carries layers: the mesh is made of tetrahedra alone, for inviscid flow (Euler)";
+                 .hint = "give a patch the kind wall, or set layers = 0 for a mesh of tetrahedra only"});
+  const std::string text = "no patch carries layers: the mesh has only tetrahedra, for inviscid flow (Euler)";
   if (options.envelope.layers == 0) context.info(text);
-  else context.warn(text + "; layers = " + std::to_string(options.envelope.layers) + " has no effect, as the rules of all patches say layers = 0");
+  else context.warn(text + "; layers = " + std::to_string(options.envelope.layers) + " has no effect, because the rules of all patches set layers = 0");
 }
 
 /// The closed boundary of the fluid with the kinds of its patches; added planes on which no layers end have separate vertices.
@@ -170,9 +172,9 @@ void warn_of_cavities(const Domain& domain, const RunContext& context) {
     if (n_told++ == k_max_places) break;
     std::string names;
     for (std::size_t i = 0; i < std::min(cavity.patches.size(), k_named_patches); ++i) names += (i == 0 ? "\"" : ", \"") + cavity.patches[i] + "\"";
-    context.warn("the inside of " + names + (cavity.patches.size() > k_named_patches ? " and more" : "") + " is a sealed cavity of " +
+    context.warn("the inside of " + names + (cavity.patches.size() > k_named_patches ? " and other patches" : "") + " is a sealed cavity of " +
                  number_text(cavity.volume, 3) + " m^3 about " + format_point(cavity.box.center()) + ", " + in_metres(cavity.box.longest_side(), 3) +
-                 " long: it is meshed, but no flow reaches it. Leave its faces out of the surface, or open it where the flow should enter");
+                 " long: the cavity is meshed, but no flow reaches it. Leave its faces out of the surface, or open the cavity where the flow should enter");
   }
   if (!domain.cavities.empty()) context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
 }
@@ -195,7 +197,7 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
     context.warn(
-        "wake sheets are experimental: at their sides, beside the tips of wings, cells fail gates that pass without sheets; compare the verdict with that of a "
+        "wake sheets are experimental: at their sides, beside wing tips, cells fail gates that pass without sheets; compare the gate results with those of a "
         "mesh without wakes");
     const std::vector<PeriodicPatches> sides = move_onto_images(boundary, options.periodic, context);
     const auto complete_again = [&](const TriMesh& with_sheets) {

@@ -111,9 +111,9 @@ void check_no_twin_points(const TetraBoundary& boundary, const RunContext& conte
   if (twins.empty()) return;
   for (std::size_t& i : twins) i = order[i];
   std::ranges::sort(twins);
-  throw_for_points(info(ErrorCode::self_intersection, std::to_string(twins.size()) + " points at the place of another one",
-                        "weld them, or move the touching parts of the boundary apart"),
-                   boundary, twins, "lies on another point");
+  throw_for_points(info(ErrorCode::self_intersection, std::to_string(twins.size()) + " points coincide with another point",
+                        "weld these points, or move the touching parts of the boundary apart"),
+                   boundary, twins, "coincides with another point");
 }
 
 /// Returns true if the points are collinear: if and only if the projections on all three coordinate planes are.
@@ -163,8 +163,9 @@ void check_edges(const TetraBoundary& boundary, const RunContext& context) {
                         open, "has an open edge");
   }
   if (!tangled.empty()) {
-    throw_for_triangles(info(ErrorCode::non_manifold_surface, std::to_string(tangled.size()) + " edges with more than two triangles or two of the same sense"),
-                        boundary, tangled, "has such an edge");
+    throw_for_triangles(
+        info(ErrorCode::non_manifold_surface, std::to_string(tangled.size()) + " edges with more than two triangles, or with two triangles of the same sense"),
+        boundary, tangled, "has such an edge");
   }
 }
 

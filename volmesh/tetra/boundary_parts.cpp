@@ -96,10 +96,10 @@ class Regions {
     }
     if (region >= 0) return region;
     throw Error({.code = ErrorCode::not_orientable,
-                 .attempted = "looking for the regions of the domain",
+                 .attempted = "finding the regions of the domain",
                  .problem = what + " lies in no region",
                  .places = {{boundary_.points[v], "point " + std::to_string(v)}},
-                 .hint = "normals must point into the domain: out of the bodies, and inwards on what encloses them"});
+                 .hint = "normals must point into the domain: outwards on bodies, inwards on the surfaces around the bodies"});
   }
 
  private:
@@ -152,7 +152,7 @@ BoundaryParts find_parts(const TetraBoundary& boundary, const JoinedBoundary* jo
     std::int32_t& region = parts.surface2region[surface];
     if (region >= 0) continue;
     const std::int32_t first = component_of(triangles.size() + i);
-    region = is_sheet[static_cast<std::size_t>(first)] != 0 ? regions.around(boundary.triangles[joined->facet2triangle[triangles.size() + i]][0], "a sheet")
+    region = is_sheet[static_cast<std::size_t>(first)] != 0 ? regions.around(boundary.triangles[joined->facet2triangle[triangles.size() + i]][0], "a baffle")
                                                             : regions.of(first);
     for (const std::uint32_t v : sheets[i]) {
       const std::int32_t second = component[joined->sources[v][1]];

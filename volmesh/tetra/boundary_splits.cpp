@@ -47,7 +47,7 @@ class Finder {
 
  private:
   [[noreturn]] void throw_invalid(std::string problem, std::optional<std::uint32_t> triangle = std::nullopt) const {
-    ErrorInfo error{.code = ErrorCode::tetra_result_invalid, .attempted = "reading how the engine has split the boundary", .problem = std::move(problem)};
+    ErrorInfo error{.code = ErrorCode::tetra_result_invalid, .attempted = "reading the boundary splits of the engine", .problem = std::move(problem)};
     if (triangle) error.places.push_back(place_of_triangle(boundary_, *triangle, ""));
     throw Error(std::move(error));
   }
@@ -59,7 +59,7 @@ class Finder {
     for (std::size_t i = 0; i < splits_.triangles.size(); ++i) {
       const std::uint32_t parent = splits_.parents[i];
       for (const std::uint32_t v : splits_.triangles[i]) {
-        if (v >= points_.size()) throw_invalid("a face of the boundary has a point that is not there", parent);
+        if (v >= points_.size()) throw_invalid("a face of the boundary has a point that does not exist", parent);
         if (v < n_old_) continue;
         auto& [first, second] = users[v - n_old_];
         if (first == k_none || first == parent) first = parent;
@@ -109,7 +109,7 @@ class Finder {
     Weights weights{};
     if (node < n_old_) {
       const auto k = static_cast<std::size_t>(std::ranges::find(t, node) - t.begin());
-      if (k == 3) throw_invalid("a part of a boundary triangle has a corner of another one", triangle);
+      if (k == 3) throw_invalid("a part of a boundary triangle has a corner of another boundary triangle", triangle);
       weights[k] = 1.0;
       return weights;
     }
@@ -133,7 +133,7 @@ class Finder {
       if (area < 0.0) std::swap(part[1], part[2]);
       sum += std::abs(area);
     }
-    if (std::abs(sum - 1.0) > k_area_tolerance) throw_invalid("the parts of a boundary triangle have " + std::to_string(sum) + " of its area", triangle);
+    if (std::abs(sum - 1.0) > k_area_tolerance) throw_invalid("the parts of a boundary triangle cover " + std::to_string(sum) + " times its area", triangle);
   }
 
   const TetraBoundary& boundary_;

@@ -183,7 +183,7 @@ std::optional<Candidate> point_behind(const Wall& surface, const TriMesh& wall, 
     if (here == crossings->end()) continue;  // a sliver triangle: rounding moved the line out of it
     const bool is_last = here->sense > 0 ? here == crossings->begin() : here + 1 == crossings->end();
     if (is_last) {
-      failure = {p, "nothing lies behind this triangle"};
+      failure = {p, "no surface behind this triangle"};
       return std::nullopt;
     }
     const Crossing& next = here->sense > 0 ? *(here - 1) : *(here + 1);
@@ -191,7 +191,7 @@ std::optional<Candidate> point_behind(const Wall& surface, const TriMesh& wall, 
     auto windings = surface.windings(p, *crossings);
     if (!windings) continue;
     if (!is_solid(*windings)) {
-      failure = {p, "behind a triangle, but not inside of exactly one solid"};
+      failure = {p, "a point behind the triangle is not inside exactly one solid"};
       return std::nullopt;
     }
     Candidate candidate{p, 0.5 * std::abs(next.at - here->at), std::move(*windings)};
@@ -211,10 +211,11 @@ Candidate roomiest_point(const Wall& surface, const TriMesh& wall, const std::ve
   }
   if (best.room > 0.0) return best;
   const PatchId patch = wall.triangle_patch[triangles.front()];
-  ErrorInfo error{.code = ErrorCode::not_orientable,
-                  .attempted = "looking for a point inside each body",
-                  .problem = "the region behind a shell of patch \"" + wall.patches[patch].name + "\" is not a bounded solid",
-                  .hint = "normals must point out of the body, shells inside a body into its holes; a body must not lie inside another one"};
+  ErrorInfo error{
+      .code = ErrorCode::not_orientable,
+      .attempted = "finding a point inside each body",
+      .problem = "the region behind a shell of patch \"" + wall.patches[patch].name + "\" is not a bounded solid",
+      .hint = "normals must point out of the body; on shells inside a body they must point into its holes; a body must not lie inside another body"};
   const auto [a, b, c] = corners(wall, triangles.front());
   if (failure) error.places.push_back({failure->position, failure->what});
   else error.places.push_back({(a + b + c) / 3.0, "largest triangle of the shell"});

@@ -111,10 +111,10 @@ std::string text_of_code(EngineKind kind, int code) {
   if (kind != EngineKind::tetgen) return "failed";
   const std::string number = " (code " + std::to_string(code) + ")";
   switch (code) {
-    case 2: return "met an internal error" + number;
+    case 2: return "stopped with an internal error" + number;
     case 3: return "found that the boundary intersects itself" + number;
-    case 4: return "met a feature that is too small for it" + number;
-    case 5: return "met two facets that are too close for it" + number;
+    case 4: return "found a feature that is too small" + number;
+    case 5: return "found two facets that are too close to each other" + number;
     case 10: return "rejected its input" + number;
     default: return "failed" + number;
   }
@@ -129,7 +129,7 @@ std::string megabytes(double bytes) { return with_unit(std::round(bytes / 1e6), 
 
 std::string attempt(EngineKind kind) { return "filling the volume with tetrahedra (" + std::string(display_name(kind)) + ")"; }
 
-constexpr const char* k_hint = "the boundary does not cross itself; look for features many orders of magnitude smaller than the farfield";
+constexpr const char* k_hint = "the boundary has no self-intersections; search for features many orders of magnitude smaller than the farfield";
 
 EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string problem, std::string hint = k_hint) {
   return {failure_kind, {.code = ErrorCode::tetra_engine_failed, .attempted = attempt(kind), .problem = std::move(problem), .hint = std::move(hint)}};
@@ -144,30 +144,31 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
                    "raise tetrahedra.time_limit, or coarsen the surface");
   }
   if (is_reply && header.outcome == wire::Outcome::out_of_time) {
-    EngineFailure over = failure(FailureKind::limit, kind,
-                                 "stopped after " + with_unit(header.engine_seconds, "s") +
-                                     " of processor time, in which it would have filled a sound boundary of this size many times over",
-                                 "mesh the surface anew where its triangles are needles or folded; or set tetrahedra.time_limit (seconds) to let it go on");
+    EngineFailure over =
+        failure(FailureKind::limit, kind,
+                "stopped after " + with_unit(header.engine_seconds, "s") + " of processor time, several times the usual time for a boundary of this size",
+                "re-mesh the surface where triangles are slivers or folded; or set a larger tetrahedra.time_limit (seconds)");
     over.is_own_limit = true;
     return over;
   }
   if (is_reply && header.outcome == wire::Outcome::out_of_memory) {
     return failure(FailureKind::limit, kind,
-                   "out of memory: the limit of the helper is " + megabytes(options.memory_limit) + ", it had used " + megabytes(header.peak_bytes),
+                   "out of memory: the limit of the helper is " + megabytes(options.memory_limit) + ", its use was " + megabytes(header.peak_bytes),
                    "raise tetrahedra.memory_limit, or coarsen the surface");
   }
   const std::string name(display_name(kind));
   if (WIFSIGNALED(exit.wait_status)) {
     const int signal = WTERMSIG(exit.wait_status);
     const std::string problem = "the helper died of signal " + std::to_string(signal) + " (" + strsignal(signal) + ")" + last_words(exit);
-    if (signal == SIGKILL) return failure(FailureKind::limit, kind, problem, "someone killed it, perhaps the system for lack of memory");
+    if (signal == SIGKILL) return failure(FailureKind::limit, kind, problem, "the helper was killed, perhaps by the system for lack of memory");
     return failure(FailureKind::deterministic, kind, problem);
   }
   if (is_reply && header.outcome == wire::Outcome::engine_code) {
     return failure(FailureKind::deterministic, kind, name + " " + text_of_code(kind, header.engine_code) + last_words(exit));
   }
-  return failure(FailureKind::deterministic, kind, "the helper gave no answer, exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit),
-                 "the helper may be of another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
+  return failure(FailureKind::deterministic, kind,
+                 "the helper returned no result, exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit),
+                 "the helper may have another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
 }
 
 /// Returns a failure for a mesh with more points than the user allows.
@@ -175,12 +176,12 @@ std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeade
   const double n_new = static_cast<double>(header.n_points) - static_cast<double>(request.points().size());
   if (is_automatic(options.max_new_points) || n_new <= options.max_new_points) return std::nullopt;
   return failure(FailureKind::deterministic, kind, with_unit(n_new, "new points") + ", limit " + with_unit(options.max_new_points, ""),
-                 "raise tetrahedra.max_new_points, or ask for larger tetrahedra");
+                 "raise tetrahedra.max_new_points, or request larger tetrahedra");
 }
 
 [[noreturn]] void throw_invalid_reply(EngineKind kind, std::string problem, std::vector<ErrorPlace> places = {}) {
   throw Error({.code = ErrorCode::tetra_result_invalid,
-               .attempted = "reading the answer of " + std::string(display_name(kind)),
+               .attempted = "reading the result of " + std::string(display_name(kind)),
                .problem = std::move(problem),
                .places = std::move(places)});
 }
@@ -223,12 +224,12 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
   const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra +
                                sizeof(std::array<std::uint32_t, 4>) * header.n_triangles;
   if (reply.size() != expected) throw_invalid_reply(kind, std::to_string(reply.size()) + " bytes instead of " + std::to_string(expected));
-  if (header.n_points < n_boundary) throw_invalid_reply(kind, std::to_string(header.n_points) + " points come back of " + std::to_string(n_boundary));
+  if (header.n_points < n_boundary) throw_invalid_reply(kind, std::to_string(header.n_points) + " points returned of " + std::to_string(n_boundary));
   const auto* points = reinterpret_cast<const Vec3*>(data + sizeof header);
   for (std::size_t i = 0; i < n_boundary; ++i) {
     if (points[i] == request.points()[i]) continue;
-    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " comes back in another place",
-                        {{request.points()[i] / request.scale(), "sent"}, {points[i] / request.scale(), "came back"}});
+    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " was returned at another location",
+                        {{request.points()[i] / request.scale(), "sent"}, {points[i] / request.scale(), "returned"}});
   }
   TetraResult result;
   result.engine = to_string(kind);
@@ -260,7 +261,7 @@ void verify(const TetraBoundary& boundary, const TetraResult& result, const RunC
     if (error.code() == ErrorCode::cancelled) throw;
     ErrorInfo info = error.info();
     info.code = ErrorCode::tetra_result_invalid;
-    info.attempted = "checking the boundary as the engine has split it";
+    info.attempted = "checking the boundary split by the engine";
     throw Error(std::move(info));
   }
   verify_tetrahedra(split, result, context);
@@ -271,7 +272,7 @@ EngineOutcome failed(EngineFailure failure) { return {std::nullopt, std::move(fa
 }  // namespace
 
 std::string_view to_string(EngineKind kind) { return kind == EngineKind::tetgen ? "tetgen" : kind == EngineKind::hxt ? "hxt" : "sterna"; }
-std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetgen ? "TetGen" : kind == EngineKind::hxt ? "HXT" : "our own engine"; }
+std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetgen ? "TetGen" : kind == EngineKind::hxt ? "HXT" : "built-in engine"; }
 
 EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   if (kind == EngineKind::sterna) return run_own_engine(input, options, context);

@@ -16,7 +16,7 @@ namespace sterna::volmesh {
 enum class EngineKind { tetgen, hxt, sterna };
 /// Returns "tetgen", "hxt" or "sterna", as in TetraOptions::engine.
 std::string_view to_string(EngineKind kind);
-/// Returns "TetGen", "HXT" or "our own engine", for messages.
+/// Returns "TetGen", "HXT" or "built-in engine", for messages.
 std::string_view display_name(EngineKind kind);
 
 enum class FailureKind {

@@ -9,8 +9,8 @@ static_assert(wire::k_request_fd == k_helper_request_fd && wire::k_reply_fd == k
 
 HelperTask engine_task() {
   return {.helper = "the tetrahedra engine",
-          .attempted = "handing the boundary to the tetrahedra engine",
-          .else_try = ", choose another tetrahedra.engine, or set tetrahedra.helper_folder to where it is",
+          .attempted = "passing the boundary to the tetrahedra engine",
+          .else_try = ", choose another tetrahedra.engine, or set tetrahedra.helper_folder to the folder of the helper",
           .missing = ErrorCode::tetra_engine_missing,
           .failed = ErrorCode::tetra_engine_failed};
 }

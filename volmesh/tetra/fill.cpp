@@ -36,8 +36,7 @@ namespace {
 }
 
 std::string text_of(const LadderRung& rung) {
-  return std::string(display_name(rung.engine)) + (rung.has_splits() ? " with splits of the boundary's triangles" : "") +
-         (rung.is_two_pass ? " in two passes" : "");
+  return std::string(display_name(rung.engine)) + (rung.has_splits() ? " with splits of boundary triangles" : "") + (rung.is_two_pass ? " in two passes" : "");
 }
 
 /// Corner angle below which a boundary triangle counts as a sliver for sterna's own engine: beside slivers it leaves somewhat more bad tetrahedra than HXT.
@@ -75,22 +74,23 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
   else if (options.engine == "sterna") rungs.insert(rungs.begin(), {EngineKind::sterna});
   else if (options.engine == "automatic" && has_sizes) rungs.insert(is_own_first(boundary, context) ? rungs.begin() : rungs.end(), {EngineKind::sterna});
-  else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, sterna, tetgen, hxt");
+  else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "use one of automatic, sterna, tetgen, hxt");
   if (options.two_pass) {
     if (options.engine == "hxt" || options.engine == "sterna")
-      throw_bad("two_pass", "true\" with engine \"" + options.engine, "only TetGen has two passes: leave the engine automatic, or choose tetgen");
+      throw_bad("two_pass", "true\" with engine \"" + options.engine, "only TetGen has two passes: set engine = \"automatic\" or \"tetgen\"");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
   if (boundary.has_sheets && options.boundary_splits == "always")
-    throw_bad("boundary_splits", "always", "triangles beside sheets without thickness (actuator discs) cannot be split");
+    throw_bad("boundary_splits", "always", "triangles beside baffles (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt" || options.engine == "sterna")
-      throw_bad("boundary_splits", "always",
-                (options.engine == "hxt" ? "HXT" : "our own engine") + std::string(" keeps the boundary: leave the engine automatic, or choose tetgen"));
-    if (!boundary.may_split)
       throw_bad(
           "boundary_splits", "always",
-          "where walls end on other patches, sides are periodic, ridges are opened or wakes have sheets, the boundary stays as it is: leave it at ladder");
+          (options.engine == "hxt" ? "HXT" : "the built-in engine") + std::string(" cannot split the boundary: set engine = \"automatic\" or \"tetgen\""));
+    if (!boundary.may_split)
+      throw_bad("boundary_splits", "always",
+                "the boundary cannot be split if walls end on other patches, sides are periodic, ridges are opened or there are wake sheets: set "
+                "boundary_splits = \"ladder\"");
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
@@ -100,7 +100,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
       rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
     }
   } else if (options.boundary_splits != "never") {
-    throw_bad("boundary_splits", options.boundary_splits, "one of never, ladder, always");
+    throw_bad("boundary_splits", options.boundary_splits, "use one of never, ladder, always");
   }
   return rungs;
 }
@@ -140,11 +140,11 @@ EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const J
 /// Adds the result of each attempt, and the remedy, to the error.
 void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
   error.attempted = "filling the volume with tetrahedra";
-  error.problem = "no engine has an answer";
+  error.problem = "all engines failed";
   for (const EngineFailure& failure : failures) error.problem += "; " + failure.error.attempted + ": " + failure.error.problem;
   error.hint =
-      "mesh the surface anew where its triangles are needles, folded or close to others (`sterna inspect` lists them), or use fewer and lower layers; "
-      "tetrahedra.time_limit (seconds) lets engines go on";
+      "re-mesh the surface where triangles are slivers, folded or close to other triangles (`sterna inspect` lists them), use fewer and lower layers, or set a "
+      "larger tetrahedra.time_limit (seconds)";
 }
 
 /// Checks the boundary for the engines and finds its parts. \throws Error for a boundary that is not closed, not manifold or intersects itself
@@ -190,7 +190,7 @@ struct TetraLadder::State {
       if (!outcome.result) {
         add(std::move(outcome.failure));
         if (!second_best) continue;
-        context.warn("taking the tetrahedra of our own engine as they are");
+        context.warn("using the tetrahedra of the built-in engine unchanged");
         return taken(std::move(*second_best));
       }
       if (is_stuck(rung, outcome)) {
@@ -223,9 +223,9 @@ struct TetraLadder::State {
   static EngineFailure stuck(double share) {
     return {FailureKind::deterministic,
             {.code = ErrorCode::tetra_engine_failed,
-             .attempted = "filling the volume with tetrahedra (our own engine)",
-             .problem = "refinement got stuck on the tops of wake sheets: " + number_text(100.0 * share, 2) +
-                        " % of the tetrahedra lie flat over many triangles, limit " + number_text(100.0 * k_most_stuck, 2) + " %"}};
+             .attempted = "filling the volume with tetrahedra (built-in engine)",
+             .problem = "refinement stopped early on the tops of wake sheets: " + number_text(100.0 * share, 2) +
+                        " % of the tetrahedra are flat and cover many triangles, limit " + number_text(100.0 * k_most_stuck, 2) + " %"}};
   }
 
   void add(EngineFailure failure) {

@@ -220,7 +220,7 @@ void require_no_thread_cache() {
   char path[] = "/proc/self/exe";
   char* arguments[] = {path, nullptr};
   if (unsetenv("MALLOC_PERTURB_") == 0 && setenv(k_name, k_value, 1) == 0) execv(path, arguments);
-  helper::say("HXT's process cannot set how its memory is kept: its answer may differ from run to run\n");
+  helper::say("HXT helper: the memory settings cannot be changed; results may differ from run to run\n");
 }
 
 int main() {

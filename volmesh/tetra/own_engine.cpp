@@ -30,8 +30,8 @@ EngineOutcome failed(FailureKind kind, ErrorInfo error) { return {std::nullopt, 
 
 EngineOutcome no_sizes() {
   return failed(FailureKind::deterministic, {.code = ErrorCode::tetra_engine_failed,
-                                             .attempted = "filling the volume with tetrahedra (our own engine)",
-                                             .problem = "there is no size field, without which it puts no points into the volume"});
+                                             .attempted = "filling the volume with tetrahedra (built-in engine)",
+                                             .problem = "there is no size field, which the built-in engine needs to place points in the volume"});
 }
 
 /// Returns the boundary's points and the points that recovery added in the volume.
@@ -58,7 +58,7 @@ std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<
   }
   context.debug("recovery: " + std::to_string(report.n_missing_edges) + " of " + std::to_string(report.n_edges) + " edges and " +
                 std::to_string(report.n_missing_facets) + " of " + std::to_string(report.n_facets) + " triangles were missing, " +
-                std::to_string(report.n_points) + " points in the volume for their sake");
+                std::to_string(report.n_points) + " points were added in the volume to recover them");
   if (!joined) return std::move(recovery.mesh);
   TetraResult result;
   result.new_points.assign(recovery.mesh.points.begin() + static_cast<std::ptrdiff_t>(points.size()), recovery.mesh.points.end());
@@ -82,8 +82,8 @@ EngineOutcome recover_elsewhere(const EngineInput& input, const TetraOptions& op
 std::string told(const tets::RefineReport& report, std::size_t n_tets, double recovery_seconds, double seconds) {
   char text[300];
   std::snprintf(text, sizeof text,
-                "refinement: %lld points in %d rounds, %zu tetrahedra; %lld larger than wanted, %lld of them flat and long; %.0f bytes for each; recovery %.2f "
-                "s, refinement %.2f s",
+                "refinement: %lld points in %d rounds, %zu tetrahedra; %lld larger than the target size, %lld of them flat and long; %.0f bytes for each; "
+                "recovery %.2f s, refinement %.2f s",
                 static_cast<long long>(report.n_inserted), report.rounds, n_tets, static_cast<long long>(report.n_left), static_cast<long long>(report.n_far),
                 report.bytes / static_cast<double>(std::max<std::size_t>(n_tets, 1)), recovery_seconds, seconds);
   return text;
@@ -114,7 +114,7 @@ class Deadline {
 
 EngineOutcome over_limit(std::string problem, const char* option) {
   return failed(FailureKind::limit, {.code = ErrorCode::tetra_engine_failed,
-                                     .attempted = "filling the volume with tetrahedra (our own engine)",
+                                     .attempted = "filling the volume with tetrahedra (built-in engine)",
                                      .problem = std::move(problem),
                                      .hint = std::string("raise tetrahedra.") + option + ", or coarsen the surface"});
 }
@@ -174,10 +174,10 @@ EngineOutcome run_own_engine(const EngineInput& input, const TetraOptions& optio
       return over_limit("out of memory: the limit is " + rounded(options.memory_limit / 1e6, "MB"), "memory_limit");
     if (!is_automatic(options.max_new_points) && static_cast<double>(result.new_points.size()) > options.max_new_points)
       return failed(FailureKind::deterministic, {.code = ErrorCode::tetra_engine_failed,
-                                                 .attempted = "filling the volume with tetrahedra (our own engine)",
+                                                 .attempted = "filling the volume with tetrahedra (built-in engine)",
                                                  .problem = std::to_string(result.new_points.size()) + " new points, limit " +
                                                             std::to_string(static_cast<std::int64_t>(options.max_new_points)),
-                                                 .hint = "raise tetrahedra.max_new_points, or ask for larger tetrahedra"});
+                                                 .hint = "raise tetrahedra.max_new_points, or request larger tetrahedra"});
     const StageTimer timer(context, "tetrahedra/verify");
     verify_tetrahedra(input.boundary, result, context);
   } catch (const Error& error) {

@@ -242,7 +242,7 @@ void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, 
     std::ranges::stable_sort(worst, std::less(), &PreflightFinding::value);
     for (const PreflightFinding& finding : worst) {
       if (error.places.size() < k_max_places)
-        error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (hard for engines)"));
+        error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (difficult for tetrahedra engines)"));
       for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
     }
   }
@@ -258,8 +258,10 @@ void judge(const PreflightReport& report, const TetraBoundary& boundary, const R
   }
   const std::int64_t n_fatal = report.count(Trouble::crossing) + report.count(Trouble::duplicate);
   if (n_fatal == 0) return;
-  ErrorInfo error{
-      .code = ErrorCode::self_intersection, .attempted = "checking the boundary of the tetrahedra", .n_places = n_fatal, .hint = "remove the crossings"};
+  ErrorInfo error{.code = ErrorCode::self_intersection,
+                  .attempted = "checking the boundary of the tetrahedra",
+                  .n_places = n_fatal,
+                  .hint = "repair the crossing triangles"};
   for (const Trouble trouble : {Trouble::crossing, Trouble::duplicate}) {
     if (report.count(trouble) > 0)
       error.problem += (error.problem.empty() ? "" : ", ") + std::to_string(report.count(trouble)) + " " + std::string(to_string(trouble));

@@ -19,7 +19,7 @@ constexpr std::uint32_t k_no_node = 0xffffffffu;
 
 [[noreturn]] void throw_bad(std::string problem, std::vector<ErrorPlace> places, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
-               .attempted = "joining the two sides of sheets in the boundary of the tetrahedra",
+               .attempted = "joining the two sides of baffles in the boundary of the tetrahedra",
                .problem = std::move(problem),
                .places = std::move(places),
                .hint = std::move(hint)});
@@ -57,7 +57,7 @@ std::vector<std::uint32_t> number_places(const TetraBoundary& boundary, JoinedBo
     const bool is_twin = i > 0 && key(order[i - 1]) == key(order[i]);
     first[order[i]] = is_twin ? first[order[i - 1]] : order[i];
     if (is_twin && i > 1 && key(order[i - 2]) == key(order[i]))
-      throw_bad("three points at one place", {{boundary.points[order[i]], "point " + std::to_string(order[i])}}, "sheets may not meet each other");
+      throw_bad("three points at one location", {{boundary.points[order[i]], "point " + std::to_string(order[i])}}, "baffles must not meet each other");
   }
   for (std::uint32_t v = 0; v < place.size(); ++v) {
     if (first[v] == v) {
@@ -108,7 +108,7 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
     ++i;
   }
   std::ranges::sort(sides);
-  if (sides.empty()) throw_bad("no triangle lies back to back on another one", {});
+  if (sides.empty()) throw_bad("no triangle lies back to back on another triangle", {});
 
   const auto add = [&](std::uint32_t t) {
     joined.facets.push_back(joined_corners(t));
@@ -126,16 +126,16 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
       has_inner_point |= sources[0] != sources[1];
       if (sources[0] == sources[1]) continue;
       if (is_known[place[v]] && sources[0] != v)
-        throw_bad("the triangles of one side of a sheet use points of both of its sides", {{boundary.points[v], "point " + std::to_string(v)}},
-                  "the sides' triangles must come in the same order");
+        throw_bad("the triangles on one side of a baffle use points of both sides", {{boundary.points[v], "point " + std::to_string(v)}},
+                  "the triangles of both sides must have the same order");
       if (sources[0] != v) std::swap(sources[0], sources[1]);
       is_known[place[v]] = 1;
     }
     if (has_inner_point) continue;
     const Triangle& t = boundary.triangles[front];
-    throw_bad("a sheet's triangle has all corners on its free rim",
+    throw_bad("a triangle of a baffle has all corners on the free edge of the baffle",
               {{(boundary.points[t[0]] + boundary.points[t[1]] + boundary.points[t[2]]) / 3.0, "triangle " + std::to_string(front)}},
-              "every triangle of a sheet needs a corner inside");
+              "every triangle of a baffle needs a corner that is not on its free edge");
   }
   joined.n_sheets = sides.size();
   return joined;
@@ -209,7 +209,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
     }
   });
 
-  ErrorInfo error{.code = ErrorCode::tetra_result_invalid, .attempted = "parting the tetrahedra on the two sides of a sheet"};
+  ErrorInfo error{.code = ErrorCode::tetra_result_invalid, .attempted = "separating the tetrahedra on the two sides of a baffle"};
   const auto shift = static_cast<std::uint32_t>(boundary.points.size() - n_joined);
   std::uint32_t next = 0;
   for (std::uint32_t t = 0; t < result.tetrahedra.size(); ++t) {
@@ -224,7 +224,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
       if (is_listed && has_sides(v)) {
         side = sides.side(4 * next + k);
         if (side != 1 && side != 2) {
-          if (error.places.size() < k_max_places) error.places.push_back({joined.points[v], "the sheet does not part the tetrahedra at this point"});
+          if (error.places.size() < k_max_places) error.places.push_back({joined.points[v], "the baffle does not separate the tetrahedra at this point"});
           ++error.n_places;
           side = 1;
         }
@@ -234,7 +234,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
     next += is_listed;
   }
   if (error.n_places == 0) return;
-  error.problem = "a triangle of a sheet is missing among the faces at " + std::to_string(error.n_places) + " corners of tetrahedra";
+  error.problem = "a triangle of a baffle is missing among the faces at " + std::to_string(error.n_places) + " corners of tetrahedra";
   throw Error(std::move(error));
 }
 

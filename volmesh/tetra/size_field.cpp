@@ -135,7 +135,7 @@ void Builder::refine() {
       throw Error({.code = ErrorCode::overflow,
                    .attempted = "building the size field",
                    .problem = "more than " + std::to_string(k_max_leaves) + " leaves are needed",
-                   .hint = "size_max, or a source, asks for a very small size in a large region"});
+                   .hint = "size_max or a source requests a very small size in a large region: use a larger size or a smaller region"});
     nodes_.resize(next_first + next.size(), 0);
     first = next_first;
     level = std::move(next);
@@ -200,7 +200,7 @@ void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sou
     std::string problem = problem_of(sources[i], growth);
     const double n_leaves = volume_of(sources[i]) / std::pow(k_edge_over_size * std::max(sources[i].size, sources[i].size_end), 3.0);
     if (problem.empty() && n_leaves > static_cast<double>(k_max_leaves))
-      problem = "its region at this size is more than " + std::to_string(k_max_leaves) + " leaves of the field";
+      problem = "at this size its region needs more than " + std::to_string(k_max_leaves) + " leaves of the field";
     if (problem.empty()) continue;
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "building the size field",

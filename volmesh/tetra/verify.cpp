@@ -26,8 +26,8 @@ constexpr std::size_t k_places_kept = 1000;
 
 enum class Fault : std::uint8_t { bad_index, not_positive, missing_boundary, free_face, crowded_face, same_sense };
 constexpr std::array<const char*, 6> k_fault_text = {
-    "tetrahedra with a node out of range or repeated", "tetrahedra without positive volume", "boundary triangles that are no face of a tetrahedron",
-    "outer faces that are no boundary triangle",       "faces of more than two cells",       "faces that both cells see from the same side"};
+    "tetrahedra with a node out of range or repeated", "tetrahedra without positive volume", "boundary triangles that are not a face of a tetrahedron",
+    "outer faces that are not a boundary triangle",    "faces of more than two cells",       "faces with both cells on the same side"};
 
 struct Defect {
   Fault fault;
@@ -285,7 +285,7 @@ void throw_if_any(const Defects& findings, const Owners& owners, const Nodes& no
     }
   }
   if (findings.counts[static_cast<std::size_t>(Fault::missing_boundary)] > 0) {
-    error.hint = "the boundary is not closed, crosses itself, or a hole point lies on the wrong side of it";
+    error.hint = "the boundary is not closed, intersects itself, or a hole point lies on the wrong side of the boundary";
   }
   throw Error(std::move(error));
 }
@@ -296,7 +296,7 @@ void verify_tetrahedra(const TetraBoundary& boundary, const TetraResult& result,
   const Nodes nodes{boundary, result};
   const Owners owners{boundary, result};
   if (result.tetrahedra.empty()) {
-    ErrorInfo error = invalid("no tetrahedra at all");
+    ErrorInfo error = invalid("there are no tetrahedra");
     error.hint = "the boundary is not closed, or a hole point lies in the domain";
     throw Error(std::move(error));
   }

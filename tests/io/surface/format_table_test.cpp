@@ -53,10 +53,10 @@ TEST(FormatTable, ErrorsListWhatThereIs) {
     return "no error";
   };
   using ::testing::HasSubstr;
-  EXPECT_THAT(message("a.xyzzy", FormatUse::write_surface), AllOf(HasSubstr("extension is not known"), HasSubstr(".su2")));
+  EXPECT_THAT(message("a.xyzzy", FormatUse::write_surface), AllOf(HasSubstr("extension is unknown"), HasSubstr(".su2")));
   EXPECT_THAT(message("a.off", FormatUse::write_volume), AllOf(HasSubstr("OFF is not written as a volume mesh"), HasSubstr("SU2 (.su2)")));
-  EXPECT_THAT(message("a.su2", FormatUse::write_surface, "nothing"), HasSubstr("no format \"nothing\""));
-  EXPECT_THAT(message("a.su2.gz", FormatUse::write_surface), HasSubstr("not gzipped"));
+  EXPECT_THAT(message("a.su2", FormatUse::write_surface, "nothing"), HasSubstr("unknown format \"nothing\""));
+  EXPECT_THAT(message("a.su2.gz", FormatUse::write_surface), HasSubstr("cannot be written"));
 }
 
 }  // namespace

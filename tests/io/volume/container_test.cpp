@@ -121,8 +121,9 @@ TEST(ContainerHelper, ItsDeathIsAnErrorOfTheFile) {
   const auto read_with = [&](const std::string& script) {
     read_container(path, ContainerFormat::hdf5, {}, k_quiet, folder_with_helper(path.parent_path(), script));
   };
-  test::expect_error(ErrorCode::file_malformed, "a.vtkhdf: the file: the HDF5 library crashed on it: signal 11", [&] { read_with("kill -SEGV $$"); });
-  test::expect_error(ErrorCode::file_malformed, "the HDF5 library came to no end", [&] { read_with("kill -XCPU $$"); });
+  test::expect_error(ErrorCode::file_malformed, "a.vtkhdf: the file: the HDF5 library crashed while reading the file: signal 11",
+                     [&] { read_with("kill -SEGV $$"); });
+  test::expect_error(ErrorCode::file_malformed, "the HDF5 library did not finish", [&] { read_with("kill -XCPU $$"); });
   test::expect_error(ErrorCode::file_malformed, "exit status 3; end of its output: \"oh\"", [&] { read_with("echo oh; exit 3"); });
   test::expect_error(ErrorCode::file_malformed, "the image has 0 bytes", [&] { read_with("exit 0"); });
   test::expect_error(ErrorCode::file_malformed, "another version", [&] { read_with("head -c 500 /dev/zero >&4"); });

@@ -141,7 +141,7 @@ TEST(Edge, HostileFiles) {
   wrong("title, L, 1, 1, 0", "title, Q, 1, 1, 0", "values of the type \"Q\"");
   wrong("title, L, 1, 1, 0", "title, L, 1, 1", "expected a node");
   wrong("'sample pt'", "sample pt", "single quotes");
-  test::expect_error(ErrorCode::file_malformed, "behind the end", [&] { read(test::write_text("pt.amsh", text + "more N 0 0 0\n")); });
+  test::expect_error(ErrorCode::file_malformed, "after the end", [&] { read(test::write_text("pt.amsh", text + "more N 0 0 0\n")); });
   for (const std::string name : {"pt.bmsh", "pt.v2.bmsh", "pt.amsh"}) {
     const auto path = test::write_text(name, test::bytes_of(samples / name));
     test::expect_no_crash_on_damage(path, 13);

@@ -112,7 +112,7 @@ TEST(Foam, HostileFiles) {
   wrong("owner", "10\n(", "9\n(", "expected \")\"");
   wrong("neighbour", "1\n(\n1\n)", "4000000000{1}", "expected at most 10");
   wrong("boundary", "startFace 1", "startFace 2", "starts at face 2, expected 1");
-  wrong("boundary", "nFaces 4", "nFaces 400", "ends behind the last face");
+  wrong("boundary", "nFaces 4", "nFaces 400", "ends after the last face");
   wrong("boundary", "nFaces", "nfaces", "has no type, nFaces or startFace");
   for (const std::string name : {"points", "faces", "owner", "neighbour", "boundary"}) {
     std::filesystem::rename(poly / name, poly / "away");
@@ -153,7 +153,7 @@ TEST(Foam, FileIsParaViewCaseFoldersStayCases) {
   EXPECT_EQ(std::filesystem::file_size(scratch / "case.foam"), 0u);
   EXPECT_EQ(read(scratch / "case.foam").points, read(poly_of(scratch)).points);
   test::expect_error(ErrorCode::file_not_found, "other.foam: there is no such file", [&] { read(scratch / "other.foam"); });
-  test::expect_error(ErrorCode::write_failed, "is that of case.foam", [&] { write(test::six_patch_mesh(), scratch / "other.foam"); });
+  test::expect_error(ErrorCode::write_failed, "belongs to case.foam", [&] { write(test::six_patch_mesh(), scratch / "other.foam"); });
   EXPECT_EQ(read(scratch / "case.foam").points, test::hexahedra_block(2).points);
   EXPECT_FALSE(std::filesystem::exists(scratch / "other.foam"));
   write(test::six_patch_mesh(), scratch / "case.foam");
@@ -180,7 +180,7 @@ TEST(Foam, FoldersOfCasesAreMade) {
   EXPECT_EQ(test::bytes_of(scratch / "case" / "system" / "controlDict"), "of the user");
   write(test::hexahedra_block(2), scratch / "mesh" / "constant" / "polyMesh");
   EXPECT_THAT(test::files_in(scratch / "mesh"), testing::ElementsAre("constant"));
-  test::expect_error(ErrorCode::unsupported_format, "its extension is not known", [&] { write(test::hexahedra_block(2), scratch / "nocase"); });
+  test::expect_error(ErrorCode::unsupported_format, "the file extension is unknown", [&] { write(test::hexahedra_block(2), scratch / "nocase"); });
   write(test::six_patch_mesh(), scratch / "looked_at/");
   const auto output = test::run_openfoam("checkMesh", {"-case", "looked_at"}, scratch);
   STERNA_NEEDS(output, "the Debian package openfoam");

@@ -19,8 +19,8 @@ TEST(SaysWhere, ContainersReportNodeOrWholeFileWithReason) {
   for (const char* const problem :
        {"/Base/Zone: found no GridCoordinates", "/VTKHDF, attribute \"Version\": found text", "variable \"points_xc\": there is none",
         "variable 3: the NetCDF library says: no", "attribute \"marker_1\": the NetCDF library says: no",
-        "the head of the file: opening it: the HDF5 library says: truncated", "byte 0: found \"a\", expected the beginning of an HDF5 file",
-        "the file: the HDF5 library crashed on it: signal 11 (Segmentation fault)"})
+        "the head of the file: opening the file: the HDF5 library says: truncated", "byte 0: found \"a\", expected the beginning of an HDF5 file",
+        "the file: the HDF5 library crashed while reading the file: signal 11 (Segmentation fault)"})
     EXPECT_TRUE(says_where(refusal(problem), true)) << problem;
   for (const char* const problem : {"the file: is damaged", "the variables: found no \"points_xc\"", "point 3: is not finite", "variable \"\": is bad",
                                     "found no zone", "the head of the file: is bad", ""})

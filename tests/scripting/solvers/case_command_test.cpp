@@ -70,7 +70,7 @@ TEST_F(CaseCommands, ReportMistakesBeforeReadingTheMesh) {
       {{"foam-case", "none.sterna", "-o", "case", "--model", "kEpsilon", "--reynolds", "1e6", "--length", "1"}, "kOmegaSST"},
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6"}, "length"},
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--length", "1", "--taks", "2"}, "did you mean --tasks?"},
-      {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--length", "1", "--kind", "ball=slippery"}, "no kind of a patch"},
+      {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--length", "1", "--kind", "ball=slippery"}, "not a patch kind"},
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--length", "1", "--boundary", "prop:trust=3"}, "thrust"},
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--flow", "reynolds=2e6 length=1"}, "given twice"},
       {{"su2-config", "none.su2", "-o", "a.cfg", "--reynolds", "1e6", "--length", "1"}, "Mach number cannot be known"},
@@ -96,7 +96,7 @@ TEST_F(CaseCommands, KindsOfPatchesAreThoseOfTheCase) {
               HasSubstr("kinds: expected a table by names of patches"));
   EXPECT_THAT(error("read_mesh(" + out("ball.sterna") + "):su2_config{ " + out("no.cfg") +
                     ", mach = 0.5, altitude = 0, length = 1, reference_area = 1, kinds = { wall = 'slippery' } }"),
-              HasSubstr("\"slippery\" is no kind of a patch"));
+              HasSubstr("\"slippery\" is not a patch kind"));
   const test::ProcessResult config = sterna({"su2-config", "ball.su2", "-o", "slip.cfg", "--flow", "mach=0.5 altitude=3000 length=2", "--reference-area", "3",
                                              "--monitor", "wall", "--kind", "wall=slip"});
   ASSERT_EQ(config.status, k_exit_success) << config.errors;

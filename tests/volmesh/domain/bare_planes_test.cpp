@@ -71,7 +71,7 @@ TEST(BarePlanes, InviscidHalfModelHasGradedSymmetryPlane) {
   std::string log;
   const VolumeMeshResult result = meshed_half(case_of(0), &log);
   EXPECT_EQ(count_cells(result.mesh).prisms, 0);
-  EXPECT_THAT(log, HasSubstr("no patch carries layers: the mesh is made of tetrahedra alone"));
+  EXPECT_THAT(log, HasSubstr("no patch carries layers: the mesh has only tetrahedra"));
   const PatchEdges edges = edges_of(result.mesh, "symmetry");
   EXPECT_GT(edges.n_triangles, 200u);
   EXPECT_LT(edges.longest_near, 0.6);  // from edges of 0.15 on the ball; before the fix 19, from the ball to the farfield

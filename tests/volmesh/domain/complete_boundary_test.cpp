@@ -248,8 +248,8 @@ TEST(CompleteBoundary, LeavesCompleteDomainsAlone) {
     EXPECT_EQ(whole.triangles.raw(), domain.triangles.raw());
     EXPECT_EQ(whole.patches.raw(), domain.patches.raw());
   }
-  EXPECT_THAT(completion_error(domain, {{.farfield_radius = 100.0}, {}}).problem, HasSubstr("encloses its fluid already"));
-  EXPECT_THAT(completion_error(domain, {{.farfield_shape = "box"}, {}}).problem, HasSubstr("encloses its fluid already"));
+  EXPECT_THAT(completion_error(domain, {{.farfield_radius = 100.0}, {}}).problem, HasSubstr("already encloses its fluid"));
+  EXPECT_THAT(completion_error(domain, {{.farfield_shape = "box"}, {}}).problem, HasSubstr("already encloses its fluid"));
   EXPECT_THAT(completion_error(test::cube(1), {{.farfield_shape = "none"}, {}}).problem, HasSubstr("encloses no fluid"));
   // Half a domain: only its plane is added.
   const TriMesh half = half_of(domain, {.axis = "z", .at = 0.3}, k_context);
@@ -269,7 +269,7 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   holed.triangle_patch.raw().pop_back();
   const ErrorInfo open = completion_error(holed, {});
   EXPECT_EQ(open.code, ErrorCode::open_surface);
-  EXPECT_THAT(open.problem, HasSubstr("1 rims with 3 edges"));
+  EXPECT_THAT(open.problem, HasSubstr("1 open boundaries with 3 edges"));
   EXPECT_FALSE(open.places.empty());
   const FarfieldOptions box{.farfield_shape = "box",
                             .farfield_from_x = -10,
@@ -279,13 +279,13 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
                             .farfield_to_y = 1.001,
                             .farfield_to_z = 6};
   const ErrorInfo narrow = completion_error(cube, {box, {}});
-  EXPECT_THAT(narrow.problem, HasSubstr("y_max at 1.001 m has the wall inside by 0.001 m only, needed are 0.02 m"));
+  EXPECT_THAT(narrow.problem, HasSubstr("y_max at 1.001 m: the wall is inside by 0.001 m but must be inside by 0.02 m"));
   ASSERT_EQ(narrow.places.size(), 1u);
   EXPECT_EQ(narrow.places[0].position.y, 1.0);
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "cylinder", .farfield_radius = 0.5}, {}}).problem, HasSubstr("inside the flat triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_mim=inflow"}, {}}).problem, HasSubstr("did you mean \"x_min\""));
-  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is no kind"));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is not a patch kind"));
 }
 
 TEST(CompleteBoundary, OfHalvesOfRealAircraft) {

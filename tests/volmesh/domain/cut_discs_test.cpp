@@ -145,7 +145,7 @@ TEST(CutDiscs, SaysWhereADiscCannotBe) {
   // A disc in a face of a cube.
   const ErrorInfo flat = error_of(test::cube(4), {{.name = "b", .center = {1, 0.5, 0.5}, .radius = 2.0}});
   EXPECT_EQ(flat.code, ErrorCode::self_intersection);
-  EXPECT_THAT(flat.places.at(0).what, HasSubstr("lies in the disc's plane"));
+  EXPECT_THAT(flat.places.at(0).what, HasSubstr("lies in the plane of the disc"));
   EXPECT_THAT(flat.hint, HasSubstr("move the disc"));
   // Two discs through one polygon.
   const ErrorInfo both =

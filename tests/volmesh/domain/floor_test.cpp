@@ -185,10 +185,10 @@ TEST(Floor, MistakesAreErrorsWithPlaces) {
   for (Point& p : bent.points)
     if (p.x == 6.0 && p.y == 2.0) p.x = 5.8;
   for (TriangleVertices& t : turned.triangles) std::swap(t[1], t[2]);
-  refused(bent, ErrorCode::open_surface, "2 of 84 rim edges of the floor \"terrain\" lie in none of the box's vertical sides");
-  refused(bent, ErrorCode::open_surface, "the rim is 0.2 m from the nearest side, x_max at x = 6 m");
+  refused(bent, ErrorCode::open_surface, "2 of 84 border edges of the floor \"terrain\" lie in none of the vertical sides of the box");
+  refused(bent, ErrorCode::open_surface, "the border of the floor is 0.2 m from the nearest side, x_max at x = 6 m");
   refused(turned, ErrorCode::bad_argument, "normals of the floor point downwards");
-  refused(sheet, ErrorCode::open_surface, "give the box the corners of the sheet", [](Options& o) { o.farfield_to_x = 8.0; });
+  refused(sheet, ErrorCode::open_surface, "place the box corners at the corners of the floor", [](Options& o) { o.farfield_to_x = 8.0; });
   refused(sheet, ErrorCode::bad_argument, "no patch \"ground\"", [](Options& o) { o.farfield_floor = "ground"; });
   refused(sheet, ErrorCode::bad_argument, "a floor needs farfield = box{ floor = ... }", [](Options& o) { o.farfield_shape = "sphere"; });
   refused(sheet, ErrorCode::bad_argument, "the shape \"box\" does not have farfield_radius = 5", [](Options& o) { o.farfield_radius = 5.0; });

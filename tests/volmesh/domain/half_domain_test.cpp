@@ -216,7 +216,7 @@ TEST(HalfDomain, NonPlanarSymmetryPatchIsAnError) {
     FAIL() << "meshed";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
-    EXPECT_NE(error.info().problem.find("\"symmetry\" is not plane"), std::string::npos) << error.what();
+    EXPECT_NE(error.info().problem.find("\"symmetry\" is not flat"), std::string::npos) << error.what();
     EXPECT_EQ(error.info().places.size(), 1u);
   }
 }

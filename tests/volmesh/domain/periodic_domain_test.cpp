@@ -242,9 +242,9 @@ TEST(PeriodicDomain, MismatchesAreReportedWithLocationsAndDistances) {
   };
   const TriMesh surface = room(all_slip, is_wing);
   EXPECT_THAT(problem_of(surface, {{"left", "rigth"}}).problem, HasSubstr("did you mean \"right\"?"));
-  EXPECT_THAT(problem_of(surface, {{"left", "left"}}).problem, HasSubstr("its own image"));
+  EXPECT_THAT(problem_of(surface, {{"left", "left"}}).problem, HasSubstr("periodic with itself"));
   EXPECT_THAT(problem_of(surface, {{"left", "right"}, {"left", "floor"}}).problem, HasSubstr("in two pairs"));
-  EXPECT_THAT(problem_of(surface, {{"left", "floor"}}).problem, HasSubstr("do not point against each other"));
+  EXPECT_THAT(problem_of(surface, {{"left", "floor"}}).problem, HasSubstr("do not point in opposite directions"));
   EXPECT_THAT(problem_of(surface, {{"model", "right"}}).problem, HasSubstr("is not flat"));
 
   TriMesh moved = surface;
@@ -265,7 +265,7 @@ TEST(PeriodicDomain, MismatchesAreReportedWithLocationsAndDistances) {
         if (std::min(p.x, p.z) == 0.0 || p.x == 4.0 || p.z == 2.0) return {"box", PatchKind::slip};
         return p.y < 1.0 && normal.y == 0.0 ? Patch{"wing", PatchKind::wall} : Patch{"tip", PatchKind::slip};
       });
-  EXPECT_THAT(problem_of(patched, {{"left", "right"}}).problem, HasSubstr("ends on one periodic side and not on the other"));
+  EXPECT_THAT(problem_of(patched, {{"left", "right"}}).problem, HasSubstr("ends on one periodic side but not on the other"));
 }
 
 TEST(PeriodicDomain, StepsGiveSameMeshForAnyThreads) {

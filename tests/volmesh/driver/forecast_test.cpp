@@ -69,7 +69,7 @@ TEST(Forecast, ForceGoesOnToTheSameMesh) {
   EXPECT_EQ(usual.mesh.points.raw(), forced.mesh.points.raw());
   EXPECT_EQ(usual.mesh.tetrahedra, forced.mesh.tetrahedra);
   ASSERT_FALSE(heard.warnings.empty());
-  EXPECT_NE(heard.warnings.front().find("are to be expected"), std::string::npos) << heard.warnings.front();
+  EXPECT_NE(heard.warnings.front().find("are expected"), std::string::npos) << heard.warnings.front();
 }
 
 /// Tolerance: the forecast supports the decision whether to start, so a factor of two is sufficient; real meshes are within a third.

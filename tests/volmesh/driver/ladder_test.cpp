@@ -51,7 +51,7 @@ class DriverLadder : public testing::Test {
 TEST_F(DriverLadder, ARepairedLayerFollowsWhenAllElseFails) {
   const VolumeMeshResult result = mesh(thin_plate(), {.engine = "hxt", .boundary_splits = "never", .helper_folder = folder_that_fails(1)});
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
-  EXPECT_THAT(log_, HasSubstr("trying again with a layer that is lower"));
+  EXPECT_THAT(log_, HasSubstr("trying again with the layer lowered"));
   EXPECT_GE(result.tetra_failures.size(), 2u);
   EXPECT_TRUE(result.is_reproducible);
 }

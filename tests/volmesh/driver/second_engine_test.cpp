@@ -96,7 +96,7 @@ TEST(SecondEngine, ACrashOfItsHelperIsReported) {
   ImproveReport report;
   std::string log;
   const RunContext context({.threads = 1, .log = [&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; }});
-  EXPECT_THAT(choose_engine(boundary, second, {}, {}, tets, report, context), HasSubstr("hxt: no answer; kept sterna"));
+  EXPECT_THAT(choose_engine(boundary, second, {}, {}, tets, report, context), HasSubstr("hxt: no result; kept sterna"));
   EXPECT_THAT(log, HasSubstr("the helper died of signal 11"));
   EXPECT_EQ(tets.tetrahedra, before.tetrahedra);
 }

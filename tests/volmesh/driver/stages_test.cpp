@@ -54,13 +54,14 @@ TEST(Stages, PartsOfDifferentRunsAreRefused) {
   expect_refused("vertices of the envelope", [&] { finish_mesh(other, filled, options, k_context); });
   FilledStage wrong = filled;
   wrong.layers.layers.base[0] = {0, 1, 1};
-  expect_refused("outer triangles of the layer that are not where", [&] { finish_mesh(wall, wrong, options, k_context); });
+  expect_refused("outer triangles of the layer that are not on", [&] { finish_mesh(wall, wrong, options, k_context); });
   wrong = filled;
   wrong.layers.points[NodeId(0)].x += 1e-9;
-  expect_refused("outer triangles of the layer that are not where", [&] { finish_mesh(wall, wrong, options, k_context); });
+  expect_refused("outer triangles of the layer that are not on", [&] { finish_mesh(wall, wrong, options, k_context); });
   wrong = filled;
   wrong.tets.tetrahedra.pop_back();
-  test::expect_error(ErrorCode::tetra_result_invalid, "outer faces that are no boundary triangle", [&] { (void)finish_mesh(wall, wrong, options, k_context); });
+  test::expect_error(ErrorCode::tetra_result_invalid, "outer faces that are not a boundary triangle",
+                     [&] { (void)finish_mesh(wall, wrong, options, k_context); });
 }
 
 }  // namespace

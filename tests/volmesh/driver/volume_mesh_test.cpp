@@ -147,7 +147,7 @@ TEST(VolumeMesh, OpenWallsAreRefusedWithTheirEdges) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::open_surface);
-    EXPECT_NE(std::string(error.what()).find("1 rims with 3 edges"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("1 open boundaries with 3 edges"), std::string::npos) << error.what();
   }
 }
 

@@ -367,7 +367,7 @@ TEST(WakeSheets, WhatCannotBeIsRefused) {
   const auto refuse = [&](const char* text, MeshCase mesh_case) {
     test::expect_error(ErrorCode::bad_argument, text, [&] { volume_mesh(wall, mesh_case, k_context); });
   };
-  refuse("no patch is named like \"tail\"", wake_case({{.wing = "tail"}}));
+  refuse("no patch name matches \"tail\"", wake_case({{.wing = "tail"}}));
   refuse("no trailing edge", wake_case({{.direction = Vec3{-1, 0, 0}}}));
   refuse("is zero", wake_case({{.direction = Vec3{0, 0, 0}}}));
   MeshCase with_ridges = wake_case({{}});

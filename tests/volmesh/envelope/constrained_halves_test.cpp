@@ -169,7 +169,7 @@ TEST(ConstrainRims, ErrorsSayWhere) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::open_surface);
     const std::string text = error.what();
-    EXPECT_NE(text.find("1 rims with"), std::string::npos) << text;
+    EXPECT_NE(text.find("1 open boundaries with"), std::string::npos) << text;
     EXPECT_NE(text.find("lie in no plane x, y or z = constant"), std::string::npos) << text;
     EXPECT_NE(text.find("half model"), std::string::npos) << text;
   }
@@ -182,7 +182,7 @@ TEST(ConstrainRims, ErrorsSayWhere) {
     constraints_of_rims(beyond, Topology(beyond, k_context));
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("goes on beyond it"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("continues beyond the plane"), std::string::npos) << error.what();
   }
 }
 

@@ -83,7 +83,7 @@ TEST(PatchRules, UnknownPatchNameIsErrorWithKnownNames) {
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
-    for (const char* part : {"no patch has a name like \"z00*\"", "did you mean \"z0\"?", "names are x0, x1, y0"})
+    for (const char* part : {"no patch name matches \"z00*\"", "did you mean \"z0\"?", "names are x0, x1, y0"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
 }
@@ -159,7 +159,7 @@ TEST(DemandOf, OnlyConnectedWallsShareNumberOfLayers) {
                 std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}}, nullptr, context);
   for (const VertexId v : walls.points.ids()) EXPECT_EQ(demand.layers[v], v.index() < n_room ? 12 : 30);
   EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const std::string& line) {
-    return line.find("12, the largest asked for (4 by z0, z1; 9 by") != std::string::npos;
+    return line.find("12, the largest requested (4 by z0, z1; 9 by") != std::string::npos;
   })) << log.size();
 }
 

@@ -231,7 +231,7 @@ TEST(Inspect, FindsFoldAndVisibilityOfItsEdge) {
   EXPECT_NEAR(fold.value, 8.0, 1e-6);
   EXPECT_EQ(fold.places.size(), 5u);  // max_places
   for (const FindingPlace& place : fold.places) EXPECT_EQ(place.position.x, 0.0);
-  EXPECT_NE(fold.text.find("(0 of them with the fluid inside)"), std::string::npos);
+  EXPECT_NE(fold.text.find("(0 of them with fluid in between)"), std::string::npos);
   // Two facets that turn by 172 degrees have a visibility angle of half of that.
   const Finding& edge = the(report, Kind::visibility);
   EXPECT_NEAR(edge.value, 86.0, 0.5);  // slightly more at the ends

@@ -214,7 +214,7 @@ TEST_P(Nlopt, NothingMovesWhenAllIsCollapsed) {
   for (double& h : c.start.height) h = 0.0;
   NloptReport report;
   const Envelope result = c.run(settings_of(GetParam()), report);
-  EXPECT_EQ(report.run.stopped, "nothing moves");
+  EXPECT_EQ(report.run.stopped, "no vertex can move");
   EXPECT_EQ(result.height, c.start.height);
 }
 

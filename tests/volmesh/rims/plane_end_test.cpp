@@ -242,7 +242,7 @@ TEST(PlaneEndErrors, WrongInput) {
   EXPECT_EQ(failure(open).code, ErrorCode::bad_argument);
   EXPECT_EQ(failure(open).n_places, 2);
   for (auto& edge : reversed.edges) std::swap(edge[0], edge[1]);
-  EXPECT_THAT(failure(reversed).problem, testing::HasSubstr("wrong way"));
+  EXPECT_THAT(failure(reversed).problem, testing::HasSubstr("wrong sense"));
   EXPECT_EQ(failure(reversed).code, ErrorCode::bad_argument);
   off.points[3].y = 1e-3;
   EXPECT_EQ(failure(off).code, ErrorCode::bad_argument);

@@ -82,7 +82,7 @@ TEST_F(Ladder, AutomaticIsHxtThenTetgen) {
 TEST_F(Ladder, TheOtherEngineAfterAWrongAnswer) {
   const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("liar", "printf 'STETREP3' >&4; head -c 48 /dev/zero >&4")});
   expect_tiling(domain_, result);
-  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("points come back of")));
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("points returned of")));
 }
 
 TEST_F(Ladder, TheOtherEngineAfterTooManyPoints) {
@@ -116,7 +116,7 @@ TEST_F(Ladder, FailureWithoutLocationNamesDifficultLocations) {
   const ErrorInfo error = error_info_of([&] { fill(domain, {.helper_folder = folder("crash", k_crash, k_crash)}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   ASSERT_FALSE(error.places.empty());
-  EXPECT_THAT(error.places.front().what, HasSubstr("hard for engines"));
+  EXPECT_THAT(error.places.front().what, HasSubstr("difficult for tetrahedra engines"));
   EXPECT_FALSE(error.geometry.triangles.empty());  // drawn in the VTU file
 }
 
@@ -146,9 +146,9 @@ TEST_F(Ladder, EndlessEngineIsStoppedAndLadderEnds) {
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem,
               testing::AllOf(HasSubstr("(HXT): the helper died of signal 11"), HasSubstr("(TetGen): stopped after"), HasSubstr("processor time")));
-  EXPECT_THAT(error.hint, testing::AllOf(HasSubstr("mesh the surface anew"), HasSubstr("tetrahedra.time_limit")));
+  EXPECT_THAT(error.hint, testing::AllOf(HasSubstr("re-mesh the surface"), HasSubstr("tetrahedra.time_limit")));
   ASSERT_FALSE(error.places.empty());
-  EXPECT_THAT(error.places.front().what, HasSubstr("hard for engines"));
+  EXPECT_THAT(error.places.front().what, HasSubstr("difficult for tetrahedra engines"));
   EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("splits"))));
 }
 

@@ -163,7 +163,7 @@ TEST_F(OwnEngine, WithoutSizesAnotherEngineIsTaken) {
 TEST_F(OwnEngine, DoesNotSplitAndHasOnePass) {
   const Domain domain = domain_around(test::cube(2), 10.0);
   EXPECT_EQ(error_info_of([&] { fill(domain, {.two_pass = true}); }).code, ErrorCode::bad_argument);
-  EXPECT_THAT(error_info_of([&] { fill(domain, {.boundary_splits = "always"}); }).hint, HasSubstr("keeps the boundary"));
+  EXPECT_THAT(error_info_of([&] { fill(domain, {.boundary_splits = "always"}); }).hint, HasSubstr("cannot split the boundary"));
 }
 
 TEST_F(OwnEngine, StopsInTheRefinement) {

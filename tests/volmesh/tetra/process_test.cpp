@@ -110,7 +110,7 @@ TEST_F(HelperProcess, ACrashIsNamed) {
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("signal 11"));
   EXPECT_THAT(error.problem, HasSubstr("end of its output"));
-  EXPECT_THAT(error.hint, HasSubstr("does not cross itself"));
+  EXPECT_THAT(error.hint, HasSubstr("has no self-intersections"));
 }
 
 /// Requirements for the helper of each engine.

@@ -54,15 +54,15 @@ TEST(BoundarySplits, RejectWhatIsNoSubdivision) {
     EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
     return error.problem;
   };
-  EXPECT_THAT(problem([](Example& e) { e.triangles.pop_back(), e.parents.pop_back(); }), HasSubstr("of its area"));
-  EXPECT_THAT(problem([](Example& e) { e.triangles.push_back(e.triangles[0]), e.parents.push_back(e.parents[0]); }), HasSubstr("of its area"));
+  EXPECT_THAT(problem([](Example& e) { e.triangles.pop_back(), e.parents.pop_back(); }), HasSubstr("times its area"));
+  EXPECT_THAT(problem([](Example& e) { e.triangles.push_back(e.triangles[0]), e.parents.push_back(e.parents[0]); }), HasSubstr("times its area"));
   EXPECT_THAT(problem([](Example& e) { e.points[4].x = -0.25; }), HasSubstr("outside of the edge"));
   EXPECT_THAT(problem([](Example& e) { e.points[5] = {2, -0.5, -0.5}; }), HasSubstr("outside of the triangle"));
   EXPECT_THAT(problem([](Example& e) { e.triangles[3] = {4, 2, 3}; }), HasSubstr("three triangles"));
   EXPECT_THAT(problem([](Example& e) { e.parents[3] = 4; }), HasSubstr("boundary triangle 4 of 4"));
   EXPECT_THAT(problem([](Example& e) { e.parents[3] = 0; }), HasSubstr("corner of another"));
   EXPECT_THAT(problem([](Example& e) { e.triangles[1] = {0, 4, 0}; }), HasSubstr("no area"));
-  EXPECT_THAT(problem([](Example& e) { e.triangles[1] = {0, 2, 9}; }), HasSubstr("not there"));
+  EXPECT_THAT(problem([](Example& e) { e.triangles[1] = {0, 2, 9}; }), HasSubstr("does not exist"));
   EXPECT_THAT(problem([](Example& e) { e.points.push_back({0, 0, 0}); }), HasSubstr("has no triangle"));
 }
 
@@ -146,7 +146,7 @@ TEST_F(FillWithSplits, ARefusalIsAFailureOfTheAttempt) {
 }
 
 TEST_F(FillWithSplits, ContradictionsAreNamed) {
-  EXPECT_THAT(error_info_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("leave it at ladder"));
+  EXPECT_THAT(error_info_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("set boundary_splits = \"ladder\""));
   EXPECT_THAT(error_info_of([&] { fill({.engine = "hxt", .boundary_splits = "always"}, [](TetraResult&) {}); }).hint, HasSubstr("HXT keeps"));
   EXPECT_EQ(error_info_of([&] { fill({.boundary_splits = "sometimes"}, {}); }).code, ErrorCode::bad_argument);
 }

@@ -99,8 +99,8 @@ TEST_F(VerifyTetrahedra, ABoundaryThatIsNotThere) {
   changed.points = domain.points;
   const ErrorInfo error = error_info_of([&] { verify_tetrahedra(changed.boundary(), good, RunContext{}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
-  EXPECT_THAT(error.problem, HasSubstr("2 boundary triangles that are no face"));
-  EXPECT_THAT(error.problem, HasSubstr("2 outer faces that are no boundary triangle"));
+  EXPECT_THAT(error.problem, HasSubstr("2 boundary triangles that are not a face"));
+  EXPECT_THAT(error.problem, HasSubstr("2 outer faces that are not a boundary triangle"));
 }
 
 TEST_F(VerifyTetrahedra, ABoundaryInsideOut) {
