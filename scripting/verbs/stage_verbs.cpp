@@ -29,7 +29,7 @@ Handle entry(TableReader& reader, std::size_t number, std::string_view what) {
 }
 
 void require_entries(TableReader& reader, std::size_t n) {
-  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": there is one too many");
+  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": unexpected, the verb takes fewer entries without names");
 }
 
 constexpr std::string_view k_envelope_usage = "make_envelope{ wall, layers = 35, first_height = 2e-6, max_growth = 1.35 }";

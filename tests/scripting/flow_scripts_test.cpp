@@ -283,14 +283,14 @@ TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
   EXPECT_EQ(at("SOLUTION_FILENAME"), at("RESTART_FILENAME"));
   EXPECT_EQ(at("REYNOLDS_LENGTH"), "2");
   EXPECT_EQ(at("FREESTREAM_TEMPERATURE"), "288.15");
-  EXPECT_THAT(log_, HasSubstr("case.su2, which is not there yet"));
+  EXPECT_THAT(log_, HasSubstr("case.su2, which does not exist yet"));
 }
 
 TEST_F(FlowScripts, su2_configuration_refuses_what_cannot_be_known) {
   const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', layers = 2, first_height = 0.02, farfield = sphere{ radius = 8 } } m:su2_config{ " +
                            out("case.cfg") + ", ";
   EXPECT_THAT(error(mesh + "speed = 5, density = 1000, viscosity = 1e-3, length = 1 }"),
-              AllOf(HasSubstr("Mach number cannot be known"), HasSubstr("temperature cannot be known"), HasSubstr("reference area cannot be known")));
+              AllOf(HasSubstr("Mach number is unknown"), HasSubstr("temperature is unknown"), HasSubstr("reference area is unknown")));
   EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, boundaries = { prop = { thrust = 5 } } }"),
               HasSubstr("is called \"prop\""));
   EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, mesh = 'a.vtu' }"), HasSubstr("SU2 reads .su2 and .cgns"));
@@ -382,15 +382,14 @@ TEST(Su2Config, internal_flows_need_no_forces_and_no_area) {
   for (const auto& [key, value] : keys) EXPECT_TRUE(k_su2_keys.contains(key)) << key;
   // A body in a farfield has forces, and coefficients an area.
   const HybridMesh outer = test::box_of_patches({{"wing", PatchKind::wall}, {"far", PatchKind::farfield}});
-  test::expect_error(ErrorCode::bad_argument, "reference area cannot be known",
-                     [&] { (void)su2_config(outer, {.mesh = "a.su2"}, {}, flow, {}, {}, RunContext()); });
+  test::expect_error(ErrorCode::bad_argument, "reference area is unknown", [&] { (void)su2_config(outer, {.mesh = "a.su2"}, {}, flow, {}, {}, RunContext()); });
 }
 
 TEST(Su2Config, discs_need_what_they_do) {
   const HybridMesh mesh =
       test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
-  test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
+  test::expect_error(ErrorCode::bad_argument, "the pressure jump of the actuator disc \"prop\" is unknown",
                      [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {}, RunContext()); });
   const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 50.0}}}, RunContext()));
   EXPECT_EQ(keys.at("MARKER_ACTDISK"), "( prop, prop.back, 50, 0, 0, 50, 0, 0 )");

@@ -120,7 +120,7 @@ TEST_F(PartScripts, ATriangulatedModelStandsInATunnelAtAnyAttitude) {
                                "= 8, first_height = 1e-4 } "
                                "print(wall.is_closed, m.coverage > 0.99) end");
   EXPECT_EQ(text, "true\ttrue\ntrue\ttrue\n");
-  EXPECT_THAT(error("local a = surface_mesh{ box{ {0,0,0}, {1,1,1} } } assembly{ a, a:move{ 0.1, 0.1, 0.1 } }"), HasSubstr("pairs of their triangles cross"));
+  EXPECT_THAT(error("local a = surface_mesh{ box{ {0,0,0}, {1,1,1} } } assembly{ a, a:move{ 0.1, 0.1, 0.1 } }"), HasSubstr("pairs of triangles cross"));
   EXPECT_THAT(error("surface_mesh{ box{ {0,0,0}, {1,1,1} } }:rotate{ pitch = 0.1, angle = 1 }"), HasSubstr("not both"));
 }
 

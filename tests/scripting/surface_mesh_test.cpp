@@ -73,7 +73,7 @@ TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
               AllOf(HasSubstr("no face has a name like \"wing*\""), HasSubstr("block")));
   EXPECT_THAT(error("surface_mesh{}"), HasSubstr("needs a model"));
   EXPECT_THAT(error("surface_mesh{ 'a.step' }"), HasSubstr("entry 1: expected a model (from read_cad, aircraft ...) or a component, not a text"));
-  EXPECT_THAT(error("surface_mesh{ surface_mesh{ " + block + " } }"), HasSubstr("which is made of triangles already: volume_mesh takes it"));
+  EXPECT_THAT(error("surface_mesh{ surface_mesh{ " + block + " } }"), HasSubstr("which has triangles already: pass it to volume_mesh"));
   EXPECT_THAT(error("volume_mesh{ " + block + ", first_height=1e-3 }"), HasSubstr("expected a surface (from surface_mesh or read_surface), not a model"));
 }
 
@@ -119,7 +119,7 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
            {{"--patch", "wing*:max_egde=0.1"}, "did you mean \"max_edge\"?"},
            {{"--patch", "wing"}, "is not NAMES:OPTION=VALUE"},
            {{"--patch", "tail:max_edge=0.1"}, "no face has a name like \"tail\""},
-           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is no source"},
+           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is not a kind of source"},
            {{"--source", "point 0 0 size=1"}, "coordinates come in threes"},
            {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"},
            {{"--source", "line 0 0 0 1 0 0 size=1 thickness=2"}, "line takes two points, size, radius"},

@@ -52,7 +52,7 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
       {{"convert", "box.stl", "a.obj", "--unit", "mm"}, "is for models"},
       {{"report", "box.stl", "-o", "a.html", "--gate", "orthogonality:hard=3"}, "--gate has no effect"},
       {{"report", "box.stl", "-o", "a.html", "--cut", "x=0"}, "no cells to cut"},
-      {{"draw", "box.stl", "-o", "a.png", "--places"}, "this is a surface"},
+      {{"draw", "box.stl", "-o", "a.png", "--places"}, "this file is a surface"},
       {{"draw", "box.stl", "-o", "a.png", "--cut", "x=0.5"}, "no cells to cut"},
       {{"inspect", "box.stl", "--set", "half.at=0.1"}, "is given without --half"},
       {{"inspect", "box.stl", "--max-edge", "0.1"}, "max-edge"},
