@@ -75,7 +75,7 @@ std::optional<std::vector<double>> read_numbers(TableReader& reader, const std::
 }
 
 void refuse_items_beyond(TableReader& reader, std::size_t n) {
-  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": there is one too many");
+  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": unexpected, the verb takes fewer entries without names");
 }
 
 std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name, std::string_view usage) {

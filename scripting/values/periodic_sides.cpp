@@ -60,7 +60,7 @@ PeriodicNames periodic_of_text(const std::string& text) {
   if (comma == std::string::npos || comma == 0 || comma + 1 == text.size() || text.find(',', comma + 1) != std::string::npos)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "option --periodic",
-                 .problem = "\"" + text + "\" is not the names of two patches",
+                 .problem = "\"" + text + "\" does not consist of two names of patches",
                  .hint = "such as --periodic left,right"});
   return {text.substr(0, comma), text.substr(comma + 1)};
 }

@@ -249,7 +249,7 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   for (const char* part : {"4 open edges", "face \"sheet\"", "(1, 1, 1)", "OPEN"})
     EXPECT_NE(open.output.find(part), std::string::npos) << part << " in\n" << open.output;
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
-      {{"convert", "c.step", "c.smx"}, ".smx holds components as data"},
+      {{"convert", "c.step", "c.smx"}, ".smx requires components defined as data"},
       {{"convert", "c.step", "c.stl"}, "models are not written in this format"},
       {{"convert", "c.step", "c.iges", "--surface"}, "--surface are for meshes"},
       {{"convert", "box.stl", "box.obj", "--step-schema", "ap203"}, "is for models"},

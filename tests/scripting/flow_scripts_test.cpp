@@ -44,7 +44,7 @@ TEST_F(FlowScripts, y_plus_prints_what_it_is_and_counts_as_a_number) {
 
 TEST_F(FlowScripts, wrong_flow_conditions_are_told_at_their_line) {
   EXPECT_THAT(error("y_plus{ 1, mach = 0.5, altitude = 9e4, length = 1 }"), AllOf(HasSubstr("case.lua:1: y_plus"), HasSubstr("-5000 .. 84852 m")));
-  EXPECT_THAT(error("y_plus{ mach = 0.5, lenght = 1 }"), AllOf(HasSubstr("needs the wanted y+"), HasSubstr("did you mean \"length\"?")));
+  EXPECT_THAT(error("y_plus{ mach = 0.5, lenght = 1 }"), AllOf(HasSubstr("needs the target y+"), HasSubstr("did you mean \"length\"?")));
   EXPECT_THAT(error("y_plus{ 1, speed = 1, altitude = 0, length = 1*mm }"), HasSubstr("Reynolds number"));
   EXPECT_THAT(error("y_plus{ 1, law = 'karman', reynolds = 1e6, length = 1 }"), HasSubstr("ittc57"));
   EXPECT_THAT(error("local x = 2 * flow{ reynolds = 1e6, length = 1 }"), HasSubstr("flow conditions are no number"));
@@ -88,7 +88,7 @@ TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
   const std::string more = "layers = 4, max_growth = 1.2, farfield = sphere{ radius = 8 }, first_height = ";
   run(height + "volume_mesh{ read_surface 'ball.off', " + more + "h }:write(" + out("by_place.sterna") + ", " + out("by_place.su2") + ")");
   EXPECT_THAT(log_, HasSubstr("first heights by a function: 0.006667 m to 0.015 m"));
-  EXPECT_THAT(text_of("by_place.su2.json"), HasSubstr("a function of place"));
+  EXPECT_THAT(text_of("by_place.su2.json"), HasSubstr("a function of location"));
   const HybridMesh mesh = *io::read_sterna(folder_ / "by_place.sterna", RunContext()).mesh;
   ASSERT_GT(mesh.layers.n_lines(), 100u);
   for (std::uint32_t line = 0; line < mesh.layers.n_lines(); ++line) {

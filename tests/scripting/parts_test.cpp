@@ -126,7 +126,7 @@ TEST_F(PartScripts, ATriangulatedModelStandsInATunnelAtAnyAttitude) {
 
 TEST_F(PartScripts, GapsBetweenPartsAskForSizesWhereTheyAre) {
   run("local a = box{ {0,0,0}, {1,1,1} }:move{ 0.1, 0, 0 } local b = box{ {0,0,1.05}, {1,1,2} } surface_mesh{ a, b, max_edge = 0.3, gap_cells = 1 }");
-  EXPECT_THAT(log_, HasSubstr("gaps between parts ask for sizes"));
+  EXPECT_THAT(log_, HasSubstr("gaps between parts set edge lengths"));
   run("local a = box{ {0,0,0}, {1,1,1} }:move{ 0.1, 0, 0 } local b = box{ {0,0,1.05}, {1,1,2} } surface_mesh{ a, b, max_edge = 0.3 }");
   EXPECT_THAT(log_, Not(HasSubstr("gaps between parts")));
 }

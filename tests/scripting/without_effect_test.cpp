@@ -38,7 +38,7 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
       {with(mesh_stl, {"--set", "wrap.edge=1e-3"}), "is given without --wrap"},
       {with(mesh_stl, {"--set", "remesh.max_edge=1"}), "is given without --remesh"},
       {with(mesh_stl, {"--set", "half.at=1"}), "is given without --half"},
-      {with(mesh_stl, {"--patch", "*:max_edge=0.1"}), "--remesh gives the surface new triangles"},
+      {with(mesh_stl, {"--patch", "*:max_edge=0.1"}), "--remesh makes triangles with such sizes"},
       {with(mesh_stl, {"--cache-limit", "1e9"}), "--cache"},
       {with(mesh_stl, {"--patch", "nothing*:layers=3"}), "nothing*"},
       {{"surface", "box.stl", "--auto", "-o", "a.stl", "--max-edge", "0.1"}, "no effect on a triangulation, which box.stl is: max_edge"},

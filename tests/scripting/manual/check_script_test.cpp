@@ -305,7 +305,7 @@ TEST_F(CheckScript, EnvelopesThatAreNotReadyAreRefusedWithAReason) {
       "wall "
       "}\n"
       "local env = envelope.initial{ wall, class, layers = 4, first_height = 0.05, max_thickness = 0.6 }\n";
-  EXPECT_THAT(error(first + "tetrahedra{ class }"), HasSubstr("it has no heights yet"));
+  EXPECT_THAT(error(first + "tetrahedra{ class }"), HasSubstr("the envelope has no heights yet"));
   EXPECT_THAT(error(first + "tetrahedra{ env }"),
               testing::AllOf(HasSubstr("only initial"), HasSubstr("of its elements are invalid"), HasSubstr("envelope.unwarp{ env }")));
   EXPECT_THAT(error(first + "envelope.retract{ env }"), HasSubstr("expected an envelope that is unwarped at least; this envelope is initial only"));
