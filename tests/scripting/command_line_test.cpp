@@ -84,10 +84,10 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
     EXPECT_EQ(back.status, k_exit_success) << back.errors;
     const ProcessResult check = sterna({"check", name});
     EXPECT_EQ(check.status, k_exit_failed) << check.output;
-    EXPECT_NE(check.errors.find("it holds a surface of 12 triangles and no cells"), std::string::npos) << check.errors;
+    EXPECT_NE(check.errors.find("the file has a surface of 12 triangles, but no cells"), std::string::npos) << check.errors;
     EXPECT_NE(check.errors.find("sterna info"), std::string::npos);
   }
-  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("holds surfaces only"), std::string::npos);
+  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("stores surfaces only"), std::string::npos);
 }
 
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
@@ -251,12 +251,12 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"convert", "c.step", "c.smx"}, ".smx requires components defined as data"},
       {{"convert", "c.step", "c.stl"}, "models are not written in this format"},
-      {{"convert", "c.step", "c.iges", "--surface"}, "--surface are for meshes"},
-      {{"convert", "box.stl", "box.obj", "--step-schema", "ap203"}, "is for models"},
-      {{"union", "a.step", "box.stl", "-o", "d.step"}, "box.stl is no model"},
+      {{"convert", "c.step", "c.iges", "--surface"}, "--surface apply to meshes"},
+      {{"convert", "box.stl", "box.obj", "--step-schema", "ap203"}, "applies to models"},
+      {{"union", "a.step", "box.stl", "-o", "d.step"}, "box.stl is not a model"},
       {{"union", "a.step", "b.step", "-o", "d.stl"}, "models are not written in this format"},
       {{"union", "a.step", "b.step", "-o", "d.step", "--strip-width", "3"}, "strip_width"},
-      {{"check", "a.step", "--json"}, "--json is for volume meshes"},
+      {{"check", "a.step", "--json"}, "--json applies to volume meshes"},
   };
   for (const auto& [arguments, text] : refused) {
     const ProcessResult result = sterna(arguments);

@@ -30,10 +30,10 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
     return words;
   };
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {with(mesh_step, {"--split-angle", "40"}), "option split_angle: is for triangulations"},
-      {with(mesh_step, {"--set", "surface.split_angle=40"}), "is for triangulations"},
+      {with(mesh_step, {"--split-angle", "40"}), "option split_angle: applies to triangulations"},
+      {with(mesh_step, {"--set", "surface.split_angle=40"}), "applies to triangulations"},
       {with(mesh_step, {"--repair"}), "is a model"},
-      {with(mesh_stl, {"--set", "surface_mesh.max_edge=0.2"}), "is for the faces of models"},
+      {with(mesh_stl, {"--set", "surface_mesh.max_edge=0.2"}), "applies to the faces of models"},
       {with(mesh_stl, {"--set", "repair.gap=1e-3"}), "is given without --repair"},
       {with(mesh_stl, {"--set", "wrap.edge=1e-3"}), "is given without --wrap"},
       {with(mesh_stl, {"--set", "remesh.max_edge=1"}), "is given without --remesh"},
@@ -49,14 +49,14 @@ TEST_F(WithoutEffect, RequestsAreRefusedByName) {
       {{"check", "box.step", "--gate", "orthogonality:none", "--no-intersections"}, "have no effect: box.step is a model"},
       {{"convert", "box.step", "a.step", "--numbering", "both"}, "--numbering has no effect"},
       {{"convert", "box.stl", "a.obj", "--numbering", "both"}, "--numbering has no effect"},
-      {{"convert", "box.stl", "a.obj", "--unit", "mm"}, "is for models"},
+      {{"convert", "box.stl", "a.obj", "--unit", "mm"}, "applies to models"},
       {{"report", "box.stl", "-o", "a.html", "--gate", "orthogonality:hard=3"}, "--gate has no effect"},
       {{"report", "box.stl", "-o", "a.html", "--cut", "x=0"}, "no cells to cut"},
       {{"draw", "box.stl", "-o", "a.png", "--places"}, "this file is a surface"},
       {{"draw", "box.stl", "-o", "a.png", "--cut", "x=0.5"}, "no cells to cut"},
       {{"inspect", "box.stl", "--set", "half.at=0.1"}, "is given without --half"},
       {{"inspect", "box.stl", "--max-edge", "0.1"}, "max-edge"},
-      {{"inspect", "box.stl", "--set", "surface_mesh.max_edge=0.1"}, "is for the faces of models"},
+      {{"inspect", "box.stl", "--set", "surface_mesh.max_edge=0.1"}, "applies to the faces of models"},
       {{"union", "box.stl", "-o", "u.stl", "--tolerance", "1e-3"}, "tolerance"},
   };
   for (const auto& [arguments, text] : cases) {

@@ -83,7 +83,7 @@ TEST_F(ModelGates, MistakesSayWhatToDo) {
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = half(wall) }"), HasSubstr("before half{ }"));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = wall, quality = false }"), HasSubstr("belong to quality"));
   std::filesystem::copy(box, folder_ / "box.stl");
-  EXPECT_THAT(sterna({"check", "can.su2", "--model", "box.stl"}).errors, HasSubstr("--model box.stl: it is no model"));
+  EXPECT_THAT(sterna({"check", "can.su2", "--model", "box.stl"}).errors, HasSubstr("--model box.stl: the file is not a model"));
 }
 
 TEST_F(ModelGates, OfARealWing) {

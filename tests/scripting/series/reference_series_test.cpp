@@ -108,7 +108,7 @@ TEST_F(ReferenceSeries, ADamagedReferenceFileIsAnErrorOfTheCasesThatNeedIt) {
   std::fstream(kept, std::ios::binary | std::ios::in | std::ios::out).seekp(5000).put('\x5a').put('\x5a');
   run(script, {"--threads", "2", "--series-case", "bend/2"});
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"),
-              AllOf(HasSubstr("\"failed\""), HasSubstr("reference.kept is damaged: its content does not have the hash"), HasSubstr("bend=0_alpha=0")));
+              AllOf(HasSubstr("\"failed\""), HasSubstr("reference.kept is damaged: its content does not match the stored hash"), HasSubstr("bend=0_alpha=0")));
   const test::ProcessResult healed =
       run(script, {"--threads", "2"});  // the reference no longer equals its record, so the reference and all cases that start from it are made again
   EXPECT_EQ(healed.status, 0) << healed.errors;
