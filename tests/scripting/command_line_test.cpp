@@ -235,7 +235,7 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   ASSERT_EQ(sterna({"run", "parts.lua", "-q"}).status, k_exit_success);
   ASSERT_EQ(sterna({"union", "a.step", "b.step", "-o", "c.step"}).status, k_exit_success);
   const ProcessResult info = sterna({"info", "c.step"});
-  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "seen from above 1.5 m^2", "no open edge"})
+  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "projected from above 1.5 m^2", "no open edge"})
     EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
   const ProcessResult smx = sterna({"info", "body.smx"});
   EXPECT_NE(smx.output.find("\"body\", body"), std::string::npos) << smx.output;

@@ -47,7 +47,7 @@ TEST_F(FlowScripts, wrong_flow_conditions_are_told_at_their_line) {
   EXPECT_THAT(error("y_plus{ mach = 0.5, lenght = 1 }"), AllOf(HasSubstr("needs the target y+"), HasSubstr("did you mean \"length\"?")));
   EXPECT_THAT(error("y_plus{ 1, speed = 1, altitude = 0, length = 1*mm }"), HasSubstr("Reynolds number"));
   EXPECT_THAT(error("y_plus{ 1, law = 'karman', reynolds = 1e6, length = 1 }"), HasSubstr("ittc57"));
-  EXPECT_THAT(error("local x = 2 * flow{ reynolds = 1e6, length = 1 }"), HasSubstr("flow conditions are no number"));
+  EXPECT_THAT(error("local x = 2 * flow{ reynolds = 1e6, length = 1 }"), HasSubstr("flow conditions are not a number"));
   EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', first_height = flow{ reynolds = 1e6, length = 1 } }"),
               HasSubstr("flow conditions is not allowed here"));
 }

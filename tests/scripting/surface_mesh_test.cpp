@@ -72,7 +72,7 @@ TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
   EXPECT_THAT(error("surface_mesh{ " + block + ", patches={ ['wing*']={ max_edge=1 } } }"),
               AllOf(HasSubstr("no face has a name like \"wing*\""), HasSubstr("block")));
   EXPECT_THAT(error("surface_mesh{}"), HasSubstr("needs a model"));
-  EXPECT_THAT(error("surface_mesh{ 'a.step' }"), HasSubstr("entry 1: expected a model (from read_cad, aircraft ...) or a component, not a text"));
+  EXPECT_THAT(error("surface_mesh{ 'a.step' }"), HasSubstr("entry 1: expected a model (from read_cad, aircraft ...) or a component, not a string"));
   EXPECT_THAT(error("surface_mesh{ surface_mesh{ " + block + " } }"), HasSubstr("which has triangles already: pass it to volume_mesh"));
   EXPECT_THAT(error("volume_mesh{ " + block + ", first_height=1e-3 }"), HasSubstr("expected a surface (from surface_mesh or read_surface), not a model"));
 }

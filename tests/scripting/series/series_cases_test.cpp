@@ -61,12 +61,12 @@ TEST(SeriesCases, HaveNamesThatAreSafeAndUnique) {
 }
 
 TEST(SeriesCases, RefuseWhatIsNone) {
-  EXPECT_EQ(error_of(R"({})"), "there is no case");
+  EXPECT_EQ(error_of(R"({})"), "there are no cases");
   EXPECT_EQ(error_of(R"({"alpha": []})"), "alpha: the list is empty");
-  EXPECT_EQ(error_of(R"([{"alpha": 1}, {"alpha": 1}])"), "cases 1 and 2 are both \"alpha=1\"");
+  EXPECT_EQ(error_of(R"([{"alpha": 1}, {"alpha": 1}])"), "cases 1 and 2 have the same name \"alpha=1\"");
   EXPECT_EQ(error_of(R"([{"alpha": 1}, 7])"), "expected tables of parameters, not a number");
-  EXPECT_EQ(error_of(R"({"index": [1]})"), "index: p.index is the number of the case");
-  EXPECT_EQ(error_of(R"([{"name": "a/b"}])"), "name: a case is called by letters, digits and . + - _ = (at most 100)");
+  EXPECT_EQ(error_of(R"({"index": [1]})"), "index: this name is reserved, p.index is the number of the case");
+  EXPECT_EQ(error_of(R"([{"name": "a/b"}])"), "name: names of cases have letters, digits and . + - _ = only (at most 100)");
 }
 
 TEST(SeriesCases, RangesMeetTheirEnd) {

@@ -107,7 +107,7 @@ TEST_F(CaseCommands, MonitorIsATextWhosePatternsAllMeanSomething) {
   const std::string mesh = "read_mesh(" + out("ball.sterna") + ")";
   const std::string flow = ", reynolds = 100, length = 1, ";
   EXPECT_THAT(error(mesh + ":foam_case{ " + out("no") + flow + "monitor = {'wing*', 'body'} }"),
-              AllOf(HasSubstr("monitor: a table is not allowed here, expected a text"), HasSubstr("write monitor = \"wing* body\"")));
+              AllOf(HasSubstr("monitor: a table is not allowed here, expected a string"), HasSubstr("write monitor = \"wing* body\"")));
   EXPECT_THAT(error(mesh + ":foam_case{ " + out("no") + flow + "monitor = 'wall wal' }"),
               AllOf(HasSubstr("monitor: no patch has a name like \"wal\""), HasSubstr("did you mean \"wall\"?")));
 }
