@@ -115,7 +115,7 @@ class FileSource final : public ByteSource {
   }
   std::uint64_t n_left() const override { return n_left_; }
   [[noreturn]] void refuse() const override {
-    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading a sealed file", .problem = "the content differs from the expected structure"});
+    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading a file of the cache", .problem = "the content differs from the expected structure"});
   }
 
  private:

@@ -525,7 +525,7 @@ int execute(const HalfCommand& command, const CommandContext& context) {
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "half " + command.input,
                  .problem = "the file is a model, not a triangulation",
-                 .hint = "`sterna mesh " + command.input + " --half ...` meshes a half of it; in a script half(read_cad \"...\"); or `sterna surface` first"});
+                 .hint = "`sterna mesh " + command.input + " --half ...` meshes half of it; in a script half(read_cad \"...\"); or `sterna surface` first"});
   require_surface_output(command.output);
   HalfOptions options;
   surfmesh::StitchOptions reading;

@@ -164,7 +164,7 @@ ScriptValue print_help(const ScriptCall& call) {
   else if (const auto* table = std::get_if<TableHandle>(&about);
            table && (*table)->fields.contains("shape") && std::holds_alternative<std::string>((*table)->fields.at("shape")))
     call.session.print(help_on_name(std::get<std::string>((*table)->fields.at("shape")), call.attempted()));
-  else reject(call, "there is no help on " + std::string(type_text(about)), "help() lists the verbs; a misspelt name has the value nil");
+  else reject(call, "there is no help for " + std::string(type_text(about)), "help() lists the verbs; a misspelt name has the value nil");
   return std::monostate{};
 }
 

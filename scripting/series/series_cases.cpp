@@ -78,7 +78,7 @@ std::vector<Axis> axes_of(const ScriptTable& over) {
     for (const ScriptValue& item : over.items) {
       const auto* table = std::get_if<TableHandle>(&item);
       if (!table || !is_list(**table))
-        refuse("lists of cases and single cases are mixed", "over = { zip{ ... }, beta = {0, 5} }  or  over = { {alpha = 0}, {alpha = 4} }");
+        refuse("lists of cases and single cases cannot be mixed", "over = { zip{ ... }, beta = {0, 5} }  or  over = { {alpha = 0}, {alpha = 4} }");
       axes.push_back(axis_of_list(**table));
     }
   } else if (!over.items.empty()) {

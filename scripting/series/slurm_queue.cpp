@@ -85,7 +85,7 @@ std::set<std::size_t> jobs_in_queue(const std::string& array, const RunContext& 
     throw Error({.code = ErrorCode::internal,
                  .attempted = "querying the queue for job " + array,
                  .problem = "squeue ends with status " + std::to_string(result.status) + ": " + result.errors,
-                 .hint = "the jobs go on: run the script again once squeue --jobs=" + array + " works"});
+                 .hint = "the jobs continue: run the script again when squeue --jobs=" + array + " works"});
   }
   std::istringstream lines(result.output);
   for (std::string id, state; lines >> id >> state;)

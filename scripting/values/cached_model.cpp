@@ -41,7 +41,7 @@ class MemorySource final : public ByteSource {
   }
   std::uint64_t n_left() const override { return bytes_.size() - at_; }
   [[noreturn]] void refuse() const override {
-    throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "what was written cannot be read"});
+    throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "the stored model cannot be read"});
   }
 
  private:

@@ -122,7 +122,7 @@ ActuatorDisc disc_of_text(const std::string& text) {
   if (!(words >> name) || name.find('=') != std::string::npos)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
-                 .problem = "the first word must be its name",
+                 .problem = "the first word must be the name of the disc",
                  .hint = "such as \"prop center=0,0,0 radius=1.2\""});
   table.fields["name"] = name;
   for (std::string word; words >> word;) {

@@ -148,7 +148,7 @@ std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& foreca
   finding.text =
       fmt::format("the sizes require about {} triangles on the surface; face \"{}\" needs {:.0f} % of them, with edges down to {:.3g} m, because of {}",
                   count_text_of(forecast.n_triangles), most.name, k_percent * most.n_triangles / forecast.n_triangles, most.least_edge, most.rule);
-  finding.advice = most.advice + " (--set surface_mesh.min_edge=LENGTH and so on, or for this face alone --patch \"" + most.name + ":...\")";
+  finding.advice = most.advice + " (--set surface_mesh.min_edge=LENGTH and so on, or for this face only --patch \"" + most.name + ":...\")";
   for (std::size_t i = 0; i < std::min(forecast.largest.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
     const surfmesh::FaceForecast& face = forecast.largest[i];
     finding.places.push_back({face.place, face.name, face.n_triangles,
@@ -173,7 +173,7 @@ void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspecti
   Finding finding{.kind = FindingKind::many_triangles, .severity = Severity::warn, .count = 1, .value = forecast.n_triangles, .limit = k_many_triangles};
   finding.text = fmt::format("remesh would make about {} triangles; patch \"{}\" needs {:.0f} % of them, with edges down to {:.3g} m, because of {}",
                              count_text_of(forecast.n_triangles), forecast.patch, k_percent * forecast.of_patch / forecast.n_triangles, forecast.least_edge,
-                             forecast.is_by_longest ? "max_edge" : "curvature or narrow places");
+                             forecast.is_by_longest ? "max_edge" : "curvature or narrow regions");
   finding.advice = forecast.is_by_longest ? "a larger max_edge of remesh" : "a larger curvature_angle or min_edge of remesh";
   if (request.limits.max_places > 0) finding.places.push_back({forecast.place, forecast.patch, forecast.least_edge, "the shortest edges"});
   replace_finding(report, std::move(finding));

@@ -185,7 +185,7 @@ std::string quoted_list(const std::set<std::string>& names) {
 std::string why_kinds_are_unknown(const InputPath& file) {
   const std::optional<Json> json = read_json(manifest_path(file.path));
   const std::string manifest = manifest_path(file.name).string();
-  return file.name + " holds the names of these patches and not their kinds, and " +
+  return file.name + " has the names of these patches, but not their kinds, and " +
          (json && is_ours(*json) ? "its manifest " + manifest + " is of another version of the file" : "there is no manifest " + manifest + " with kinds");
 }
 

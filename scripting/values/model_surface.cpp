@@ -190,8 +190,8 @@ void doubt_size(const Model& model, const RunContext& context) {
   const double size = box_of(model).longest_side();
   if (size <= 0.0 || (size >= k_smallest && size <= k_largest)) return;
   context.info(
-      fmt::format("hint: the model is {:.4g} m long. Lengths are in metres: write 1200*mm in scripts for millimetres, and for CAD files give the unit "
-                  "of their numbers (unit = mm, --unit mm)",
+      fmt::format("hint: the model is {:.4g} m long. Lengths are in metres: write 1200*mm in scripts for millimetres, and for CAD files give the unit of the "
+                  "file (unit = mm, --unit mm)",
                   size));
 }
 

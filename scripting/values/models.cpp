@@ -82,7 +82,7 @@ ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSet
   result.parts.clear();
   result.provenance = KeyMaker("deflect").add(*result.description).key();
   for (const Deflection& d : result.description->deflections)
-    if (d.angle != 0.0) context.debug(fmt::format("{} turned by {:.4g} deg", d.surface.name, d.angle / k_degree));
+    if (d.angle != 0.0) context.debug(fmt::format("{} deflected by {:.4g} deg", d.surface.name, d.angle / k_degree));
   return result;
 }
 
@@ -96,7 +96,7 @@ void refuse_cad_options(const InputPath& file, ReadCadOptions options) {
     if (number && is_automatic(*number) ? is_automatic(std::get<double>(option.default_value)) : value == option.default_value) continue;
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading " + file.name,
-                 .problem = "option read_cad." + std::string(option.name) + " has no effect: the file holds components as data, in metres",
+                 .problem = "option read_cad." + std::string(option.name) + " has no effect: the file defines components as data, in metres",
                  .hint = "leave it out; it applies to STEP, IGES and BREP"});
   }
 }

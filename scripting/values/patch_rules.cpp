@@ -140,7 +140,7 @@ void read_rules_json(const std::string& text, std::string_view attempted, const 
   const Json list = Json::parse(text, nullptr, false);
   const auto refuse = [&] {
     throw Error(
-        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "found no list of rules with the names of patches and options"});
+        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "expected a list of rules with names of patches and options"});
   };
   if (!list.is_array()) refuse();
   for (const Json& entry : list) {

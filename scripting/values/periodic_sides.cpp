@@ -72,7 +72,9 @@ std::string periodic_json(const std::vector<PeriodicNames>& pairs) {
 }
 
 std::vector<PeriodicNames> periodic_of_json(const std::string& text) {
-  const auto fail = [] { throw Error({.code = ErrorCode::bad_argument, .attempted = "reading periodic sides", .problem = "found no list of pairs of names"}); };
+  const auto fail = [] {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading periodic sides", .problem = "expected a list of pairs of names"});
+  };
   const PlainJson list = PlainJson::parse(text, nullptr, false);
   if (!list.is_array()) fail();
   std::vector<PeriodicNames> pairs;

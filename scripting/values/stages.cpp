@@ -574,7 +574,7 @@ void require_stage_output(const std::filesystem::path& path) {
   if (path.extension() != ".sterna")
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "writing " + path.string(),
-                 .problem = "steps of a run are written to .sterna files only, not to \"" + path.extension().string() + "\""});
+                 .problem = "steps of a run can be written to .sterna files only, not to \"" + path.extension().string() + "\""});
   require_mesh_output(path);
 }
 

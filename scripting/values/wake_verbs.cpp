@@ -85,7 +85,7 @@ WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
   reader.field("shape");
   refuse_items_beyond(reader, 0);
   if (const auto direction = read_point(reader, "direction")) wake.direction = *direction;
-  if (wake.direction && !(norm2(*wake.direction) > 0.0)) reader.add_problem("direction: has no length");
+  if (wake.direction && !(norm2(*wake.direction) > 0.0)) reader.add_problem("direction: the vector has zero length");
   reader.read_options(options);
   const bool has_angles = !is_automatic(numbers.alpha) || !is_automatic(numbers.beta);
   if (has_angles && wake.direction) reader.add_problem("direction and alpha, beta exclude each other: give either");

@@ -87,8 +87,8 @@ struct Schema<scripting::FrameOptions> {
   static constexpr std::string_view stage = "frame";
   static constexpr std::array fields = {
       Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "x of the frame's plane", .required = true},
-      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of its middle"},
-      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of its middle"},
+      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "coordinate of the frame's centre"},
+      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "coordinate of the frame's centre"},
       Field<O>{.name = "diameter",
                .member = &O::diameter,
                .unit = Unit::metre,
@@ -248,7 +248,7 @@ ScriptValue make_fuselage_verb(const ScriptCall& call) {
       if (auto frame = frame_of((*list)->items[i], "frame " + std::to_string(i + 1), t.reader)) body.frames.push_back(std::move(*frame));
   for (std::size_t i = 1; i < body.frames.size(); ++i)
     if (!(body.frames[i].center.x > body.frames[i - 1].center.x))
-      t.reader.add_problem("frames: '" + body.frames[i].name + "' does not stand behind '" + body.frames[i - 1].name + "'; x must ascend");
+      t.reader.add_problem("frames: '" + body.frames[i].name + "' is not behind '" + body.frames[i - 1].name + "'; x must increase");
   t.reader.finish();
   body.placement.rotation.y = o.pitch;
   body.tangents = o.along == "monotone" ? BodyTangents::monotone

@@ -38,7 +38,7 @@ void write_bytes(const std::string& png, const DrawOptions& options, const std::
 CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw) {
   CLI::App* command =
       app.add_subcommand("draw", "draw a surface or volume mesh as a PNG picture: walls, cells along a plane, colours by quality; needs no display");
-  command->add_option("mesh", draw.input, "surface or mesh file. `sterna formats` lists what is read")->required();
+  command->add_option("mesh", draw.input, "surface or mesh file. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", draw.output, "picture.png")->required();
   DrawOptions options;
   add_schema_options(*command, sterna::options_of(options), draw.options);

@@ -217,7 +217,7 @@ constexpr std::array<ScriptVerb, 7> k_envelope_steps_verbs = {{
     {"envelope.initial", k_initial_usage, "Computes growth directions and target heights: the second step of make_envelope.", make_initial,
      help_of_names<k_initial_names>, true, "envelope"},
     {k_steps[0].verb, k_steps[0].usage, "Smooths heights and growth directions.", run_step, help_of_step<0>, true, "envelope"},
-    {k_steps[1].verb, k_steps[1].usage, "Lowers heights where growth lines would meet.", run_step, help_of_step<1>, true, "envelope"},
+    {k_steps[1].verb, k_steps[1].usage, "Lowers heights where growth lines would intersect.", run_step, help_of_step<1>, true, "envelope"},
     {k_steps[2].verb, k_steps[2].usage,
      "Lowers heights until every macro-element is valid, smooths the envelope, then raises heights again as far as all elements stay valid.", run_step,
      help_of_step<2>, true, "envelope"},

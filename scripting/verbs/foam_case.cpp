@@ -51,7 +51,7 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
 /// custom of OpenFOAM's users. That the least limiter keeps runs from diverging was measured on one airliner at 89 degrees (docs/flow.md).
 void choose_correction(FoamSetup& setup, const CaseMeasure& non_orthogonality) {
   const double degrees = non_orthogonality.worst * k_degrees;
-  const std::string measured = fmt::format("The largest angle between the normal of a face and the line of its cells' centres is {:.4g} degrees{}", degrees,
+  const std::string measured = fmt::format("The largest angle between a face normal and the line through the centres of its cells is {:.4g} degrees{}", degrees,
                                            at_place(non_orthogonality));
   if (degrees <= k_full_correction) {
     setup.correction_reason = fmt::format("{}: up to {:g} the full correction is applied.", measured, k_full_correction);

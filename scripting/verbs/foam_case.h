@@ -83,7 +83,7 @@ struct Schema<scripting::FoamOptions> {
                .min = 1e-6,
                .max = 1e5,
                .help = "ratio of turbulent to molecular viscosity in the free stream",
-               .automatic = "0.21 with SpalartAllmaras, which is nuTilda 3 nu; 1 with kOmegaSST"},
+               .automatic = "0.21 with SpalartAllmaras, so nuTilda is 3 nu; 1 with kOmegaSST"},
       Field<O>{.name = "residual",
                .member = &O::residual,
                .min = 1e-14,

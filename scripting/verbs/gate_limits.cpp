@@ -39,7 +39,7 @@ std::string unknown_measure(const std::string& name) {
     if (info.gate == name) of_gate += (of_gate.empty() ? "" : ", ") + std::string(info.name);
   if (!of_gate.empty()) return "gates." + name + ": " + name + " has several measures; name one of " + of_gate;
   const std::string nearest = nearest_name(name, measure_names());
-  return "gates." + name + ": there is no such measure" + (nearest.empty() ? "; docs/quality_gates.md lists them" : ", did you mean " + nearest + "?");
+  return "gates." + name + ": unknown measure" + (nearest.empty() ? "; docs/quality_gates.md lists them" : ", did you mean " + nearest + "?");
 }
 
 const MeasureInfo* measure_of(const std::string& name) {
@@ -63,7 +63,7 @@ std::string objection_to(const MeasureInfo& info, const GateLimits& limits) {
   if (!(limits.usual_share >= 0.0 && limits.usual_share <= 1.0)) return "share is " + number_text(limits.usual_share) + ", it must be between 0 and 1";
   const double hard = info.is_low_bad ? -limits.hard : limits.hard, target = info.is_low_bad ? -limits.target : limits.target;
   if (target > hard)
-    return "target " + limit_text(info, limits.target) + " is easier than hard " + limit_text(info, limits.hard) + "; for this measure " +
+    return "target " + limit_text(info, limits.target) + " is less strict than hard " + limit_text(info, limits.hard) + "; for this measure " +
            (info.is_low_bad ? "larger" : "smaller") + " values are better: give both limits (a limit that is not given keeps its default)";
   return {};
 }

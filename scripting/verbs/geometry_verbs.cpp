@@ -142,7 +142,7 @@ ScriptValue read_description(const ScriptCall& call) {
   std::vector<ControlSetting> settings;
   if (const ScriptValue* value = reader.field("deflections")) {
     if (const auto* angles = std::get_if<TableHandle>(value)) settings = read_control_settings(**angles, "deflections", reader);
-    else reader.add_problem("deflections: expected a table of angles by names of control surfaces, not " + std::string(type_text(*value)));
+    else reader.add_problem("deflections: expected a table with names of control surfaces as keys and angles as values, not " + std::string(type_text(*value)));
   }
   if (file) check_deflections(call, *file, settings, reader);
   reader.finish();

@@ -119,7 +119,7 @@ Given read_given(const ScriptCall& call, TableReader& reader) {
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (const auto* name = std::get_if<std::string>(&items[i])) given.files.push_back(find_input(call, *name));
-    else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface, or names of files, not " + std::string(type_text(items[i])));
+    else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface or names of files, not " + std::string(type_text(items[i])));
   }
   if (items.empty()) reader.add_problem("needs a surface or the name of a file: " + std::string(k_inspect_usage));
   return given;

@@ -316,7 +316,9 @@ SizeSource source_of_text(const std::string& text) {
     else throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected one number, or three for a direction"});
   }
   if (numbers.size() % 3 != 0)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "coordinates come in threes, not " + std::to_string(numbers.size())});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "the number of coordinates must be a multiple of three, not " + std::to_string(numbers.size())});
   for (std::size_t i = 0; i < numbers.size(); i += 3) table.items.push_back(point_at(numbers[i], numbers[i + 1], numbers[i + 2]));
   return source_of(table, *kind, attempted);
 }

@@ -98,7 +98,7 @@ SurfaceValue side_by_side(std::span<const SurfaceHandle> surfaces, const RunCont
   const Topology topology(all.mesh, context);
   all.report.n_components = static_cast<std::int64_t>(connected_components(all.mesh, topology).count);
   all.report.is_closed = topology.n_boundary_halfedges() == 0;
-  context.info("side by side: " + describe(all));
+  context.info("joined surfaces: " + describe(all));
   return all;
 }
 

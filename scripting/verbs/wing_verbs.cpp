@@ -219,7 +219,7 @@ void SectionList::place(GivenSection& s, const WingSectionOptions& o, const std:
     s.leading.z = before.z + o.span * std::sin(o.dihedral);
   } else {
     s.leading.y = or_else(o.y, before.y);
-    if (is_automatic(o.z) && std::abs(o.dihedral) > k_steep) reader_.add_problem(where + ": a panel this steep needs z, or span in place of y");
+    if (is_automatic(o.z) && std::abs(o.dihedral) > k_steep) reader_.add_problem(where + ": a panel this steep needs z, or span instead of y");
     s.leading.z = or_else(o.z, before.z + std::abs(s.leading.y - before.y) * std::tan(std::clamp(o.dihedral, -k_steep, k_steep)));
   }
   const double step = std::hypot(s.leading.y - before.y, s.leading.z - before.z);

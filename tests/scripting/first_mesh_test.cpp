@@ -185,7 +185,8 @@ TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
   expect_told(env + "prisms{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
   expect_told(env + "prisms{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
   expect_told(env + "prisms{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }", "env.sterna");
-  expect_told(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }", "these tetrahedra are around another envelope");
+  expect_told(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }",
+              "these tetrahedra were made around another envelope");
   expect_told(env + "tetrahedra{ env }:write 'tets.vtu'", "written to .sterna files only");
   expect_told(env + "print(env.hight)", "there is no \"hight\"");
   expect_told("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, stages = 'a.su2' }", "written to .sterna files only");

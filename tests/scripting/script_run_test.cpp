@@ -145,7 +145,7 @@ TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
   EXPECT_EQ(run_text("local w = wake_sheet{ wing = 'main*', length = 1.5 } print(w.wing, w.length)"), "main*\t1.5\n");
   const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
   EXPECT_THAT(message("wake_sheet{ wings = 'main' }"), testing::HasSubstr("did you mean"));
-  EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("has no length"));
+  EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("zero length"));
   EXPECT_THAT(message("wake_sheet{ direction = {1, 0, 0}, alpha = 2*deg }"), testing::HasSubstr("direction and alpha, beta exclude each other"));
   // The half of a fin in the plane of symmetry has no sheet, and the model consists of nothing else.
   EXPECT_THAT(

@@ -40,7 +40,7 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"),
               AllOf(HasSubstr("not \"slippery\""), HasSubstr("layer")));
   EXPECT_THAT(error("test_section{ length = 4, diameter = 2, floor = 'slip' }"), HasSubstr("a round section has one wall"));
-  EXPECT_THAT(error("test_section{ box{ {0,0,0}, {1,1,1} }, inflow = 'nosuch' }"), HasSubstr("inflow: expected the name of faces of the model"));
+  EXPECT_THAT(error("test_section{ box{ {0,0,0}, {1,1,1} }, inflow = 'nosuch' }"), HasSubstr("inflow: no face has a matching name"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, patches = { wing = { max_edge = 1 } } }"),
               HasSubstr("no face of the tunnel has a name like \"wing\""));
 }

@@ -75,8 +75,8 @@ TEST(SeriesCases, RangesMeetTheirEnd) {
   EXPECT_EQ(range(std::int64_t{1}, std::int64_t{3}, {}), "[1,2,3]");
   EXPECT_EQ(range(std::int64_t{4}, std::int64_t{0}, std::int64_t{-2}), "[4,2,0]");
   EXPECT_EQ(std::get<std::shared_ptr<const ScriptTable>>(range_of(0.0, 1.0, 0.1))->items.size(), 11u);
-  test::expect_error(ErrorCode::bad_argument, "from 0 to 1 in steps of -0.1 there is no value", [&] { (void)range_of(0.0, 1.0, -0.1); });
-  test::expect_error(ErrorCode::bad_argument, "in steps of 0 there is no value", [&] { (void)range_of(0.0, 1.0, 0.0); });
+  test::expect_error(ErrorCode::bad_argument, "from 0 to 1 in steps of -0.1 there are no values", [&] { (void)range_of(0.0, 1.0, -0.1); });
+  test::expect_error(ErrorCode::bad_argument, "in steps of 0 there are no values", [&] { (void)range_of(0.0, 1.0, 0.0); });
   test::expect_error(ErrorCode::bad_argument, "last value: expected a finite number, not inf",
                      [&] { (void)range_of(0.0, std::numeric_limits<double>::infinity(), 1.0); });
 }

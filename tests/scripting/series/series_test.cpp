@@ -349,7 +349,7 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
   EXPECT_THAT(result.errors, HasSubstr("cache: expected true, false or the name of a folder, not a number"));
   EXPECT_THAT(run("series{ 'a', over = { x = {1, 2} }, reference = { x = 3 }, case = function() end }").errors,
               HasSubstr("reference: no case has these parameters: {\"x\":3}"));
-  EXPECT_THAT(run("series{ 'a/b', over = { x = {1} }, case = function() end }").errors, HasSubstr("\"a/b\" cannot be its name"));
+  EXPECT_THAT(run("series{ 'a/b', over = { x = {1} }, case = function() end }").errors, HasSubstr("\"a/b\" is not a valid name"));
   EXPECT_THAT(run("local o = { 'a', over = { x = {1} }, case = function() end } series(o) series(o)").errors, HasSubstr("there is a series \"a\" already"));
   EXPECT_THAT(run("series{ 'a', over = { x = {1} }, case = function() series{ 'b', over = { x = {1} }, case = function() end } end }").errors,
               HasSubstr("a case cannot contain another series"));
