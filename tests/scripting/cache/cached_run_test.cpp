@@ -193,7 +193,7 @@ TEST_F(CachedRun, WhatOpenCascadeNeedsOfAKeptModelIsMadeWhenItIsAskedFor) {
   for (const char* name : {"bar", "rod"}) {
     const Files without = run(text(name), false);
     expect_same(run(text(name), true), without, name);
-    EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("read_cad: once more")));
+    EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("read_cad: runs again")));
     expect_same(run(text(name), true), without, std::string(name) + ", warm");
     EXPECT_THAT(log_, HasSubstr("union of "));
   }

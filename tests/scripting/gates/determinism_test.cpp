@@ -97,7 +97,7 @@ TEST_F(Determinism, ComparisonsFindTheFirstByteAndMissingFiles) {
   const std::string printed = to_text(report);
   EXPECT_THAT(printed, AllOf(HasSubstr("G22 determinism: FAIL, 4 of 5 files differ between 1 and 7 threads"), HasSubstr("first difference at byte 150 003"),
                              HasSubstr("not compared, because they contain times: page.html"), HasSubstr("first difference at byte 3\n"),
-                             HasSubstr("more.txt: 1 thread wrote none"), HasSubstr("      7 threads wrote none")));
+                             HasSubstr("more.txt: 1 thread did not write this file"), HasSubstr("      7 threads did not write this file")));
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["state"], "fail");
   EXPECT_EQ(json["files"][4]["file"], "sub/other.bin");
