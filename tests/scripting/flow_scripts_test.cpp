@@ -483,7 +483,7 @@ TEST(PentagrowConfig, mistakes_are_told_by_line_and_all_at_once) {
   EXPECT_THAT(message("NLayers = 20\n\nInitialHieght = 1e-5\n"), HasSubstr("a.cfg:3: unknown key \"InitialHieght\", did you mean \"InitialHeight\"?"));
   EXPECT_THAT(message("nlayers = 20\n"), HasSubstr("did you mean \"NLayers\"?"));
   EXPECT_THAT(message("NLayers = many\nSymmetry = maybe\nFarfieldCenter = 1 2\nnonsense\n"),
-              AllOf(HasSubstr("4 problems"), HasSubstr("a.cfg:1: NLayers: \"many\" is no number"), HasSubstr("a.cfg:2: Symmetry = maybe: expected y, yes"),
+              AllOf(HasSubstr("4 problems"), HasSubstr("a.cfg:1: NLayers: \"many\" is not a number"), HasSubstr("a.cfg:2: Symmetry = maybe: expected y, yes"),
                     HasSubstr("a.cfg:3: FarfieldCenter: found 2 numbers, expected 3"), HasSubstr("a.cfg:4: \"nonsense\" is not Key = value")));
   EXPECT_THAT(message("Pass = first\n"), HasSubstr("--stages"));
   EXPECT_THAT(message("OutputFormat = zml\n"), HasSubstr("use cgns, su2, bmsh or tau"));
