@@ -84,7 +84,7 @@ void refuse_on_triangulations(const SurfaceCommand& command) {
   if (names.empty()) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "surface",
-               .problem = "no effect on a triangulation, which " + *input + " is: " + names,
+               .problem = "no effect, because " + *input + " is a triangulation: " + names,
                .hint = "`sterna remesh " + *input + " ...` makes new triangles with these sizes"});
 }
 

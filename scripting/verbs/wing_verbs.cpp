@@ -89,9 +89,14 @@ struct Schema<scripting::WingSectionOptions> {
   using O = scripting::WingSectionOptions;
   static constexpr std::string_view stage = "section";
   static constexpr std::array fields = {
-      Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "x of the leading edge, relative to the wing's position", .automatic = "from sweep"},
-      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of the leading edge", .automatic = "y of the previous section, or from span"},
-      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of the leading edge", .automatic = "from dihedral"},
+      Field<O>{.name = "x",
+               .member = &O::x,
+               .unit = Unit::metre,
+               .help = "x coordinate of the leading edge, relative to the wing's position",
+               .automatic = "from sweep"},
+      Field<O>{
+          .name = "y", .member = &O::y, .unit = Unit::metre, .help = "coordinate of the leading edge", .automatic = "y of the previous section, or from span"},
+      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "coordinate of the leading edge", .automatic = "from dihedral"},
       Field<O>{.name = "span",
                .member = &O::span,
                .unit = Unit::metre,
@@ -122,7 +127,7 @@ struct Schema<scripting::WingSectionOptions> {
                .unit = Unit::radian,
                .help = "rotation of the section about x: 90 deg for an upright fin",
                .automatic = "the mean of the adjacent panels; 0 at the root of a symmetric wing"},
-      Field<O>{.name = "is_break", .member = &O::is_break, .help = "the wing has a kink here, if spanwise = \"cubic\""},
+      Field<O>{.name = "is_break", .member = &O::is_break, .help = "make a kink at this section, for spanwise = \"cubic\""},
       Field<O>{.name = "is_reversed", .member = &O::is_reversed, .help = "the airfoil is upside down"},
   };
 };

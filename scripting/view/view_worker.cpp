@@ -318,7 +318,7 @@ class Worker {
     const auto id = job.value("id", std::size_t{0});
     const auto ask = job.value("ask", 0);
     if (job.value("run", -1) != number_ || id >= objects_.size())
-      return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", ask}, {"text", "the run that made it has ended"}});
+      return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", ask}, {"text", "the run of this object has ended"}});
     if (what == "scene") return send_scene(id, false);
     try {
       const ScriptValue& value = objects_[id].value;
